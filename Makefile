@@ -1,0 +1,34 @@
+# A fresh machine needs Python 3.11 or newer and make; each target below starts from a bare clone.
+.PHONY: help setup demo test check clean
+.DEFAULT_GOAL := help
+
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/.ready
+
+help:
+	@echo "make demo    set up, then a whole mission on the built-in orchard (results in out/)"
+	@echo "make test    set up, then every test"
+	@echo "make check   set up, then lint, types, import rules"
+	@echo "make setup   the environment alone, in .venv"
+
+setup: $(READY)
+
+$(READY): pyproject.toml constraints.txt scripts/setup.sh
+	@sh scripts/setup.sh $(VENV)
+	@touch $(READY)
+
+demo: $(READY)
+	@$(BIN)/fieldhand demo
+
+test: $(READY)
+	@$(BIN)/python -m pytest -n auto
+
+check: $(READY)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+clean:
+	rm -rf $(VENV) out .mypy_cache .ruff_cache .pytest_cache .hypothesis
