@@ -1,0 +1,51 @@
+"""Time as an argument: the clock that a mission runs on."""
+
+from __future__ import annotations
+
+import time
+from typing import Protocol
+
+
+class Clock(Protocol):
+    """Seconds since the mission began, and a way to let time pass."""
+
+    def now(self) -> float:
+        """Seconds since the clock was made."""
+        ...
+
+    def advance(self, seconds: float) -> None:
+        """Let ``seconds`` (0 or more) pass."""
+        ...
+
+
+class SimulatedClock:
+    """A clock that jumps: time passes as fast as the program runs."""
+
+    def __init__(self) -> None:
+        self._now = 0.0
+
+    def now(self) -> float:
+        return self._now
+
+    def advance(self, seconds: float) -> None:
+        self._now += max(0.0, seconds)
+
+
+class ScaledClock:
+    """A clock on which ``speed`` seconds pass in one second of the wall clock.
+
+    Args:
+        speed: 1 is real time. Must be above 0.
+    """
+
+    def __init__(self, speed: float = 1.0) -> None:
+        if not speed > 0:
+            raise ValueError(f"speed must be above 0, not {speed}")
+        self._speed = speed
+        self._start = time.monotonic()
+
+    def now(self) -> float:
+        return (time.monotonic() - self._start) * self._speed
+
+    def advance(self, seconds: float) -> None:
+        time.sleep(max(0.0, seconds) / self._speed)

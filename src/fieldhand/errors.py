@@ -1,0 +1,115 @@
+"""Every failure that Fieldhand raises, as one tree.
+
+    FieldhandError                  exit status 1: the mission or a check failed
+    ├── InputError                  exit status 2: what was given cannot be used
+    │   ├── RequestError            the words of the request
+    │   ├── SiteError               the site file
+    │   ├── ProfileError            the robot profile
+    │   ├── TaskError               a Task document: its XML, its schema, its meaning
+    │   ├── WorldError              the world file of a simulation
+    │   ├── PlaceError              a selector that this site cannot resolve
+    │   ├── OutputError             a place to write to that cannot be written
+    │   └── ModelError              the language model: key, endpoint, answer
+    ├── NotApprovedError            a check failed or the operator said no
+    └── ExecutionError              the robot
+        ├── DriveFault              a leg that cannot be driven
+        └── ActionFault             an action or a sensor that failed
+
+A message says what is wrong, where, and what to do. ``exit_status`` is what a command line returns for it.
+"""
+
+from __future__ import annotations
+
+__all__ = [
+    "ActionFault",
+    "DriveFault",
+    "ExecutionError",
+    "FieldhandError",
+    "InputError",
+    "ModelError",
+    "NotApprovedError",
+    "OutputError",
+    "PlaceError",
+    "ProfileError",
+    "RequestError",
+    "SiteError",
+    "TaskError",
+    "WorldError",
+]
+
+
+class FieldhandError(Exception):
+    """Something that the user has to know, with where it is and what to do about it.
+
+    Args:
+        what: What is wrong, in words, without a full stop.
+        where: File, line, element, tree or node; empty if there is no such place.
+        advice: What to do; empty if nothing can be done.
+    """
+
+    exit_status = 1
+
+    def __init__(self, what: str, *, where: str = "", advice: str = "") -> None:
+        self.what = what
+        self.where = where
+        self.advice = advice
+        super().__init__(str(self))
+
+    def __str__(self) -> str:
+        at = f"{self.where}: " if self.where else ""
+        todo = f"; {self.advice}" if self.advice else ""
+        return f"{at}{self.what}{todo}"
+
+
+class InputError(FieldhandError):
+    """What was given cannot be used."""
+
+    exit_status = 2
+
+
+class RequestError(InputError):
+    """The request is empty, too long, or nothing in it was understood."""
+
+
+class SiteError(InputError):
+    """The site file cannot be used."""
+
+
+class ProfileError(InputError):
+    """The robot profile cannot be used."""
+
+
+class TaskError(InputError):
+    """A Task document is not well-formed, not valid against the robot's schema, or contradicts itself."""
+
+
+class WorldError(InputError):
+    """The world file of a simulation cannot be used."""
+
+
+class PlaceError(InputError):
+    """A selector finds nothing on this site, or names what the site does not have."""
+
+
+class OutputError(InputError):
+    """A file or folder cannot be written."""
+
+
+class ModelError(InputError):
+    """The language model could not be reached, or did not give an answer that can be used."""
+
+
+class NotApprovedError(FieldhandError):
+    """A check failed, or the operator did not approve."""
+
+
+class ExecutionError(FieldhandError):
+    """The robot could not do what the Task asks."""
+
+
+class DriveFault(ExecutionError):
+    """A leg cannot be driven."""
+
+
+class ActionFault(ExecutionError):
+    """An action or a sensor failed."""

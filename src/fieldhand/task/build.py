@@ -1,0 +1,151 @@
+"""From a bare plan to a whole Task: stable ids, goals, state variables.
+
+What can be derived from the plan is derived here and nowhere else, so that no planner can get it wrong.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import replace
+
+from fieldhand.task.frames import (
+    Command,
+    Composition,
+    Constraints,
+    FaultedExit,
+    Goal,
+    Resource,
+    Task,
+    Then,
+    Variable,
+)
+from fieldhand.task.plan import Act, AnyOrder, ForEach, If, Node, Repeat, Sequence, Try, walk
+from fieldhand.task.selectors import is_single
+
+#: What every mission does about faults unless its Task says otherwise.
+FAULTED_EXITS = (
+    FaultedExit(fault="action_failed", then="return_to_start"),
+    FaultedExit(fault="drive_failed", then="stay"),
+    FaultedExit(fault="low_budget", then="return_to_end"),
+    FaultedExit(fault="aborted", then="stay"),
+)
+
+
+def make_task(
+    *,
+    request: str,
+    plan: Node,
+    measures: Mapping[str, tuple[tuple[str, str], ...]],
+    resources: tuple[Resource, ...] = (),
+    constraints: Constraints | None = None,
+    nominal: Then = "return_to_end",
+    faulted: tuple[FaultedExit, ...] = FAULTED_EXITS,
+    assumptions: tuple[str, ...] = (),
+) -> Task:
+    """A Task whose ids, goals and variables follow from its plan.
+
+    Args:
+        request: The request, word for word.
+        plan: The plan; ids that it holds are replaced by ``n1``, ``n2``, ... in the order in which the nodes stand.
+        measures: For each action of the robot, the quantities that it measures as (name, unit).
+        resources: The site and the robot that it is for.
+        constraints: Budgets and reserve; none by default.
+        nominal: Where the robot goes when the plan is done.
+        faulted: What to do about each fault.
+        assumptions: What was assumed in reading the request, as sentences.
+
+    Returns:
+        The same Task for the same arguments: its id is a hash of request, plan and resources.
+    """
+    numbered = number(plan)
+    digest = hashlib.sha256(repr((request, numbered, resources, constraints, nominal)).encode()).hexdigest()
+    return Task(
+        id=f"task-{digest[:12]}",
+        command=Command(
+            request=request, goals=goals(numbered), variables=variables(numbered, measures), assumptions=assumptions
+        ),
+        composition=Composition(plan=numbered, nominal=nominal, faulted=faulted),
+        constraints=constraints or Constraints(),
+        resources=resources,
+    )
+
+
+def number(plan: Node) -> Node:
+    """The plan with ids ``n1``, ``n2``, ... in the order in which the nodes stand, outermost first."""
+    return _number(plan, 1)[0]
+
+
+def _number(node: Node, first: int) -> tuple[Node, int]:
+    name, following = f"n{first}", first + 1
+
+    def child(inner: Node) -> Node:
+        nonlocal following
+        numbered, following = _number(inner, following)
+        return numbered
+
+    match node:
+        case Sequence() | AnyOrder():
+            return replace(node, id=name, steps=tuple([child(s) for s in node.steps])), following
+        case ForEach() | Repeat():
+            return replace(node, id=name, body=child(node.body)), following
+        case If():
+            then = child(node.then)
+            otherwise = None if node.otherwise is None else child(node.otherwise)
+            return replace(node, id=name, then=then, otherwise=otherwise), following
+        case Try():
+            body = child(node.body)
+            return replace(node, id=name, body=body, otherwise=child(node.otherwise)), following
+        case _:
+            return replace(node, id=name), following
+
+
+def goals(plan: Node) -> tuple[Goal, ...]:
+    """One goal for every action of the plan, in the order in which they stand."""
+    found: list[Goal] = []
+
+    def visit(node: Node, times: int | None, conditional: bool, optional: bool) -> None:
+        match node:
+            case Sequence(steps=steps) | AnyOrder(steps=steps):
+                for step in steps:
+                    visit(step, times, conditional, optional)
+            case ForEach():
+                one = times if is_single(node.select) else None
+                visit(node.body, one, conditional or node.until is not None, optional or node.optional)
+            case Repeat():
+                again = None if times is None or node.until is not None else times * node.times
+                visit(node.body, again, conditional or node.until is not None, optional)
+            case If():
+                visit(node.then, times, True, optional)
+                if node.otherwise is not None:
+                    visit(node.otherwise, times, True, optional)
+            case Try():
+                visit(node.body, times, conditional, optional)
+                visit(node.otherwise, times, True, optional)
+            case Act():
+                expected = None if times is None else times * node.count
+                found.append(
+                    Goal(
+                        id=f"g{len(found) + 1}",
+                        node=node.id,
+                        action=node.action,
+                        expected=expected,
+                        conditional=conditional,
+                        optional=optional,
+                    )
+                )
+            case _:
+                pass
+
+    visit(plan, 1, False, False)
+    return tuple(found)
+
+
+def variables(plan: Node, measures: Mapping[str, tuple[tuple[str, str], ...]]) -> tuple[Variable, ...]:
+    """The state variables that the readings of a plan bind."""
+    return tuple(
+        Variable(name=node.reading, quantity=quantity, unit=unit, node=node.id)
+        for node in walk(plan)
+        if isinstance(node, Act) and node.reading
+        for quantity, unit in measures.get(node.action, ())
+    )

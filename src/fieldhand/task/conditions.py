@@ -1,0 +1,94 @@
+"""Conditions: what an if/else of a plan tests.
+
+A reading is bound by the action that took it (``Act.reading``); a condition names that binding and the quantity, so a
+schema can refuse a quantity that the robot does not measure.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from fieldhand.task.selectors import Test, Value
+
+
+@dataclass(frozen=True, kw_only=True)
+class Compare:
+    """A reading against a threshold, in the unit that the profile gives for the quantity."""
+
+    reading: str
+    quantity: str
+    test: Test
+    value: float
+    unit: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Between:
+    """A reading within two thresholds, both included."""
+
+    reading: str
+    quantity: str
+    low: float
+    high: float
+    unit: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Level:
+    """A reading against a word ("low", "high") whose threshold the profile defines."""
+
+    reading: str
+    quantity: str
+    level: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class TreeHas:
+    """An attribute of the tree in hand, as the site file records it."""
+
+    attribute: str
+    test: Test
+    value: Value
+
+
+@dataclass(frozen=True, kw_only=True)
+class AllOf:
+    """Every one of the conditions."""
+
+    conditions: tuple[Condition, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class AnyOf:
+    """At least one of the conditions."""
+
+    conditions: tuple[Condition, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Not:
+    """The opposite of a condition."""
+
+    condition: Condition
+
+
+Condition = Compare | Between | Level | TreeHas | AllOf | AnyOf | Not
+
+
+def walk(condition: Condition) -> Iterator[Condition]:
+    """This condition and every one inside it, outermost first."""
+    yield condition
+    match condition:
+        case AllOf(conditions=inner) | AnyOf(conditions=inner):
+            for part in inner:
+                yield from walk(part)
+        case Not(condition=part):
+            yield from walk(part)
+        case _:
+            pass
+
+
+def readings(condition: Condition) -> frozenset[str]:
+    """The names of the readings that a condition needs."""
+    return frozenset(c.reading for c in walk(condition) if isinstance(c, Compare | Between | Level))

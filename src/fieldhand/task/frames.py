@@ -1,0 +1,114 @@
+"""The frames of IEEE 1872.1-2024: what a Task holds beside its plan.
+
+Command (goal, state, parameter), task composition (plan, exits), results (goals' metrics), constraints and resources.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from fieldhand.task.plan import Node
+
+Then = Literal["return_to_end", "return_to_start", "stay"]
+Fault = Literal["action_failed", "drive_failed", "low_budget", "aborted"]
+BudgetKind = Literal["distance_m", "duration_s", "energy_percent"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Goal:
+    """A countable outcome that was asked for; its outcome is success, failure or indeterminate.
+
+    Attributes:
+        node: The ``Act`` that serves it.
+        expected: Captures wanted where the request fixes their number; None where the site or a reading decides.
+        conditional: The node stands under an if or an otherwise: not reaching it is no failure.
+        optional: The budget decides how often ("as many as you can").
+    """
+
+    id: str
+    node: str
+    action: str
+    expected: int | None = None
+    conditional: bool = False
+    optional: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Variable:
+    """A state variable: the reading that a node binds."""
+
+    name: str
+    quantity: str
+    unit: str
+    node: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Command:
+    """What was asked: the request word for word, its goals, its state variables, what was assumed in reading it."""
+
+    request: str
+    goals: tuple[Goal, ...] = ()
+    variables: tuple[Variable, ...] = ()
+    assumptions: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class FaultedExit:
+    """What to do when a fault ends the mission."""
+
+    fault: Fault
+    then: Then
+
+
+@dataclass(frozen=True, kw_only=True)
+class Composition:
+    """The plan and its exits. ``nominal`` is taken when the plan is done."""
+
+    plan: Node
+    nominal: Then = "return_to_end"
+    faulted: tuple[FaultedExit, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Budget:
+    """At most ``limit`` of a resource for the whole mission, the way home included.
+
+    Attributes:
+        kind: Metres driven, seconds, or percent of a full battery.
+        failure_probability: Accepted chance of exceeding it (Pf), above 0 and below 1.
+    """
+
+    kind: BudgetKind
+    limit: float
+    failure_probability: float = 0.1
+
+
+@dataclass(frozen=True, kw_only=True)
+class Constraints:
+    """Budgets, and the charge in percent that must be left at the end (None: the profile's own reserve)."""
+
+    budgets: tuple[Budget, ...] = ()
+    reserve_percent: float | None = None
+    speed_m_s: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Resource:
+    """A resource that the Task was planned for, by name and SHA-256 of its source."""
+
+    kind: Literal["robot", "site"]
+    name: str
+    sha256: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Task:
+    """A mission as it is planned, approved, carried out and judged (level 1 of the design)."""
+
+    id: str
+    command: Command
+    composition: Composition
+    constraints: Constraints = Constraints()
+    resources: tuple[Resource, ...] = ()
