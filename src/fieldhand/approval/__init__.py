@@ -1,0 +1,1 @@
+"""Checks, read-back, map, and the authorization that only this room gives."""

@@ -1,0 +1,1 @@
+"""The budget guard, the outcome of each goal, the report."""

@@ -1,0 +1,1 @@
+"""A Task as a behavior tree, its drivers, its events."""

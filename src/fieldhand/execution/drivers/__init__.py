@@ -1,0 +1,1 @@
+"""What carries out drives and actions: a protocol and its simulated twin."""

@@ -1,0 +1,30 @@
+"""What execution asks of whoever watches the budget. Evaluation's guard answers; execution does not know how."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
+
+
+class Guard(Protocol):
+    """Decides before every drive whether there is enough left for it and for the way home."""
+
+    def admit(self, state: MissionState, visit: Visit, still_to_come: Sequence[Visit] = ()) -> Verdict:
+        """May the robot make this mandatory visit? ``still_to_come``: later visits of the loop that it stands in."""
+        ...
+
+    def choose(self, state: MissionState, candidates: Sequence[Visit]) -> Choice:
+        """Which optional visit comes next. Asked again after every leg, with what is left."""
+        ...
+
+
+class NoGuard:
+    """A guard for missions without limits: everything is allowed, optional visits in the order given."""
+
+    def admit(self, state: MissionState, visit: Visit, still_to_come: Sequence[Visit] = ()) -> Verdict:  # noqa: ARG002
+        return Verdict(go=True)
+
+    def choose(self, state: MissionState, candidates: Sequence[Visit]) -> Choice:  # noqa: ARG002
+        return Choice(index=0 if candidates else None)

@@ -1,0 +1,1 @@
+"""What a Task will take: drives, time and energy, as a distribution."""

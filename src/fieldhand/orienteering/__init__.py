@@ -1,0 +1,1 @@
+"""Stochastic orienteering: a graph, rewards, random leg costs, a budget. Knows no farm."""

@@ -1,0 +1,1 @@
+"""A planner with a grammar and a lexicon: no model, no network."""

@@ -1,0 +1,1 @@
+"""A planner with any language model behind it."""

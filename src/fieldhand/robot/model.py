@@ -1,0 +1,134 @@
+"""What a robot can do, as data. Read from a profile by :mod:`fieldhand.robot.loader`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+Direction = Literal["below", "above"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Level:
+    """A word for a reading: "low" is ``below`` 33."""
+
+    direction: Direction
+    value: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Quantity:
+    """Something that the robot measures.
+
+    Attributes:
+        name: ``canopy_temperature``; names are lower case with underscores.
+        unit: ``degC``, ``ppm``, ``percent``, or another unit, as readings are reported.
+        words: How people say it ("temperature", "canopy temperature").
+        levels: Words such as "low" and "high", each with its threshold.
+        minimum, maximum: Range of a believable reading.
+        typical, spread: Mean and standard deviation that the simulation draws from where a world file says nothing.
+    """
+
+    name: str
+    unit: str
+    words: tuple[str, ...]
+    levels: Mapping[str, Level]
+    minimum: float
+    maximum: float
+    typical: float
+    spread: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Parameter:
+    """A parameter of an action: a number within bounds, or one of some choices."""
+
+    name: str
+    kind: Literal["number", "choice"]
+    default: float | str
+    minimum: float | None = None
+    maximum: float | None = None
+    unit: str = ""
+    choices: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Action:
+    """Something that the robot does at a place.
+
+    Attributes:
+        words: Nouns that people use for what it yields ("thermal picture", "picture"), the most specific first.
+        verbs: Verbs that by themselves mean this action ("photograph"); take, measure and read need no entry.
+        measures: Names of the quantities that one capture yields.
+        duration_s, energy_j: Of one capture.
+    """
+
+    name: str
+    words: tuple[str, ...]
+    verbs: tuple[str, ...]
+    measures: tuple[str, ...]
+    duration_s: float
+    energy_j: float
+    parameters: tuple[Parameter, ...] = ()
+    description: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LegCost:
+    """Random cost of a leg of ``d`` metres: ``d * (alpha + Exp(1 - alpha))``, whose mean is ``d``.
+
+    Source: the published stochastic orienteering experiments (UC Merced); alpha 1 is deterministic.
+    """
+
+    alpha: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Energy:
+    """Energy store and what empties it.
+
+    Attributes:
+        capacity_j: A full battery.
+        drive_j_per_m: For each metre driven.
+        idle_w: All the time.
+        reserve_percent: Charge that must be left at the end of a mission unless the Task says otherwise.
+    """
+
+    capacity_j: float
+    drive_j_per_m: float
+    idle_w: float
+    reserve_percent: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class RobotProfile:
+    """A robot: what it can do and what that costs."""
+
+    name: str
+    description: str
+    actions: tuple[Action, ...]
+    quantities: tuple[Quantity, ...]
+    speed_m_s: float
+    width_m: float
+    energy: Energy
+    leg_cost: LegCost
+    retries: int
+    sha256: str
+    source: str = ""
+
+    @cached_property
+    def action(self) -> Mapping[str, Action]:
+        """Actions by name."""
+        return {a.name: a for a in self.actions}
+
+    @cached_property
+    def quantity(self) -> Mapping[str, Quantity]:
+        """Quantities by name."""
+        return {q.name: q for q in self.quantities}
+
+    def percent(self, metres: float, seconds: float, action_j: float = 0.0) -> float:
+        """Energy of driving, time and actions, in percent of a full battery."""
+        joules = metres * self.energy.drive_j_per_m + seconds * self.energy.idle_w + action_j
+        return 100.0 * joules / self.energy.capacity_j

@@ -1,0 +1,1 @@
+"""The orchard: trees, markers, zones, places, drives."""

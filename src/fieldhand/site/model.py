@@ -1,0 +1,137 @@
+"""The orchard as data: trees, markers, zones, in degrees and in local metres.
+
+Metres are east (x) and north (y) in one projection per site, whose origin is the middle of the trees.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from shapely.geometry import Polygon
+
+from fieldhand.site.projection import Projection
+from fieldhand.task.selectors import Value
+
+PlaceKind = Literal["tree", "marker", "point"]
+ZoneKind = Literal["boundary", "keep_out", "zone"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Place:
+    """Somewhere a robot can be sent: a tree, a marker or a free point.
+
+    Attributes:
+        id: The tree's id, the marker's name, or a name of its own for a point.
+        x, y: Metres east and north in the site's projection.
+        lat, lon: Degrees, WGS 84.
+    """
+
+    kind: PlaceKind
+    id: str
+    x: float
+    y: float
+    lat: float
+    lon: float
+
+    @property
+    def xy(self) -> tuple[float, float]:
+        """Metres east and north."""
+        return (self.x, self.y)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tree:
+    """A tree (or vine, or plant) with what the file says about it.
+
+    Attributes:
+        index: Position among the file's trees, counted from 0; row of :attr:`Site.xy`.
+        feature: Position among the file's features, counted from 1, for error messages.
+        row: The row's name where the file gives one, else empty.
+    """
+
+    place: Place
+    index: int
+    feature: int
+    properties: Mapping[str, Value] = field(default_factory=dict)
+    row: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Zone:
+    """A polygon of the site, in local metres."""
+
+    name: str
+    kind: ZoneKind
+    polygon: Polygon
+
+
+@dataclass(frozen=True, kw_only=True)
+class Site:
+    """A site, immutable.
+
+    Attributes:
+        name: The file's name without its ending, or the collection's own ``name``.
+        sha256: Of the bytes it was read from.
+        source: Where it was read from, for messages.
+    """
+
+    name: str
+    trees: tuple[Tree, ...]
+    markers: Mapping[str, Place]
+    zones: tuple[Zone, ...]
+    projection: Projection
+    sha256: str
+    source: str = ""
+
+    @cached_property
+    def xy(self) -> NDArray[np.float64]:
+        """Trees in local metres, shape (n, 2)."""
+        return np.array([t.place.xy for t in self.trees], dtype=np.float64).reshape(-1, 2)
+
+    @cached_property
+    def by_id(self) -> Mapping[str, Tree]:
+        """Trees by id."""
+        return {t.place.id: t for t in self.trees}
+
+    @cached_property
+    def spacing_m(self) -> float:
+        """Median distance from a tree to its nearest neighbour, in metres; 5 where there is one tree alone."""
+        from scipy.spatial import cKDTree
+
+        if len(self.trees) < 2:
+            return 5.0
+        nearest = np.asarray(cKDTree(self.xy).query(self.xy, k=[2])[0])
+        return float(np.median(nearest))
+
+    @cached_property
+    def attributes(self) -> Mapping[str, tuple[Value, ...]]:
+        """Each attribute of the trees with its distinct values, sorted within their type."""
+        found: dict[str, set[Value]] = {}
+        for tree in self.trees:
+            for key, value in tree.properties.items():
+                found.setdefault(key, set()).add(value)
+        return {key: tuple(sorted(values, key=lambda v: (isinstance(v, str), v))) for key, values in found.items()}
+
+    def zones_of(self, kind: ZoneKind) -> tuple[Zone, ...]:
+        """The zones of one kind."""
+        return tuple(z for z in self.zones if z.kind == kind)
+
+    @property
+    def start(self) -> Place:
+        """Where a mission starts: the start marker, else the first tree of the file."""
+        return self.markers.get("start", self.trees[0].place)
+
+    def home(self, then: Literal["return_to_end", "return_to_start", "stay"], here: Place) -> Place:
+        """Where an exit ends: a missing end marker falls back to the start, a missing start to the first tree."""
+        match then:
+            case "return_to_end":
+                return self.markers.get("end", self.start)
+            case "return_to_start":
+                return self.start
+            case "stay":
+                return here

@@ -1,0 +1,37 @@
+"""One local metric projection per site."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import pyproj
+from numpy.typing import ArrayLike, NDArray
+
+
+@dataclass(frozen=True)
+class Projection:
+    """Azimuthal equidistant projection about a point of the site, on WGS 84.
+
+    Distances differ from the geodesic by less than 1 mm within 5 km. Axes point to true east and north at the origin.
+    """
+
+    lat: float
+    lon: float
+
+    @cached_property
+    def _transformer(self) -> pyproj.Transformer:
+        local = pyproj.CRS.from_proj4(f"+proj=aeqd +lat_0={self.lat!r} +lon_0={self.lon!r} +datum=WGS84 +units=m")
+        return pyproj.Transformer.from_crs("EPSG:4326", local, always_xy=True)
+
+    def metres(self, lat: ArrayLike, lon: ArrayLike) -> NDArray[np.float64]:
+        """Degrees to metres east and north, shape (n, 2)."""
+        x, y = self._transformer.transform(np.atleast_1d(lon), np.atleast_1d(lat))
+        return np.column_stack([x, y]).astype(np.float64)
+
+    def degrees(self, xy: ArrayLike) -> NDArray[np.float64]:
+        """Metres east and north, shape (n, 2), to latitude and longitude, shape (n, 2)."""
+        points = np.atleast_2d(np.asarray(xy, dtype=np.float64))
+        lon, lat = self._transformer.transform(points[:, 0], points[:, 1], direction="INVERSE")
+        return np.column_stack([lat, lon]).astype(np.float64)
