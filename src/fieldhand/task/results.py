@@ -151,8 +151,8 @@ class Exited:
 class Ended:
     """The mission is over: where the robot is and what was used.
 
-    ``completed``: the plan was done and its exit taken. ``returned``: the budget guard brought the robot home before the
-    plan was done. ``faulted``: a fault ended it. ``aborted``: a person did.
+    ``completed``: the plan was done and its exit taken. ``returned``: the budget guard brought the robot home before
+    the plan was done. ``faulted``: a fault ended it. ``aborted``: a person did.
     """
 
     event: ClassVar[str] = "mission"
