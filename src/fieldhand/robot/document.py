@@ -1,0 +1,206 @@
+"""The form of a robot profile file: what keys it has and what values they may take.
+
+These models check one file; :mod:`fieldhand.robot.loader` turns what passes into the frozen data of
+:mod:`fieldhand.robot.model`. docs/formats.md describes the keys for readers.
+"""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Mapping
+from typing import Annotated
+
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+
+from fieldhand.task.capabilities import RESERVED_ACTIONS
+
+
+def _no_bool(value: object) -> object:
+    if isinstance(value, bool):
+        raise ValueError(f"must be a number, not {str(value).lower()}")
+    return value
+
+
+def _name(value: str) -> str:
+    if not re.fullmatch(r"[a-z][a-z0-9_]*", value):
+        raise ValueError(
+            f"{value!r} is not a name: use lower-case letters, digits and underscores, beginning with a letter"
+        )
+    return value
+
+
+def _word(value: str) -> str:
+    if not re.fullmatch(r"[^\W_]+(?:[ '-][^\W_]+)*", value):
+        raise ValueError(f"{value!r} is not a word or words: use letters and digits with single spaces between")
+    return value.lower()
+
+
+def _level_word(value: str) -> str:
+    if not re.fullmatch(r"[a-z]+(?:[ -][a-z]+)*", value):
+        raise ValueError(f"{value!r} is not a level word: use lower-case letters, such as low or very high")
+    return value
+
+
+def _unit(value: str) -> str:
+    if not re.fullmatch(r"\S{1,20}", value) or not value.isprintable():
+        raise ValueError(f"{value!r} is not a unit: at most 20 characters without spaces, such as degC, ppm, percent")
+    return value
+
+
+def _choice(value: str) -> str:
+    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", value) or value in {"true", "false"}:
+        raise ValueError(f"{value!r} is not a choice: use letters, digits, - and _, beginning with a letter")
+    return value
+
+
+def _each_once(values: tuple[str, ...]) -> tuple[str, ...]:
+    twice = sorted({v for v in values if values.count(v) > 1})
+    if twice:
+        raise ValueError(f"{twice[0]!r} stands here twice")
+    return values
+
+
+Number = Annotated[float, BeforeValidator(_no_bool), Field(allow_inf_nan=False)]
+Positive = Annotated[Number, Field(gt=0)]
+NotNegative = Annotated[Number, Field(ge=0)]
+Name = Annotated[str, AfterValidator(_name)]
+Words = Annotated[tuple[Annotated[str, AfterValidator(_word)], ...], AfterValidator(_each_once)]
+Choice = Annotated[str, AfterValidator(_choice)]
+
+
+class Keyed(BaseModel):
+    """A part of a profile: it has the keys that are declared and no others."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _known_keys(cls, data: object) -> object:
+        """Name the nearest right key for a misspelt one, before the right one is reported as missing."""
+        if isinstance(data, Mapping):
+            for key in data:
+                if key not in cls.model_fields:
+                    near = difflib.get_close_matches(str(key), cls.model_fields, n=1)
+                    hint = f"did you mean {near[0]!r}?" if near else f"the keys here are {', '.join(cls.model_fields)}"
+                    raise ValueError(f"unknown key {str(key)!r}; {hint}")
+        return data
+
+
+class LevelDocument(Keyed):
+    """``{below: 33}`` or ``{above: 38}``."""
+
+    below: Number | None = None
+    above: Number | None = None
+
+    @model_validator(mode="after")
+    def _one(self) -> LevelDocument:
+        if (self.below is None) == (self.above is None):
+            raise ValueError("give either below or above, with a number")
+        return self
+
+
+class QuantityDocument(Keyed):
+    """Something that the robot measures."""
+
+    unit: Annotated[str, AfterValidator(_unit)]
+    words: Words
+    levels: dict[Annotated[str, AfterValidator(_level_word)], LevelDocument] = {}
+    minimum: Number
+    maximum: Number
+    typical: Number
+    spread: NotNegative
+
+    @model_validator(mode="after")
+    def _ranges(self) -> QuantityDocument:
+        if not self.minimum < self.maximum:
+            raise ValueError(f"minimum {self.minimum:g} is not below maximum {self.maximum:g}")
+        if not self.minimum <= self.typical <= self.maximum:
+            raise ValueError(f"typical {self.typical:g} is not within {self.minimum:g} and {self.maximum:g}")
+        for word, level in self.levels.items():
+            value = level.below if level.below is not None else level.above
+            if value is not None and not self.minimum <= value <= self.maximum:
+                raise ValueError(
+                    f"the threshold {value:g} of {word!r} is not within {self.minimum:g} and {self.maximum:g}"
+                )
+        return self
+
+
+class ParameterDocument(Keyed):
+    """A number within bounds, or one of some choices."""
+
+    default: Annotated[float | str, BeforeValidator(_no_bool)]
+    minimum: Number | None = None
+    maximum: Number | None = None
+    unit: Annotated[str, AfterValidator(_unit)] | None = None
+    choices: Annotated[tuple[Choice, ...], AfterValidator(_each_once)] = ()
+
+    @model_validator(mode="after")
+    def _kind(self) -> ParameterDocument:
+        if self.choices:
+            if (self.minimum, self.maximum, self.unit) != (None, None, None):
+                raise ValueError("a parameter has choices, or a minimum, maximum and unit, not both")
+            if self.default not in self.choices:
+                raise ValueError(f"default {self.default!r} is not one of {', '.join(self.choices)}")
+            return self
+        if isinstance(self.default, str):
+            raise ValueError(f"default {self.default!r} is not a number; list the choices if it is a word")
+        low = float("-inf") if self.minimum is None else self.minimum
+        high = float("inf") if self.maximum is None else self.maximum
+        if not low < high:
+            raise ValueError(f"minimum {low:g} is not below maximum {high:g}")
+        if not low <= self.default <= high or self.default in (float("inf"), float("-inf")):
+            raise ValueError(f"default {self.default:g} is not within {low:g} and {high:g}")
+        return self
+
+
+class ActionDocument(Keyed):
+    """Something that the robot does at a place."""
+
+    description: str = ""
+    words: Annotated[Words, Field(min_length=1)]
+    verbs: Words = ()
+    measures: Annotated[tuple[str, ...], AfterValidator(_each_once)] = ()
+    parameters: dict[Name, ParameterDocument] = {}
+    duration_s: Positive
+    energy_j: NotNegative
+
+
+class EnergyDocument(Keyed):
+    """Energy store and what empties it."""
+
+    capacity_j: Positive
+    drive_j_per_m: Positive
+    idle_w: NotNegative
+    reserve_percent: Annotated[Number, Field(ge=0, lt=100)]
+
+
+class LegCostDocument(Keyed):
+    """Random cost of a leg."""
+
+    alpha: Annotated[Number, Field(ge=0, le=1)]
+
+
+class ProfileDocument(Keyed):
+    """A whole profile."""
+
+    name: Name
+    description: str = ""
+    speed_m_s: Positive
+    width_m: Positive
+    retries: Annotated[int, BeforeValidator(_no_bool), Field(ge=0, le=10)] = 1
+    energy: EnergyDocument
+    leg_cost: LegCostDocument
+    quantities: dict[Name, QuantityDocument] = {}
+    actions: Annotated[dict[Name, ActionDocument], Field(min_length=1)]
+
+    @model_validator(mode="after")
+    def _measured(self) -> ProfileDocument:
+        for name, action in self.actions.items():
+            if name in RESERVED_ACTIONS:
+                raise ValueError(f"an action may not be called {name!r}: Task documents use the word")
+            for quantity in action.measures:
+                if quantity not in self.quantities:
+                    known = ", ".join(self.quantities) or "none"
+                    raise ValueError(f"action {name!r} measures {quantity!r}; the quantities here are {known}")
+        return self

@@ -1,0 +1,249 @@
+"""Read a robot profile: one that is built in, by name, or a YAML file of the user's own, by path."""
+
+from __future__ import annotations
+
+import difflib
+import hashlib
+from collections.abc import Hashable
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import yaml
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from fieldhand.errors import ProfileError
+from fieldhand.robot.document import (
+    ActionDocument,
+    LevelDocument,
+    ParameterDocument,
+    ProfileDocument,
+    QuantityDocument,
+)
+from fieldhand.robot.model import Action, Energy, LegCost, Level, Parameter, Quantity, RobotProfile
+
+#: A profile is a page or two; a file beyond this is something else.
+MAX_BYTES = 1_000_000
+
+GUIDE = "docs/add-a-robot.md shows a whole profile"
+
+
+def builtin_names() -> tuple[str, ...]:
+    """Names of the profiles that come with Fieldhand, in alphabetical order."""
+    folder = resources.files("fieldhand.robot") / "profiles"
+    return tuple(sorted(f.name.removesuffix(".yaml") for f in folder.iterdir() if f.name.endswith(".yaml")))
+
+
+def load_robot(name_or_path: str) -> RobotProfile:
+    """The profile of a robot.
+
+    Args:
+        name_or_path: A built-in name (``husky``), or a path to a YAML file. A name that is built in wins.
+
+    Raises:
+        ProfileError: There is no such robot, or its profile cannot be used; says where in the file, and what to do.
+    """
+    data, source = _bytes_of(name_or_path)
+    return parse_profile(data, source=source)
+
+
+def parse_profile(data: bytes, *, source: str = "profile") -> RobotProfile:
+    """A profile from the bytes of its YAML.
+
+    Args:
+        data: The file as it stands; the profile's ``sha256`` is of these bytes.
+        source: What to call the file in messages.
+
+    Raises:
+        ProfileError: It cannot be used.
+    """
+    content = _content(data, source)
+    try:
+        document = ProfileDocument.model_validate(content)
+    except ValidationError as error:
+        raise _explained(error, source) from None
+    return _profile(document, sha256=hashlib.sha256(data).hexdigest(), source=source)
+
+
+def _bytes_of(name_or_path: str) -> tuple[bytes, str]:
+    names = builtin_names()
+    if name_or_path in names:
+        return (resources.files("fieldhand.robot") / "profiles" / f"{name_or_path}.yaml").read_bytes(), name_or_path
+    path = Path(name_or_path)
+    try:
+        if path.is_file():
+            if path.stat().st_size > MAX_BYTES:
+                raise ProfileError(
+                    f"the file is larger than {MAX_BYTES} bytes", where=str(path), advice="a profile is a page of YAML"
+                )
+            return path.read_bytes(), str(path)
+        found = path.exists()
+    except (OSError, ValueError) as error:
+        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise ProfileError(f"cannot be read: {why}", where=_short(name_or_path)) from None
+    if found:
+        raise ProfileError("is not a file", where=_short(name_or_path), advice="give the path of a YAML file")
+    near = difflib.get_close_matches(name_or_path.lower(), names, n=1)
+    hint = f"did you mean {near[0]!r}? " if near else ""
+    raise ProfileError(
+        f"no robot or profile file {_short(name_or_path)!r}",
+        advice=f"{hint}The built-in robots are {', '.join(names)}; for your own give the path of its YAML file",
+    )
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 80 else f"{text[:77]}..."
+
+
+class _ProfileYaml(yaml.SafeLoader):
+    """Safe YAML in which a key stands once and aliases, which can blow a small file up, do not stand at all."""
+
+    def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
+        if self.check_event(yaml.AliasEvent):
+            event = self.peek_event()  # type: ignore[no-untyped-call]
+            raise yaml.composer.ComposerError(
+                None, None, "aliases (*name) are not allowed in a profile", event.start_mark
+            )
+        return super().compose_node(parent, index)
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
+        seen: set[str] = set()
+        for key, _ in node.value:
+            if isinstance(key, yaml.ScalarNode) and key.value in seen:
+                raise yaml.constructor.ConstructorError(
+                    None, None, f"the key {key.value!r} stands twice", key.start_mark
+                )
+            seen.add(str(key.value))
+        return super().construct_mapping(node, deep)
+
+
+def _content(data: bytes, source: str) -> dict[Any, Any]:
+    """The mapping that the YAML holds."""
+    if len(data) > MAX_BYTES:
+        raise ProfileError(f"is larger than {MAX_BYTES} bytes", where=source, advice="a profile is a page of YAML")
+    try:
+        content = yaml.load(data.decode("utf-8-sig"), Loader=_ProfileYaml)  # noqa: S506  a SafeLoader
+    except UnicodeDecodeError:
+        raise ProfileError("is not UTF-8 text", where=source, advice="save the profile as UTF-8") from None
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        where = f"{source}, line {mark.line + 1}" if mark else source
+        raise ProfileError(
+            f"is not YAML: {error.problem or error.context}", where=where, advice="correct that line"
+        ) from None
+    except (yaml.YAMLError, ValueError) as error:
+        what = " ".join(str(error).split())
+        raise ProfileError(f"is not YAML: {what}", where=source, advice="save the profile as plain text") from None
+    except RecursionError:
+        raise ProfileError("is nested too deep", where=source, advice=GUIDE) from None
+    if content is None:
+        raise ProfileError("is empty", where=source, advice=GUIDE)
+    if not isinstance(content, dict):
+        raise ProfileError("is not a mapping of keys to values", where=source, advice=GUIDE)
+    return content
+
+
+def _explained(error: ValidationError, source: str) -> ProfileError:
+    """The first problem of a profile as one line: file, key path, what, advice."""
+    problems = error.errors(include_url=False)
+    first = problems[0]
+    path = [str(part) for part in first["loc"] if part != "[key]"]
+    what, advice = _words_for(first, path)
+    more = f" (and {len(problems) - 1} more after it)" if len(problems) > 1 else ""
+    key = ".".join(path)
+    return ProfileError(f"{what}{more}", where=f"{source}: {key}" if key else source, advice=advice)
+
+
+def _words_for(problem: ErrorDetails, path: list[str]) -> tuple[str, str]:
+    """What is wrong and what to do, in words. A missing key moves from the path into the words."""
+    given = problem["input"]
+    shown = _short(str(given)) if isinstance(given, str | int | float) else f"a {type(given).__name__}"
+    match problem["type"]:
+        case "missing":
+            return f"the key {path.pop()!r} is missing", f"add it; {GUIDE}"
+        case "value_error":
+            what, _, advice = problem["msg"].removeprefix("Value error, ").partition("; ")
+            return what, advice or f"correct it; {GUIDE}"
+        case "too_short":
+            return "is empty", "list at least one"
+        case "string_type":
+            return f"must be text, is {shown}", 'put it in quotes if it is meant as text ("yes")'
+        case "model_type" | "dict_type":
+            return f"must hold keys and values, is {shown}", GUIDE
+        case "tuple_type":
+            return f"must be a list, is {shown}", "write [one, two], or one a line with a dash before it"
+        case "float_parsing" | "float_type" | "int_parsing" | "int_type" | "int_from_float":
+            return f"must be a {'whole ' if 'int' in problem['type'] else ''}number, is {shown}", "correct the number"
+        case "finite_number":
+            return f"must be a finite number, is {shown}", "correct the number"
+        case _:
+            what = problem["msg"].replace("Input should be", "must be")
+            return f"{what}, is {shown}", "correct the value"
+
+
+def _profile(document: ProfileDocument, *, sha256: str, source: str) -> RobotProfile:
+    energy = document.energy
+    return RobotProfile(
+        name=document.name,
+        description=document.description,
+        actions=tuple(_action(name, a) for name, a in document.actions.items()),
+        quantities=tuple(_quantity(name, q) for name, q in document.quantities.items()),
+        speed_m_s=document.speed_m_s,
+        width_m=document.width_m,
+        energy=Energy(
+            capacity_j=energy.capacity_j,
+            drive_j_per_m=energy.drive_j_per_m,
+            idle_w=energy.idle_w,
+            reserve_percent=energy.reserve_percent,
+        ),
+        leg_cost=LegCost(alpha=document.leg_cost.alpha),
+        retries=document.retries,
+        sha256=sha256,
+        source=source,
+    )
+
+
+def _quantity(name: str, document: QuantityDocument) -> Quantity:
+    return Quantity(
+        name=name,
+        unit=document.unit,
+        words=document.words,
+        levels={word: _level(level) for word, level in document.levels.items()},
+        minimum=document.minimum,
+        maximum=document.maximum,
+        typical=document.typical,
+        spread=document.spread,
+    )
+
+
+def _level(document: LevelDocument) -> Level:
+    if document.below is not None:
+        return Level(direction="below", value=document.below)
+    assert document.above is not None  # noqa: S101  LevelDocument has exactly one of the two
+    return Level(direction="above", value=document.above)
+
+
+def _action(name: str, document: ActionDocument) -> Action:
+    return Action(
+        name=name,
+        words=document.words,
+        verbs=document.verbs,
+        measures=document.measures,
+        duration_s=document.duration_s,
+        energy_j=document.energy_j,
+        parameters=tuple(_parameter(key, p) for key, p in document.parameters.items()),
+        description=document.description,
+    )
+
+
+def _parameter(name: str, document: ParameterDocument) -> Parameter:
+    return Parameter(
+        name=name,
+        kind="choice" if document.choices else "number",
+        default=document.default,
+        minimum=document.minimum,
+        maximum=document.maximum,
+        unit=document.unit or "",
+        choices=document.choices,
+    )

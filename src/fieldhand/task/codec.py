@@ -1,0 +1,162 @@
+"""A Task as an XML document, and back.
+
+``decode(encode(task)) == task`` for every Task whose text XML can hold. What each class looks like is derived in
+:mod:`fieldhand.task.codec_shapes`; here is only the walk over it. The document is UTF-8 and the same for equal Tasks.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import MISSING, dataclass
+from typing import TYPE_CHECKING, Any
+
+from fieldhand.errors import TaskError
+from fieldhand.task.capabilities import RESERVED_ACTIONS
+from fieldhand.task.codec_read import Reader, local_name
+from fieldhand.task.codec_shapes import NAMESPACE, SURROGATES, Attribute, Head, element_name, shape_of
+from fieldhand.task.codec_text import bare_value, number_text, unwritable_character, written
+from fieldhand.task.codec_xml import MAX_BYTES, MAX_DEPTH, parse_xml
+from fieldhand.task.frames import Constraints, FaultedExit, Task, Then
+from fieldhand.task.plan import Node
+
+if TYPE_CHECKING:
+    from lxml.etree import _Element
+
+
+@dataclass(frozen=True, kw_only=True)
+class Draft:
+    """What a draft of a Task says, for ``task.build.make_task`` to complete. Ids that it leaves out are empty.
+
+    Attributes:
+        request: Empty if the draft leaves it out.
+        faulted: Empty if the draft says nothing of faults.
+    """
+
+    plan: Node
+    constraints: Constraints
+    nominal: Then
+    faulted: tuple[FaultedExit, ...]
+    assumptions: tuple[str, ...]
+    request: str
+
+
+def encode(task: Task) -> bytes:
+    """A Task as a UTF-8 XML document, indented, ending with a line end.
+
+    Raises:
+        TaskError: It holds text or a number that XML cannot hold, is nested too deep, or is too large.
+    """
+    from lxml import etree
+
+    root = etree.Element(f"{{{NAMESPACE}}}task", nsmap={None: NAMESPACE})  # type: ignore[dict-item]  # stubs forget None
+    _fill(root, task, depth=1)
+    etree.indent(root)
+    data: bytes = etree.tostring(root, xml_declaration=True, encoding="UTF-8") + b"\n"
+    if len(data) > MAX_BYTES:
+        raise TaskError(f"the Task has {len(data)} bytes as XML, more than {MAX_BYTES}", advice="split the mission")
+    return data
+
+
+def decode(data: bytes, *, source: str = "") -> Task:
+    """The Task that a document holds. Whether a robot can do it is the schema's business.
+
+    Args:
+        data: The document.
+        source: What to call it in messages, such as its file name.
+
+    Raises:
+        TaskError: It is no Task document; says at which line and element.
+    """
+    return Reader(source=source).task(parse_xml(data, source=source))
+
+
+def decode_draft(data: bytes, *, source: str = "") -> Draft:
+    """What a draft says. A draft may leave out what can be derived: ids, request, goals, state, resources.
+
+    Raises:
+        TaskError: It is no draft of a Task; says at which line and element.
+    """
+    task = Reader(source=source, draft=True).task(parse_xml(data, source=source))
+    return Draft(
+        plan=task.composition.plan,
+        constraints=task.constraints,
+        nominal=task.composition.nominal,
+        faulted=task.composition.faulted,
+        assumptions=task.command.assumptions,
+        request=task.command.request,
+    )
+
+
+def _fill(element: _Element, value: Any, *, depth: int) -> None:
+    """Write the fields of a value into its element."""
+    if depth > MAX_DEPTH:
+        raise TaskError(f"the plan nests more than {MAX_DEPTH} elements", advice="nest less deeply")
+    cls: type = type(value)
+    if cls in SURROGATES:
+        value = SURROGATES[cls][1](value)
+    shape = shape_of(cls)
+    for attribute in shape.attributes:
+        _set(element, attribute, getattr(value, attribute.field))
+    if shape.head:
+        _fill_head(element, shape.head, value)
+    for child in shape.children:
+        content = getattr(value, child.field)
+        if content is None or (child.default is not MISSING and content == child.default):
+            continue
+        inside = element if child.direct else _sub(element, child.name)
+        match child.kind:
+            case "text":
+                inside.text = _text(content, child.name)
+            case "texts":
+                for text in content:
+                    _sub(inside, child.name.removesuffix("s")).text = _text(text, child.name)
+            case "inline":
+                _fill(inside, content, depth=depth + 1)
+            case "one" | "many":
+                below = depth + (1 if child.direct else 2)
+                for part in content if child.kind == "many" else (content,):
+                    _fill(_sub(inside, element_name(type(part))), part, depth=below)
+
+
+def _fill_head(element: _Element, head: Head, value: Any) -> None:
+    """Write what belongs to an action or a quantity into an element of its name."""
+    name = getattr(value, head.field)
+    if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_.-]*", name) or name in RESERVED_ACTIONS:
+        raise TaskError(f"{name!r} cannot be the name of a robot's {head.of}", where=f"<{local_name(element)}>")
+    inside = _sub(element, name)
+    for attribute in head.attributes:
+        _set(inside, attribute, getattr(value, attribute.field))
+    for key, content in value.parameters if head.of == "action" else ():
+        where = f"<{name}>, parameter {key!r}"
+        if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_.-]*", key) or key in inside.attrib:
+            raise TaskError("is not a name, or stands twice", where=where)
+        if isinstance(content, str):
+            if not isinstance(bare_value(content), str):
+                raise TaskError(f"the word {content!r} would read as a number or true/false", where=where)
+            inside.set(key, _text(content, key))
+        else:
+            inside.set(key, number_text(content))
+
+
+def _set(element: _Element, attribute: Attribute, value: Any) -> None:
+    """Write a field as an attribute, unless it is the default."""
+    if value is None or (attribute.default is not MISSING and value == attribute.default):
+        return
+    try:
+        for name, text in written(attribute, value).items():
+            element.set(name, _text(text, attribute.name))
+    except ValueError as error:
+        raise TaskError(str(error), where=f"<{local_name(element)}>, {attribute.name}") from None
+
+
+def _sub(element: _Element, name: str) -> _Element:
+    from lxml import etree
+
+    return etree.SubElement(element, f"{{{NAMESPACE}}}{name}")
+
+
+def _text(text: str, name: str) -> str:
+    character = unwritable_character(text)
+    if character:
+        raise TaskError(f"{name} holds the character {character}, which XML cannot hold", advice="take it out")
+    return text

@@ -1,0 +1,222 @@
+"""What every part of a Task looks like as XML, derived from the dataclasses: the one place that says so.
+
+A class becomes an element (``AnyOrder`` is ``any-order``); a plain field becomes an attribute (``at_most`` is
+``at-most``); a field that holds other parts becomes a child element of that name with the parts inside, and where a
+class has only one such field the parts stand in its element directly. A field that equals its default is left out.
+What belongs to one action or one quantity stands in an element of that name (``<co2 value="400" unit="ppm"/>``), so
+that a schema can say which values go with which. Codec and schema both read these shapes: a new selector, condition
+or plan node needs no change in either.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import MISSING, dataclass, fields, replace
+from functools import cache
+from types import NoneType, UnionType
+from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
+
+from fieldhand.task.conditions import Condition
+from fieldhand.task.frames import Command, Composition, FaultedExit, Task, Then
+from fieldhand.task.plan import Act, Node, Span
+from fieldhand.task.selectors import Selector, Value
+
+NAMESPACE = "urn:fieldhand:task:1"
+
+AttributeKind = Literal["text", "integer", "number", "flag", "choice", "choices", "spans", "value"]
+ChildKind = Literal["text", "texts", "inline", "one", "many"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Exits:
+    """Where the robot goes when the plan is done, and what it does about each fault."""
+
+    nominal: Then = "return_to_end"
+    faulted: tuple[FaultedExit, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class TaskComposition:
+    """The plan and its exits, grouped as the standard groups them; stands for ``frames.Composition`` in XML."""
+
+    plan: Node
+    exits: Exits = Exits()
+
+
+#: Field names that are not element names already.
+_NAMES: dict[tuple[type, str], str] = {(Task, "composition"): "task-composition", (Command, "variables"): "state"}
+_CLASS_NAMES: dict[type, str] = {FaultedExit: "faulted"}
+#: Text of any length stands in an element of its own.
+_TEXTS = {(Command, "request"), (Command, "assumptions")}
+#: Fields whose meaning depends on the quantity that stands beside them.
+_OF_QUANTITY = ("value", "low", "high", "unit", "level")
+#: What a draft may leave out beside what has a default: it is derived by ``task.build.make_task``.
+DRAFT_DEFAULTS: dict[tuple[type, str] | str, Any] = {
+    "id": "",
+    (Command, "request"): "",
+    (Task, "command"): Command(request=""),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Attribute:
+    """A field that is written as an attribute.
+
+    Attributes:
+        choices: The words that a choice, or each of several choices, may be.
+        default: ``MISSING`` if the attribute must stand.
+    """
+
+    field: str
+    name: str
+    kind: AttributeKind
+    choices: tuple[str, ...] = ()
+    default: Any = MISSING
+
+
+@dataclass(frozen=True, kw_only=True)
+class Child:
+    """A field that is written as child elements.
+
+    Attributes:
+        options: The classes that may stand there; empty for text.
+        direct: The parts stand in the parent's element, with no element of the field's name around them.
+    """
+
+    field: str
+    name: str
+    kind: ChildKind
+    options: tuple[type, ...] = ()
+    default: Any = MISSING
+    direct: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Head:
+    """A child element that is named after an action or a quantity and holds what depends on it.
+
+    Attributes:
+        attributes: What depends on a quantity; an action's are its parameters, which only a profile knows.
+    """
+
+    field: str
+    of: Literal["action", "quantity"]
+    attributes: tuple[Attribute, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shape:
+    """How one class is written. ``attributes`` and ``children`` stand in the order of its fields."""
+
+    cls: type
+    element: str
+    attributes: tuple[Attribute, ...]
+    children: tuple[Child, ...]
+    head: Head | None = None
+
+
+#: Classes that XML groups differently, with the class that stands for each and the way back.
+SURROGATES: dict[type, tuple[type, Callable[[Any], Any], Callable[[Any], Any]]] = {
+    Composition: (
+        TaskComposition,
+        lambda c: TaskComposition(plan=c.plan, exits=Exits(nominal=c.nominal, faulted=c.faulted)),
+        lambda t: Composition(plan=t.plan, nominal=t.exits.nominal, faulted=t.exits.faulted),
+    )
+}
+
+#: The families of which any member may stand in a place, by name.
+FAMILIES: dict[tuple[type, ...], str] = {
+    get_args(Selector): "selector",
+    get_args(Condition): "condition",
+    get_args(Node): "node",
+}
+
+
+def element_name(cls: type) -> str:
+    """The element that a class becomes: ``GoTo`` is ``go-to``."""
+    return _CLASS_NAMES.get(cls) or re.sub(r"(?<!^)(?=[A-Z])", "-", cls.__name__).lower()
+
+
+@cache
+def shape_of(cls: type) -> Shape:
+    """How a class is written; a class that XML groups differently has the shape of its stand-in."""
+    if cls in SURROGATES:
+        return shape_of(SURROGATES[cls][0])
+    hints = get_type_hints(cls)
+    names = [f.name for f in fields(cls)]
+    of_head = _OF_QUANTITY if "quantity" in names else ()
+    in_head = ("action", "parameters") if cls is Act else ("quantity",)
+    attributes: list[Attribute] = []
+    of_quantity: list[Attribute] = []
+    children: list[Child] = []
+    for field in fields(cls):
+        name = _NAMES.get((cls, field.name), field.name.replace("_", "-"))
+        hint, default = hints[field.name], field.default
+        if field.name in in_head:
+            continue
+        if (cls, field.name) in _TEXTS:
+            kind: ChildKind = "text" if hint is str else "texts"
+            children.append(Child(field=field.name, name=name, kind=kind, default=default))
+        elif attribute := _attribute(field.name, name, hint, default):
+            (of_quantity if field.name in of_head else attributes).append(attribute)
+        else:
+            children.append(_child(field.name, name, hint, default))
+    head = _head(cls, names, tuple(of_quantity))
+    if head is None and len(children) == 1 and children[0].kind in ("one", "many"):
+        only = children[0]
+        children = [replace(only, direct=True)]
+    return Shape(cls=cls, element=element_name(cls), attributes=tuple(attributes), children=tuple(children), head=head)
+
+
+def _head(cls: type, names: list[str], of_quantity: tuple[Attribute, ...]) -> Head | None:
+    if cls is Act:
+        return Head(field="action", of="action")
+    return Head(field="quantity", of="quantity", attributes=of_quantity) if "quantity" in names else None
+
+
+def _without_none(hint: Any) -> Any:
+    if get_origin(hint) in (Union, UnionType) and NoneType in get_args(hint):
+        rest = tuple(a for a in get_args(hint) if a is not NoneType)
+        return rest[0] if len(rest) == 1 else Union[rest]  # noqa: UP007  there is no | over a tuple
+    return hint
+
+
+def _attribute(field: str, name: str, hint: Any, default: Any) -> Attribute | None:
+    """The attribute for a plain field; None for a field that holds other parts."""
+    hint = _without_none(hint)
+    plain: dict[Any, AttributeKind] = {str: "text", int: "integer", float: "number", bool: "flag", Value: "value"}
+    plain[tuple[Span, ...]] = "spans"
+    if hint in plain:
+        return Attribute(field=field, name=name, kind=plain[hint], default=default)
+    if get_origin(hint) is Literal:
+        return Attribute(field=field, name=name, kind="choice", choices=get_args(hint), default=default)
+    if get_origin(hint) is tuple and get_origin(get_args(hint)[0]) is Literal:
+        words = get_args(get_args(hint)[0])
+        return Attribute(field=field, name=name, kind="choices", choices=words, default=default)
+    return None
+
+
+def _child(field: str, name: str, hint: Any, default: Any) -> Child:
+    hint = _without_none(hint)
+    many = get_origin(hint) is tuple
+    inner = get_args(hint)[0] if many else hint
+    union = get_origin(inner) in (Union, UnionType)
+    options: tuple[type, ...] = get_args(inner) if union else (inner,)
+    kind: ChildKind = "many" if many else "one" if union else "inline"
+    return Child(field=field, name=name, kind=kind, options=options, default=default)
+
+
+def all_shapes() -> dict[type, Shape]:
+    """The shape of every class that can stand in a Task, the Task first."""
+    found: dict[type, Shape] = {}
+
+    def visit(cls: type) -> None:
+        if cls not in found:
+            found[cls] = shape_of(cls)
+            for child in found[cls].children:
+                for option in child.options:
+                    visit(option)
+
+    visit(Task)
+    return found

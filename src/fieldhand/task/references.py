@@ -1,0 +1,154 @@
+"""What no schema can check: that the parts of a Task refer to each other rightly."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+from fieldhand.task import conditions, selectors
+from fieldhand.task.capabilities import Capabilities
+from fieldhand.task.conditions import Between, Compare, Condition, Level
+from fieldhand.task.frames import Task
+from fieldhand.task.plan import (
+    Act,
+    AnyOrder,
+    ForEach,
+    If,
+    Node,
+    Repeat,
+    Sequence,
+    Try,
+    condition_of,
+    selector_of,
+    walk,
+)
+from fieldhand.task.selectors import Bound
+
+
+def references(task: Task, capabilities: Capabilities | None = None) -> tuple[str, ...]:
+    """What is wrong with the references inside a Task, a sentence each with the node's id; empty if nothing is.
+
+    Ids are unique; goals and state variables name actions of the plan; a place is bound before it is named; a reading
+    is taken before it is tested, by a node that can come first on some branch. With capabilities: each of those
+    readings measures the quantity that is tested.
+    """
+    nodes = {node.id: node for node in walk(task.composition.plan)}
+    problems = [*_ids(task), *_frames(task, nodes)]
+    _visit(task.composition.plan, _Known(), _Found(problems=problems, capabilities=capabilities))
+    return tuple(problems)
+
+
+def _ids(task: Task) -> Iterator[str]:
+    counts = Counter(node.id for node in walk(task.composition.plan))
+    for name, count in counts.items():
+        if not name:
+            yield f"{count} nodes of the plan have no id"
+        elif count > 1:
+            yield f"{count} nodes of the plan have the id {name!r}"
+    for name, count in Counter(goal.id for goal in task.command.goals).items():
+        if count > 1:
+            yield f"{count} goals have the id {name!r}"
+
+
+def _frames(task: Task, nodes: Mapping[str, Node]) -> Iterator[str]:
+    for goal in task.command.goals:
+        node = nodes.get(goal.node)
+        if not isinstance(node, Act):
+            yield f"goal {goal.id!r} names {goal.node!r}, which is no action of the plan"
+        elif node.action != goal.action:
+            yield f"goal {goal.id!r} counts {goal.action!r}, but its node {goal.node!r} does {node.action!r}"
+    for variable in task.command.variables:
+        node = nodes.get(variable.node)
+        if not isinstance(node, Act):
+            yield f"state variable {variable.name!r} names {variable.node!r}, which is no action of the plan"
+        elif node.reading != variable.name:
+            yield f"state variable {variable.name!r} is not the reading that {variable.node!r} binds"
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Known:
+    """What may be bound when a node is reached: labels, and for each reading the actions that may have taken it."""
+
+    labels: frozenset[str] = frozenset()
+    readings: Mapping[str, frozenset[str]] = field(default_factory=dict)
+
+    def label(self, name: str) -> _Known:
+        return _Known(labels=self.labels | {name}, readings=self.readings) if name else self
+
+    def reading(self, name: str, action: str) -> _Known:
+        """A reading taken anew replaces what was bound before."""
+        return _Known(labels=self.labels, readings={**self.readings, name: frozenset({action})}) if name else self
+
+    def __or__(self, other: _Known) -> _Known:
+        names = self.readings.keys() | other.readings.keys()
+        none: frozenset[str] = frozenset()
+        merged = {n: self.readings.get(n, none) | other.readings.get(n, none) for n in names}
+        return _Known(labels=self.labels | other.labels, readings=merged)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Found:
+    problems: list[str]
+    capabilities: Capabilities | None
+
+    def add(self, problem: str) -> None:
+        """Add a problem, once."""
+        if problem not in self.problems:
+            self.problems.append(problem)
+
+
+def _visit(node: Node, known: _Known, found: _Found) -> _Known:
+    """Check a node given what may be bound before it; returns what may be bound after it."""
+    _check_places(node, known, found)
+    match node:
+        case Sequence(steps=steps):
+            for step in steps:
+                known = _visit(step, known, found)
+            return known
+        case AnyOrder(steps=steps):
+            # Any of the steps may be the first, so none may count on another.
+            for after in [_visit(step, known, found) for step in steps]:
+                known = known | after
+            return known
+        case ForEach() | Repeat():
+            inside = known.label(node.label) if isinstance(node, ForEach) else known
+            after = _visit(node.body, inside, found)
+            _check_condition(node, after, found)
+            return known | after
+        case If():
+            _check_condition(node, known, found)
+            other = known if node.otherwise is None else _visit(node.otherwise, known, found)
+            return _visit(node.then, known, found) | other
+        case Try():
+            body = _visit(node.body, known, found)
+            return body | _visit(node.otherwise, known | body, found)
+        case Act():
+            return known.label(node.label).reading(node.reading, node.action)
+        case _:
+            return known.label(getattr(node, "label", ""))
+
+
+def _check_places(node: Node, known: _Known, found: _Found) -> None:
+    selector = selector_of(node)
+    for part in selectors.walk(selector) if selector is not None else ():
+        if isinstance(part, Bound) and part.label not in known.labels:
+            found.add(f"node {node.id!r} names the place {part.label!r}, which nothing before it binds")
+
+
+def _check_condition(node: Node, known: _Known, found: _Found) -> None:
+    condition: Condition | None = condition_of(node)
+    for part in conditions.walk(condition) if condition is not None else ():
+        if not isinstance(part, Compare | Between | Level):
+            continue
+        actions = known.readings.get(part.reading)
+        if actions is None:
+            found.add(f"node {node.id!r} tests the reading {part.reading!r}, which nothing before it takes")
+            continue
+        for action in sorted(actions) if found.capabilities else ():
+            able = found.capabilities.actions.get(action) if found.capabilities else None
+            if able is None or part.quantity not in able.measures:
+                found.add(
+                    f"node {node.id!r} tests the {part.quantity} of the reading {part.reading!r}, "
+                    f"but {action} does not measure it"
+                )

@@ -1,0 +1,116 @@
+"""The schema of Task documents for one robot: XSD 1.0, generated from what the robot can do.
+
+An action, a measured quantity, a level word or a parameter that the robot lacks, a unit that is not the quantity's and
+a parameter out of its bounds are not valid. XSD 1.0 cannot let one attribute depend on another, so each action and each
+quantity is an element of its own, with its own attributes. All else is derived from :mod:`.codec_shapes`, so schema and
+codec cannot drift apart. What no schema can say (a reading is tested before it is taken) stands in :mod:`.references`.
+"""
+
+from __future__ import annotations
+
+import re
+
+from fieldhand.errors import TaskError
+from fieldhand.task.capabilities import Capabilities
+from fieldhand.task.codec_shapes import Attribute, Shape, element_name
+from fieldhand.task.codec_xml import parse_xml
+from fieldhand.task.schema_build import SchemaBuilder
+from fieldhand.task.schema_messages import SchemaProblem, Vocabulary, explain
+
+__all__ = ["SchemaProblem", "require_valid", "schema_xsd", "validate", "vocabulary"]
+
+
+def schema_xsd(capabilities: Capabilities, *, draft: bool = False) -> bytes:
+    """The schema of the Task documents that a robot can carry out, as a UTF-8 XSD 1.0 document.
+
+    Args:
+        capabilities: What the robot can do.
+        draft: The form that a language model writes: whatever ``task.build.make_task`` derives (ids, request, goals,
+            state, resources) may be left out.
+    """
+    from lxml import etree
+
+    return etree.tostring(
+        SchemaBuilder(capabilities=capabilities, draft=draft).root(),
+        xml_declaration=True,
+        encoding="UTF-8",
+        pretty_print=True,
+    )
+
+
+def validate(document: bytes, capabilities: Capabilities, *, draft: bool = False) -> tuple[SchemaProblem, ...]:
+    """What is wrong with a document by the schema of a robot, in the order of its lines; empty if it is valid.
+
+    A document that is not well-formed, or that is refused before it is read (entities, size), has that one problem.
+    """
+    from lxml import etree
+
+    try:
+        root = parse_xml(document)
+    except TaskError as error:
+        line = re.search(r"line (\d+)", error.where)
+        message = f"{error.what}; {error.advice}" if error.advice else error.what
+        return (SchemaProblem(line=int(line[1]) if line else 1, element="", message=message),)
+    schema = etree.XMLSchema(SchemaBuilder(capabilities=capabilities, draft=draft).root())
+    if schema.validate(root):
+        return ()
+    return explain(root, schema.error_log, vocabulary(capabilities, draft=draft))
+
+
+def require_valid(document: bytes, capabilities: Capabilities, *, source: str = "", draft: bool = False) -> None:
+    """Raise what is wrong with a document as one error; return if it is valid.
+
+    Args:
+        document: The bytes of a Task document.
+        capabilities: What the robot can do.
+        source: What to call the document in the message.
+        draft: The document is a draft.
+
+    Raises:
+        TaskError: It is not valid; the first five problems with line and element, and how many more there are.
+    """
+    problems = validate(document, capabilities, draft=draft)
+    if problems:
+        said = "; ".join(str(problem) for problem in problems[:5])
+        more = f"; and {len(problems) - 5} more" if len(problems) > 5 else ""
+        advice = "correct the document, or plan the request again for this robot"
+        raise TaskError(f"is not valid for this robot: {said}{more}", where=source, advice=advice)
+
+
+def vocabulary(capabilities: Capabilities, *, draft: bool = False) -> Vocabulary:
+    """Which elements and attributes may stand in which element, for messages."""
+    schema = SchemaBuilder(capabilities=capabilities, draft=draft)
+    made = Vocabulary()
+    for shape in schema.shapes:
+        inside = made.children.setdefault(shape.element, [])
+        made.attributes["", shape.element] = [name for a in shape.attributes for name in _names(a)]
+        plain = (*shape.attributes, *(shape.head.attributes if shape.head else ()))
+        made.kinds.update({a.name: a.kind for a in plain if a.kind != "value"})  # any text is such a value
+        for head in schema.heads(shape):
+            inside.append(head)
+            made.attributes[shape.element, head] = _head_attributes(shape, head, capabilities)
+        for child in shape.children:
+            options = [element_name(o) for o in schema.usable(child.options)]
+            if child.kind == "texts":
+                options = [child.name.removesuffix("s")]
+            if child.direct:
+                inside.extend(options)
+                continue
+            inside.append(child.name)
+            if schema.required(shape.cls, child.field, child.default):
+                made.required.setdefault(shape.element, []).append(child.name)
+            if child.kind != "inline":
+                known = made.children.setdefault(child.name, [])
+                known.extend(o for o in options if o not in known)
+    return made
+
+
+def _head_attributes(shape: Shape, head: str, capabilities: Capabilities) -> list[str]:
+    """The attributes of the element of an action or a quantity."""
+    if shape.head is None or shape.head.of == "action":
+        return list(capabilities.actions[head].parameters)
+    return [a.name for a in shape.head.attributes]
+
+
+def _names(attribute: Attribute) -> tuple[str, ...]:
+    return (attribute.name, f"{attribute.name}-as") if attribute.kind == "value" else (attribute.name,)

@@ -1,0 +1,239 @@
+"""Build the schema of Task documents from the shapes of the dataclasses and what one robot can do."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterable
+from dataclasses import MISSING, dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, get_args
+
+from fieldhand.task.capabilities import Capabilities, ChoiceParameter, NumberParameter
+from fieldhand.task.codec_shapes import (
+    DRAFT_DEFAULTS,
+    FAMILIES,
+    NAMESPACE,
+    Attribute,
+    Child,
+    Shape,
+    all_shapes,
+    element_name,
+    shape_of,
+)
+from fieldhand.task.codec_text import INTEGER, NUMBER, SPANS, number_text
+from fieldhand.task.plan import Node
+
+if TYPE_CHECKING:
+    from lxml.etree import _Element
+
+_XS = "http://www.w3.org/2001/XMLSchema"
+
+#: What the type of a field does not say of its value: XSD facets by field name, in whatever class it stands.
+_FACETS: dict[str, dict[str, str]] = {
+    "count": {"minInclusive": "1"},
+    "times": {"minInclusive": "1"},
+    "at_most": {"minInclusive": "1"},
+    "expected": {"minInclusive": "0"},
+    "distance_m": {"minInclusive": "0"},
+    "limit": {"minExclusive": "0"},
+    "failure_probability": {"minExclusive": "0", "maxExclusive": "1"},
+    "reserve_percent": {"minInclusive": "0", "maxExclusive": "100"},
+    "speed_m_s": {"minExclusive": "0"},
+}
+
+
+def _xs(parent: _Element, tag: str, **attributes: str) -> _Element:
+    from lxml import etree
+
+    return etree.SubElement(parent, f"{{{_XS}}}{tag}", attributes)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SchemaBuilder:
+    """Builds one schema."""
+
+    capabilities: Capabilities
+    draft: bool
+
+    @cached_property
+    def shapes(self) -> tuple[Shape, ...]:
+        """Every class that this robot has a use for: one that tests a level needs a quantity that has one."""
+        return tuple(s for s in all_shapes().values() if s.head is None or self.heads(s))
+
+    def usable(self, options: Iterable[type]) -> list[type]:
+        """Those of some classes that this robot has a use for."""
+        known = {s.cls for s in self.shapes}
+        return [o for o in options if shape_of(o).cls in known]
+
+    def heads(self, shape: Shape) -> list[str]:
+        """The actions or quantities that may stand in an element."""
+        if shape.head is None:
+            return []
+        if shape.head.of == "action":
+            return list(self.capabilities.actions)
+        needs_level = any(a.field == "level" for a in shape.head.attributes)
+        return [name for name, q in self.capabilities.quantities.items() if q.levels or not needs_level]
+
+    def root(self) -> _Element:
+        """The whole schema."""
+        from lxml import etree
+
+        nsmap = {"xs": _XS, "f": NAMESPACE}
+        schema = etree.Element(
+            f"{{{_XS}}}schema", nsmap=nsmap, targetNamespace=NAMESPACE, elementFormDefault="qualified"
+        )
+        self.task_element(schema)
+        for options, family in FAMILIES.items():
+            group = _xs(_xs(schema, "group", name=family), "choice")
+            for option in self.usable(options):
+                _xs(group, "element", name=element_name(option), type=f"f:{option.__name__}")
+        for shape in self.shapes:
+            self.complex_type(schema, shape)
+        self.simple_types(schema)
+        return schema
+
+    def task_element(self, schema: _Element) -> None:
+        """The root element: ids are unique, and goals and state variables name nodes that there are."""
+        task = _xs(schema, "element", name="task", type="f:Task")
+        nodes = "|".join(f".//f:{element_name(n)}" for n in self.usable(get_args(Node)))
+        for name, selector in (("node-id", nodes), ("goal-id", ".//f:goal")):
+            kind = "key" if name == "node-id" and not self.draft else "unique"
+            unique = _xs(task, kind, name=name)
+            _xs(unique, "selector", xpath=selector)
+            _xs(unique, "field", xpath="@id")
+        for name in () if self.draft else ("goal", "variable"):
+            keyref = _xs(task, "keyref", name=f"{name}-node", refer="f:node-id")
+            _xs(keyref, "selector", xpath=f".//f:{name}")
+            _xs(keyref, "field", xpath="@node")
+
+    def complex_type(self, schema: _Element, shape: Shape) -> None:
+        """The type of the element of one class."""
+        made = _xs(schema, "complexType", name=shape.cls.__name__)
+        documented = _xs(_xs(made, "annotation"), "documentation")
+        documented.text = " ".join((inspect.getdoc(shape.cls) or "").replace("``", "'").split())
+        if shape.head:
+            self.head_content(made, shape)
+        elif shape.children and shape.children[0].direct:
+            self.parts(made, shape.children[0])
+        elif shape.children:
+            content = _xs(made, "all")
+            for child in shape.children:
+                self.child(content, shape, child)
+        for attribute in shape.attributes:
+            self.attribute(made, shape.cls, attribute)
+
+    def head_content(self, made: _Element, shape: Shape) -> None:
+        """One action or quantity; what stands beside it (``at``) may come before or after."""
+        if not shape.children:
+            self.head_choice(made, shape)
+            return
+        either = _xs(made, "choice")
+        after = _xs(either, "sequence")
+        self.head_choice(after, shape)
+        before = _xs(either, "sequence")
+        for child in shape.children:
+            self.child(after, shape, child)
+            self.child(before, shape, child, required=True)
+        self.head_choice(before, shape)
+
+    def head_choice(self, parent: _Element, shape: Shape) -> None:
+        """An element for each action or quantity, with what belongs to it."""
+        choice = _xs(parent, "choice")
+        for name in self.heads(shape):
+            made = _xs(_xs(choice, "element", name=name), "complexType")
+            if shape.head and shape.head.of == "quantity":
+                quantity = self.capabilities.quantities[name]
+                for attribute in shape.head.attributes:
+                    words = {"unit": (quantity.unit,), "level": quantity.levels}.get(attribute.field)
+                    self.attribute(made, shape.cls, attribute, words=words)
+                continue
+            for key, parameter in self.capabilities.actions[name].parameters.items():
+                _parameter(_xs(made, "attribute", name=key), parameter)
+
+    def child(self, content: _Element, shape: Shape, child: Child, *, required: bool = False) -> None:
+        """The element of a field that holds other parts."""
+        must = required or self.required(shape.cls, child.field, child.default)
+        least = {} if must else {"minOccurs": "0"}
+        if child.kind == "text":
+            _xs(content, "element", name=child.name, type="xs:string", **least)
+        elif child.kind == "inline":
+            option = shape_of(child.options[0]).cls
+            _xs(content, "element", name=child.name, type=f"f:{option.__name__}", **least)
+        else:
+            made = _xs(_xs(content, "element", name=child.name, **least), "complexType")
+            self.parts(made, child)
+
+    def parts(self, made: _Element, child: Child) -> None:
+        """What may stand inside an element that holds one part or several."""
+        must = child.default is MISSING or (child.kind == "one" and not child.direct)
+        occurs = {
+            "minOccurs": "1" if must else "0",
+            "maxOccurs": "unbounded" if child.kind in ("many", "texts") else "1",
+        }
+        inside = _xs(made, "sequence")
+        if child.kind == "texts":
+            _xs(inside, "element", name=child.name.removesuffix("s"), type="xs:string", **occurs)
+        elif child.options in FAMILIES:
+            _xs(inside, "group", ref=f"f:{FAMILIES[child.options]}", **occurs)
+        else:
+            for option in self.usable(child.options):
+                _xs(inside, "element", name=element_name(option), type=f"f:{option.__name__}", **occurs)
+
+    def required(self, cls: type, field: str, default: object) -> bool:
+        """Whether a field must stand."""
+        derived = self.draft and (field in DRAFT_DEFAULTS or (cls, field) in DRAFT_DEFAULTS)
+        return default is MISSING and not derived
+
+    def attribute(
+        self, made: _Element, cls: type, attribute: Attribute, *, words: tuple[str, ...] | None = None
+    ) -> None:
+        """The attribute of a plain field."""
+        use = {"use": "required"} if self.required(cls, attribute.field, attribute.default) else {}
+        words = words or attribute.choices
+        if attribute.field == "action":
+            words = tuple(self.capabilities.actions)
+        facets = _FACETS.get(attribute.field, {})
+        if words and attribute.kind != "choices":
+            _enumeration(_xs(made, "attribute", name=attribute.name, **use), words)
+        elif attribute.kind == "choices":
+            several = _xs(_xs(made, "attribute", name=attribute.name, **use), "simpleType")
+            _enumeration(_xs(several, "list"), words)
+        elif facets:
+            simple = _xs(_xs(made, "attribute", name=attribute.name, **use), "simpleType")
+            restriction = _xs(simple, "restriction", base=f"f:{attribute.kind}")
+            for facet, bound in facets.items():
+                _xs(restriction, facet, value=bound)
+        else:
+            base = "xs:boolean" if attribute.kind == "flag" else f"f:{attribute.kind}"
+            _xs(made, "attribute", name=attribute.name, type=base, **use)
+        if attribute.kind == "value":
+            _enumeration(_xs(made, "attribute", name=f"{attribute.name}-as"), ("text",))
+
+    def simple_types(self, schema: _Element) -> None:
+        """The types of plain values. Numbers are finite: XSD's own would let INF and NaN in."""
+        for name, base, facets in (
+            ("text", "xs:string", {"minLength": "1"}),
+            ("value", "xs:string", {}),
+            ("integer", "xs:integer", {"pattern": INTEGER}),
+            ("number", "xs:double", {"pattern": NUMBER}),
+            ("spans", "xs:token", {"pattern": SPANS}),
+        ):
+            restriction = _xs(_xs(schema, "simpleType", name=name), "restriction", base=base)
+            for facet, value in facets.items():
+                _xs(restriction, facet, value=value)
+
+
+def _enumeration(attribute: _Element, words: Iterable[str]) -> None:
+    restriction = _xs(_xs(attribute, "simpleType"), "restriction", base="xs:token")
+    for word in words:
+        _xs(restriction, "enumeration", value=word)
+
+
+def _parameter(attribute: _Element, parameter: NumberParameter | ChoiceParameter) -> None:
+    if isinstance(parameter, ChoiceParameter):
+        _enumeration(attribute, parameter.choices)
+        return
+    restriction = _xs(_xs(attribute, "simpleType"), "restriction", base="f:number")
+    for facet, bound in (("minInclusive", parameter.minimum), ("maxInclusive", parameter.maximum)):
+        if bound is not None:
+            _xs(restriction, facet, value=number_text(bound))

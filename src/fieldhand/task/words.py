@@ -1,0 +1,146 @@
+"""How the nouns of a Task are said in English: numbers, units, lists, sides, actions. No grammar of selectors here.
+
+Shared by whatever speaks to a person (read-back, map, report), so that one thing has one name everywhere.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+
+from fieldhand.task.selectors import CornerName, Side, Test
+
+SIDES: dict[Side, str] = {"north": "northern", "east": "eastern", "south": "southern", "west": "western"}
+CORNERS: dict[CornerName, str] = {"nw": "north-west", "ne": "north-east", "se": "south-east", "sw": "south-west"}
+TESTS: dict[Test, str] = {
+    "lt": "below",
+    "le": "at most",
+    "gt": "above",
+    "ge": "at least",
+    "eq": "exactly",
+    "ne": "other than",
+}
+UNITS = {
+    "degC": "°C",
+    "degF": "°F",
+    "percent": "%",
+    "m_s": "m/s",
+    "deg": "°",
+    "umol_m2_s": "µmol/(m²·s)",
+    "unitless": "",
+}
+
+_MINUS = "\N{MINUS SIGN}"
+_ACRONYMS = {"co2": "CO₂", "ndvi": "NDVI", "ph": "pH", "ec": "EC", "rgb": "RGB", "par": "PAR", "lidar": "LiDAR"}
+_IRREGULAR = {"leaf": "leaves", "fruit": "fruit", "co₂": "CO₂", "datum": "data"}
+#: Verbs whose object is something that is there to be read, not a thing that is made: "read the soil moisture".
+_READING_VERBS = frozenset({"read", "measure", "record", "sense", "monitor", "inspect", "check"})
+
+
+def say_name(name: str) -> str:
+    """A name with underscores as words: ``ambient_temperature`` is "ambient temperature", ``co2`` is "CO₂"."""
+    return " ".join(_ACRONYMS.get(part.lower(), part) for part in re.split(r"[_\s]+", name) if part)
+
+
+def say_number(value: float, digits: int = 6) -> str:
+    """A number without needless digits: 33.0 is "33", 0.5 is "0.5"."""
+    if not math.isfinite(value):
+        return "an unknown number"
+    text = f"{value:.{digits}g}"
+    if "e" in text:
+        text = f"{value:,.0f}" if abs(value) >= 1 else f"{value:.{digits}f}".rstrip("0").rstrip(".")
+    return text.replace("-", _MINUS)
+
+
+def say_quantity(value: float, unit: str) -> str:
+    """A value with its unit: "33 °C", "40 %", "400 ppm"."""
+    pretty = UNITS.get(unit, unit.replace("_", " "))
+    return f"{say_number(value)} {pretty}".rstrip()
+
+
+def say_unit(unit: str) -> str:
+    """A unit as it is printed: ``degC`` is "°C"."""
+    return UNITS.get(unit, unit.replace("_", " "))
+
+
+def say_value(value: str | float | bool) -> str:
+    """An attribute's value: "yellow", "12.5", "yes"."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return value if isinstance(value, str) else say_number(value)
+
+
+def say_duration(seconds: float) -> str:
+    """A duration as people say it: "45 s", "12 min", "1 h 05 min"."""
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    minutes = round(seconds / 60)
+    return f"{minutes} min" if minutes < 100 else f"{minutes // 60} h {minutes % 60:02d} min"
+
+
+def say_times(count: int) -> str:
+    """How often: "once", "twice", "5 times"."""
+    return {1: "once", 2: "twice"}.get(count, f"{count} times")
+
+
+def say_count(count: int, noun: str) -> str:
+    """A count with its noun: "1 tree", "4 trees"."""
+    return f"{count} {noun if count == 1 else plural(noun)}"
+
+
+def plural(noun: str) -> str:
+    """The plural of a noun phrase whose head is its last word."""
+    head, space, last = noun.rpartition(" ")
+    irregular = _IRREGULAR.get(last.lower())
+    if irregular is not None:
+        many = irregular
+    elif re.search(r"(s|x|z|ch|sh)$", last):
+        many = f"{last}es"
+    elif re.search(r"[^aeiou]y$", last):
+        many = f"{last[:-1]}ies"
+    else:
+        many = f"{last}s"
+    return f"{head}{space}{many}"
+
+
+def article(noun: str) -> str:
+    """The noun with "a" or "an"."""
+    first = noun.split(" ", 1)[0]
+    # An acronym is spelt out when read, so the sound of its first letter decides ("an RGB picture").
+    spelt = len(first) > 1 and first.isupper()
+    vowel = first[:1] in "AEFHILMNORSX" if spelt else first[:1].lower() in set("aeiou")
+    return f"{'an' if vowel else 'a'} {noun}"
+
+
+def listed(items: Sequence[str], last: str = "and") -> str:
+    """A list in words: "81, 12 and 5"."""
+    if len(items) < 2:
+        return "".join(items)
+    return f"{', '.join(items[:-1])} {last} {items[-1]}"
+
+
+def say_action(name: str, count: int = 1) -> str:
+    """An action as a verb phrase: "take a thermal picture", "read the soil moisture twice", "sample 2 leaves"."""
+    verb, _, rest = name.strip("_").partition("_")
+    thing = say_name(rest)
+    if not thing:
+        return say_name(verb) if count == 1 else f"{say_name(verb)} {say_times(count)}"
+    if verb in _READING_VERBS:
+        bare = thing if thing in _ACRONYMS.values() else f"the {thing}"
+        return f"{verb} {bare}" if count == 1 else f"{verb} {bare} {say_times(count)}"
+    return f"{verb} {article(thing)}" if count == 1 else f"{verb} {count} {plural(thing)}"
+
+
+def say_captures(name: str, count: int) -> str:
+    """What an action yields, counted: "3 thermal pictures", "1 reading of CO₂"."""
+    verb, _, rest = name.strip("_").partition("_")
+    thing = say_name(rest) or say_name(verb)
+    if verb in _READING_VERBS:
+        return f"{count} {thing} {'reading' if count == 1 else 'readings'}"
+    return f"{count} {thing if count == 1 else plural(thing)}"
+
+
+def capitalised(text: str) -> str:
+    """The text with its first letter in upper case, the rest as it is."""
+    return text[:1].upper() + text[1:]

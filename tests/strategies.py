@@ -1,0 +1,212 @@
+"""Hypothesis strategies for Tasks and their parts, derived from the dataclasses: a new selector needs no edit.
+
+Names of places and readings come from a small pool, so they often meet; that a reading is taken before it is tested is
+not promised. Numbers are finite; text holds whatever XML can hold.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import MISSING, dataclass, field, fields
+from functools import cached_property
+from types import NoneType, UnionType
+from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
+
+from hypothesis import strategies as st
+
+from fieldhand.task.build import make_task
+from fieldhand.task.capabilities import (
+    ActionCapability,
+    Capabilities,
+    ChoiceParameter,
+    NumberParameter,
+    QuantityCapability,
+)
+from fieldhand.task.conditions import Between, Compare, Condition, Level
+from fieldhand.task.frames import Budget, Constraints, FaultedExit, Resource, Task
+from fieldhand.task.plan import Act, Node
+from fieldhand.task.selectors import Selector, Value
+
+#: A robot with every kind of parameter, an action that measures two quantities and a quantity without level words.
+ROVER = Capabilities(
+    actions={
+        "take_picture": ActionCapability(parameters={"view": ChoiceParameter(choices=("canopy", "trunk"))}),
+        "probe_soil": ActionCapability(
+            measures=("soil_moisture", "soil_ph"),
+            parameters={"depth_cm": NumberParameter(minimum=5, maximum=60, unit="cm"), "gain": NumberParameter()},
+        ),
+        "read_co2": ActionCapability(measures=("co2",)),
+    },
+    quantities={
+        "soil_moisture": QuantityCapability(unit="percent", levels=("low", "very high")),
+        "soil_ph": QuantityCapability(unit="pH"),
+        "co2": QuantityCapability(unit="ppm", levels=("low",)),
+    },
+)
+
+texts = st.text(
+    st.one_of(
+        st.sampled_from("\t\n\r <>&\"'é樹🌳\x85\u2028"),
+        st.characters(exclude_categories=("Cs", "Cc"), exclude_characters="\ufffe\uffff"),
+    ),
+    max_size=30,
+)
+names = st.sampled_from(("a", "b", "first tree", "r1"))
+numbers = st.floats(allow_nan=False, allow_infinity=False)
+values = st.one_of(texts.filter(bool), numbers, st.booleans(), st.sampled_from(("10", "true", "1e3", " 7", ".5", "-")))
+
+_BY_FIELD: dict[str, st.SearchStrategy[Any]] = {
+    "id": names,
+    "label": names,
+    "reading": names,
+    "count": st.integers(1, 50),
+    "times": st.integers(1, 50),
+    "at_most": st.integers(1, 50),
+    "expected": st.integers(0, 500),
+    "distance_m": st.floats(0, 1e6),
+    "limit": st.floats(0, 1e6, exclude_min=True),
+    "failure_probability": st.floats(0, 1, exclude_min=True, exclude_max=True),
+    "reserve_percent": st.floats(0, 100, exclude_max=True),
+    "speed_m_s": st.floats(0, 10, exclude_min=True),
+    "said": st.lists(st.tuples(st.integers(0, 999), st.integers(0, 999)), max_size=2).map(tuple),
+}
+
+
+@dataclass(frozen=True)
+class Parts:
+    """Strategies for the parts of Tasks that a robot can carry out, nested at most ``depth`` deep."""
+
+    capabilities: Capabilities
+    depth: int = 3
+    _made: dict[Any, st.SearchStrategy[Any]] = field(default_factory=dict, compare=False)
+
+    @cached_property
+    def selectors(self) -> st.SearchStrategy[Any]:
+        return self.one_of(get_args(Selector), self.depth)
+
+    @cached_property
+    def conditions(self) -> st.SearchStrategy[Any]:
+        return self.one_of(get_args(Condition), self.depth)
+
+    @cached_property
+    def plans(self) -> st.SearchStrategy[Any]:
+        return self.one_of(get_args(Node), self.depth)
+
+    def one_of(self, options: tuple[type, ...], depth: int) -> st.SearchStrategy[Any]:
+        """Any of some classes; at depth 0 those that need nothing inside."""
+        usable = [o for o in options if depth > 0 or not _needs_parts(o)]
+        return st.one_of(*(st.deferred(lambda o=o: self.instance(o, depth)) for o in usable))
+
+    def instance(self, cls: type, depth: int = 1) -> st.SearchStrategy[Any]:
+        """Instances of one class with parts at most ``depth`` deep."""
+        if (cls, depth) not in self._made:
+            hints = get_type_hints(cls)
+            drawn = {}
+            for one in fields(cls):
+                if depth == 0 and one.default is not MISSING and _holds_parts(hints[one.name]):
+                    continue
+                strategy = self.of_hint(one.name, hints[one.name], depth)
+                drawn[one.name] = strategy if one.default is MISSING else st.one_of(st.just(one.default), strategy)
+            made = st.builds(cls, **(drawn | {k: st.just("") for k in drawn if k in ("quantity", "unit", "level")}))
+            self._made[cls, depth] = self.fitted(cls, made)
+        return self._made[cls, depth]
+
+    def of_hint(self, name: str, hint: Any, depth: int) -> st.SearchStrategy[Any]:
+        """Values of a field."""
+        if get_origin(hint) in (Union, UnionType) and NoneType in get_args(hint):
+            rest = Union[tuple(a for a in get_args(hint) if a is not NoneType)]  # noqa: UP007
+            return st.one_of(st.none(), self.of_hint(name, rest, depth))
+        if name in _BY_FIELD:
+            return _BY_FIELD[name]
+        if hint == Value:
+            return values
+        if name == "parameters":
+            return st.just(())
+        if get_origin(hint) is tuple:
+            inner = get_args(hint)[0]
+            least = 0 if get_origin(inner) is Literal else 1
+            return st.lists(self.of_hint("", inner, depth), min_size=least, max_size=3).map(tuple)
+        if get_origin(hint) is Literal:
+            return st.sampled_from(get_args(hint))
+        if get_origin(hint) in (Union, UnionType):
+            return self.one_of(get_args(hint), depth - 1)
+        if isinstance(hint, type) and hasattr(hint, "__dataclass_fields__"):
+            return self.instance(hint, depth)
+        plain = {str: texts.filter(bool), float: numbers, int: st.integers(-1000, 1000), bool: st.booleans()}
+        return plain[hint]
+
+    def fitted(self, cls: type, made: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
+        """Instances whose action or quantity is one of the robot's, with what belongs to it."""
+        if cls is Act:
+            return st.builds(_with_action, made, self.actions())
+        if cls in (Compare, Between, Level):
+            able = {n: q for n, q in self.capabilities.quantities.items() if q.levels or cls is not Level}
+            return st.builds(_with_quantity, made, st.sampled_from(sorted(able)), st.just(able), st.integers(0, 9))
+        return made
+
+    def actions(self) -> st.SearchStrategy[tuple[str, tuple[tuple[str, str | float], ...]]]:
+        """An action with some of its parameters."""
+
+        def parameters(name: str) -> st.SearchStrategy[Any]:
+            specs = self.capabilities.actions[name].parameters
+            each = {key: _parameter(spec) for key, spec in specs.items()}
+            drawn = st.fixed_dictionaries({}, optional=each)
+            return st.tuples(st.just(name), drawn.map(lambda d: tuple(d.items())))
+
+        return st.sampled_from(sorted(self.capabilities.actions)).flatmap(parameters)
+
+    def tasks(self) -> st.SearchStrategy[Task]:
+        """Whole Tasks as ``make_task`` makes them: numbered, with goals and state variables."""
+        quantities = self.capabilities.quantities
+        measures = {
+            name: tuple((q, quantities[q].unit) for q in action.measures)
+            for name, action in self.capabilities.actions.items()
+        }
+        return st.builds(
+            make_task,
+            request=texts,
+            plan=self.plans,
+            measures=st.just(measures),
+            resources=st.lists(self.instance(Resource), max_size=2).map(tuple),
+            constraints=st.builds(
+                Constraints,
+                budgets=st.lists(self.instance(Budget), max_size=2).map(tuple),
+                reserve_percent=st.none() | _BY_FIELD["reserve_percent"],
+                speed_m_s=st.none() | _BY_FIELD["speed_m_s"],
+            ),
+            nominal=st.sampled_from(("return_to_end", "return_to_start", "stay")),
+            faulted=st.lists(self.instance(FaultedExit), max_size=3).map(tuple),
+            assumptions=st.lists(texts, max_size=2).map(tuple),
+        )
+
+
+def _with_action(act: Act, chosen: tuple[str, tuple[tuple[str, str | float], ...]]) -> Act:
+    return _changed(act, action=chosen[0], parameters=chosen[1])
+
+
+def _with_quantity(part: Any, name: str, able: Mapping[str, QuantityCapability], pick: int) -> Any:
+    quantity = able[name]
+    if isinstance(part, Level):
+        return _changed(part, quantity=name, level=quantity.levels[pick % len(quantity.levels)])
+    return _changed(part, quantity=name, unit=quantity.unit)
+
+
+def _changed(part: Any, **changes: Any) -> Any:
+    return type(part)(**({f.name: getattr(part, f.name) for f in fields(part)} | changes))
+
+
+def _parameter(spec: NumberParameter | ChoiceParameter) -> st.SearchStrategy[str | float]:
+    if isinstance(spec, ChoiceParameter):
+        return st.sampled_from(spec.choices)
+    return st.floats(spec.minimum, spec.maximum, allow_nan=False, allow_infinity=False)
+
+
+def _holds_parts(hint: Any) -> bool:
+    if isinstance(hint, type):
+        return hasattr(hint, "__dataclass_fields__")
+    return any(_holds_parts(a) for a in get_args(hint) if a is not NoneType and get_origin(hint) is not Literal)
+
+
+def _needs_parts(cls: type) -> bool:
+    hints = get_type_hints(cls)
+    return any(f.default is MISSING and _holds_parts(hints[f.name]) for f in fields(cls))
