@@ -1,0 +1,85 @@
+"""The default planner: the built-in English one where it understands every word, else a language model.
+
+The built-in planner comes first because it costs nothing, needs no network and answers the same way every time. It
+drops no word in silence, so its plan is about the whole request; a model is asked only where it says that it did not
+understand.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fieldhand.errors import ModelError
+from fieldhand.planning.llm.settings import HOW_TO_CONFIGURE
+from fieldhand.planning.planner import Clarify, Outcome, Planned, Planner, Reason, Refused
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+
+
+class AutoPlanner:
+    """English if it accounts for every word, else the model if there is one, else what was not understood.
+
+    Args:
+        english: Plans without a model.
+        llm: Plans with one; None where no model is configured.
+    """
+
+    def __init__(self, english: Planner, llm: Planner | None) -> None:
+        self._english = english
+        self._llm = llm
+
+    def plan(self, request: str, site: Site, robot: RobotProfile) -> Outcome:
+        understood = self._english.plan(request, site, robot)
+        match understood:
+            case Planned():
+                return _warn(
+                    understood, f"Planned by '{understood.planner}': it accounts for every word of the request."
+                )
+            case Clarify():
+                return understood
+            case Refused():
+                if self._llm is None:
+                    return _advise(understood)
+                return self._ask_model(self._llm, understood, request, site, robot)
+
+    def _ask_model(self, llm: Planner, refused: Refused, request: str, site: Site, robot: RobotProfile) -> Outcome:
+        why = _summary(refused)
+        try:
+            answered = llm.plan(request, site, robot)
+        except ModelError as error:
+            raise ModelError(
+                f"{error.what} (a language model was asked because the built-in planner did not understand: {why})",
+                where=error.where,
+                advice=error.advice,
+            ) from error
+        match answered:
+            case Planned():
+                return _warn(
+                    answered,
+                    f"Planned by '{answered.planner}', because the built-in planner did not understand: {why}. "
+                    "Read it with care.",
+                )
+            case Clarify():
+                return answered
+            case Refused():
+                return replace(answered, reasons=(*answered.reasons, *refused.reasons))
+
+
+def _warn(planned: Planned, warning: str) -> Planned:
+    return replace(planned, warnings=(*planned.warnings, warning))
+
+
+def _advise(refused: Refused) -> Refused:
+    """The refusal with how to get a second opinion."""
+    reason = Reason(
+        what="no language model is configured that could try it",
+        advice=f"say it in other words, or {HOW_TO_CONFIGURE}",
+    )
+    return replace(refused, reasons=(*refused.reasons, reason))
+
+
+def _summary(refused: Refused) -> str:
+    """Why the built-in planner refused, short enough for one line."""
+    reasons = [reason.what for reason in refused.reasons]
+    more = f"; and {len(reasons) - 3} more" if len(reasons) > 3 else ""
+    return "; ".join(reasons[:3]) + more

@@ -1,0 +1,127 @@
+"""Find the answer in what a model wrote: a Task, a question or a refusal, whatever stands around it.
+
+Models wrap XML in prose, in Markdown fences, after a chain of thought; small ones stop in the middle. Exactly one
+complete document is an answer. Everything else is unusable for a reason that the model can be told.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Literal
+from xml.sax.saxutils import unescape
+
+from fieldhand.planning.llm.chat import Reply
+
+#: The root elements of the three kinds of answer.
+Kind = Literal["task", "question", "refusal"]
+
+#: A longer answer is no plan but a model that goes round in circles.
+LONGEST_ANSWER = 60_000
+
+#: Chains of thought that open models write before their answer.
+_THOUGHT = re.compile(r"<(think|thinking|reasoning)>.*?(</\1>|\Z)", re.DOTALL | re.IGNORECASE)
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_OPENING = re.compile(r"<(task|question|refusal)(?=[\s>/])[^<>]*>")
+_TAG = re.compile(r"</?[a-zA-Z][^<>]*>")
+
+
+@dataclass(frozen=True, kw_only=True)
+class TaskAnswer:
+    """A Task document in draft form, not yet validated."""
+
+    document: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class QuestionAnswer:
+    """The model asks the operator something."""
+
+    question: str
+    choices: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class RefusalAnswer:
+    """The model says that the request cannot be done here."""
+
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Unusable:
+    """No answer, and why, as a sentence for the model."""
+
+    reason: str
+    truncated: bool = False
+
+
+Answer = TaskAnswer | QuestionAnswer | RefusalAnswer | Unusable
+
+
+def read_answer(reply: Reply) -> Answer:
+    """What a reply says. Never raises: what cannot be read is :class:`Unusable`."""
+    # A comment leaves its line breaks behind, so that lines are counted as the model wrote them.
+    text = _COMMENT.sub(lambda m: "\n" * m[0].count("\n"), _THOUGHT.sub("", reply.text)).strip()
+    if reply.finish == "content_filter":
+        return Unusable(reason="The answer was withheld by the content filter of the endpoint.")
+    if not text:
+        return _cut_off() if reply.finish == "length" else Unusable(reason="The answer was empty.")
+    if len(text) > LONGEST_ANSWER:
+        return Unusable(reason=f"The answer was longer than {LONGEST_ANSWER} characters.")
+    documents, unclosed = _documents(text)
+    if unclosed or (not documents and reply.finish == "length"):
+        return _cut_off()
+    if not documents:
+        return Unusable(reason="The answer held neither <task>, <question> nor <refusal>.")
+    if len(set(documents)) > 1:
+        return Unusable(reason=f"The answer held {len(documents)} documents; give exactly one.")
+    return _understand(*documents[0])
+
+
+def _documents(text: str) -> tuple[list[tuple[Kind, str]], bool]:
+    """Every complete document of the text, and whether the last one was begun but not ended."""
+    found: list[tuple[Kind, str]] = []
+    position = 0
+    while opening := _OPENING.search(text, position):
+        name: Kind = opening[1]  # type: ignore[assignment]  # the pattern knows no other names
+        if opening[0].endswith("/>"):
+            found.append((name, opening[0]))
+            position = opening.end()
+            continue
+        end = text.find(f"</{name}>", opening.end())
+        if end < 0:
+            return found, not found
+        end += len(name) + 3
+        # Prose may name the element before the document begins ("here is the <task>:"): the innermost opening counts.
+        start = [m.start() for m in _OPENING.finditer(text, opening.start(), end) if m[1] == name][-1]
+        found.append((name, text[start:end]))
+        position = end
+    return found, False
+
+
+def _understand(kind: Kind, document: str) -> Answer:
+    match kind:
+        case "task":
+            return TaskAnswer(document=document)
+        case "refusal":
+            reason = _words(document)
+            return RefusalAnswer(reason=reason) if reason else Unusable(reason="The refusal gave no reason.")
+        case "question":
+            choices = re.findall(r"<choice(?:\s[^<>]*)?>(.*?)</choice>", document, re.DOTALL)
+            question = _words(re.sub(r"<choice(?:\s[^<>]*)?>.*?</choice>", " ", document, flags=re.DOTALL))
+            if not question:
+                return Unusable(reason="The question asked nothing.")
+            return QuestionAnswer(question=question, choices=tuple(filter(None, map(_words, choices))))
+
+
+def _words(markup: str) -> str:
+    """The text of some markup on one line, tags taken away."""
+    return " ".join(unescape(_TAG.sub(" ", markup), {"&quot;": '"', "&apos;": "'"}).split())
+
+
+def _cut_off() -> Unusable:
+    return Unusable(
+        reason="The answer was cut off before its end. Give the whole document again, shorter, with nothing around it.",
+        truncated=True,
+    )

@@ -1,0 +1,129 @@
+"""The plan language as a model reads it: every element, how it is written, what it means.
+
+A compact rendering of the draft schema. Nothing is written twice: forms come from :mod:`fieldhand.task.codec_shapes`,
+from which the schema comes too; meanings are the docstrings of the classes. What a draft may leave out because
+``task.build`` derives it (ids, goals, state, resources, spans) does not appear.
+"""
+
+from __future__ import annotations
+
+import inspect
+import re
+from dataclasses import MISSING
+from functools import cache
+from typing import get_args
+
+from fieldhand.errors import ModelError
+from fieldhand.task import plan
+from fieldhand.task.codec_shapes import FAMILIES, Attribute, Child, Shape, all_shapes, element_name, shape_of
+from fieldhand.task.conditions import Condition
+from fieldhand.task.frames import Budget, Constraints, FaultedExit
+from fieldhand.task.plan import Node
+from fieldhand.task.selectors import Selector
+
+#: One letter for "any one of this family" in the forms.
+LETTERS = {"node": "N", "condition": "C", "selector": "S"}
+
+#: Attributes that only the program writes.
+DERIVED = frozenset({"id", "said"})
+
+_KINDS = {"text": "name", "integer": "whole number", "number": "number", "flag": "true", "value": "value"}
+
+
+@cache
+def describe_language() -> str:
+    """Nodes, conditions, selectors and constraints, one element a paragraph.
+
+    Raises:
+        ModelError: Python dropped the docstrings (it runs with ``-OO``), so that there is nothing to tell.
+    """
+    if plan.__doc__ is None:
+        raise ModelError("the plan language cannot be described", where="python -OO", advice="run Python without -OO")
+    sections = (
+        ("Nodes (N), what is done", get_args(Node)),
+        ("Conditions (C), what an if or an until tests", get_args(Condition)),
+        ("Selectors (S), how places are named", get_args(Selector)),
+        ("Constraints", (Constraints, Budget, FaultedExit)),
+    )
+    rendered = [
+        f"## {title}\n" + "\n".join(_paragraph(shape_of(cls)) for cls in classes) for title, classes in sections
+    ]
+    return "\n\n".join([*rendered, f"## How nodes behave\n{_behaviour()}"])
+
+
+def _paragraph(shape: Shape) -> str:
+    """One element: its form, then its meaning."""
+    return f"{_form(shape)}\n  {_meaning(shape)}"
+
+
+def _form(shape: Shape) -> str:
+    attributes = [_attribute(a) for a in shape.attributes if a.name not in DERIVED]
+    inside = []
+    if shape.head and shape.head.of == "action":
+        inside.append("<ACTION/>")
+    elif shape.head:
+        inside.append(f"<{' '.join(['QUANTITY', *map(_attribute, shape.head.attributes)])}/>")
+    inside += [_child(child) for child in shape.children]
+    opening = " ".join([shape.element, *attributes])
+    return f"<{opening}>{' '.join(inside)}</{shape.element}>" if inside else f"<{opening}/>"
+
+
+def _attribute(attribute: Attribute) -> str:
+    match attribute.kind:
+        case "choice":
+            value = "|".join(attribute.choices)
+        case "choices":
+            value = f"some of: {' '.join(attribute.choices)}"
+        case kind:
+            value = _KINDS.get(kind, kind)
+    if attribute.kind == "integer" and isinstance(attribute.default, int):
+        value = f"{value} ({attribute.default})"
+    written = f'{attribute.name}="{value}"'
+    return written if attribute.default is MISSING else f"[{written}]"
+
+
+def _child(child: Child) -> str:
+    letter = LETTERS.get(FAMILIES.get(child.options, ""), "")
+    part = letter or "".join(f"<{element_name(option)}/>" for option in child.options)
+    many = f"{part}..." if child.kind == "many" else part
+    whole = many if child.direct else f"<{child.name}>{many}</{child.name}>"
+    return whole if child.default is MISSING else f"[{whole}]"
+
+
+def _meaning(shape: Shape) -> str:
+    """The docstring on one line, its attributes after it."""
+    text, _, attributes = inspect.cleandoc(shape.cls.__doc__ or "").partition("\n\nAttributes:\n")
+    attributes = re.sub(r"(?m)^ {4}(\w+(?:, \w+)*):", lambda m: f"{m[1].replace('_', '-')}:", attributes)
+    return _plain(f"{text} {attributes}")
+
+
+def _behaviour() -> str:
+    """What the module of the plan nodes says about how they behave."""
+    _, _, behaviour = inspect.cleandoc(plan.__doc__ or "").partition("How they behave")
+    bullets = behaviour.partition("\n\n")[2].split("\n* ")
+    return "\n".join(f"- {_plain(bullet.removeprefix('* '))}" for bullet in bullets)
+
+
+def _plain(text: str) -> str:
+    """A docstring on one line, without the marks of Python; code in it reads as XML."""
+    return " ".join(re.sub(r"(?::\w+:`[~.\w]*?(\w+)`)|``([^`]+)``", _as_xml, text).split())
+
+
+def _as_xml(code: re.Match[str]) -> str:
+    """``Bound(label=...)`` as the element that it becomes, ``at_most`` as the attribute, anything else as it is."""
+    written = code[1] or code[2]
+    name, _, keyword = written.rstrip(")").partition("(")
+    if name in _elements():
+        attribute = f' {keyword.removesuffix("=...")}="..."' if keyword else ""
+        return f"<{_elements()[name]}{attribute}>"
+    return f"`{_attributes().get(written, written)}`"
+
+
+@cache
+def _elements() -> dict[str, str]:
+    return {cls.__name__: shape.element for cls, shape in all_shapes().items()}
+
+
+@cache
+def _attributes() -> dict[str, str]:
+    return {a.field: a.name for shape in all_shapes().values() for a in shape.attributes}

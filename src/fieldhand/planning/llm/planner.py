@@ -1,0 +1,167 @@
+"""Plan with a language model: ask, read the answer, check it, let the model mend it, at most a few times."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from datetime import datetime
+from pathlib import Path
+
+from fieldhand.errors import ModelError, RequestError
+from fieldhand.planning.llm.answer import QuestionAnswer, RefusalAnswer, TaskAnswer, Unusable, read_answer
+from fieldhand.planning.llm.chat import Chat, Message, Reply
+from fieldhand.planning.llm.prompt import opening, repair
+from fieldhand.planning.llm.review import Problem, read_draft, review
+from fieldhand.planning.llm.settings import LlmSettings
+from fieldhand.planning.llm.transcript import TranscriptWriter, wall_clock
+from fieldhand.planning.llm.transport import ModelChat
+from fieldhand.planning.planner import Clarify, Outcome, Planned, Reason, Refused
+from fieldhand.robot.capabilities import capabilities_of, measures_of
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.task.build import FAULTED_EXITS, make_task
+from fieldhand.task.codec import Draft
+from fieldhand.task.frames import Resource
+
+#: A longer request is a file given by mistake; a model would be paid to read it.
+LONGEST_REQUEST = 8_000
+#: So many problems go back to the model, and into an error; more help neither.
+MOST_PROBLEMS = 12
+
+
+class LlmPlanner:
+    """A planner behind which a language model stands.
+
+    The model names places and never computes them; what it writes is a draft that is checked against the robot's schema
+    and the site before anyone sees it. Ids, goals and the request's words come from the program.
+
+    Args:
+        settings: Which model and how to ask it.
+        transcript: File to which every exchange is added; None keeps none.
+        chat: Talks to the model; made from the settings if None.
+        now: Gives the time, for the transcript.
+        note: How a transcript was made, kept in its first line.
+    """
+
+    def __init__(
+        self,
+        settings: LlmSettings,
+        transcript: Path | None = None,
+        *,
+        chat: Chat | None = None,
+        now: Callable[[], datetime] = wall_clock,
+        note: str = "",
+    ) -> None:
+        self._settings = settings
+        self._chat = chat or ModelChat(settings)
+        self._transcript = TranscriptWriter(transcript, now)
+        self._transcript_path = transcript
+        self._note = note
+
+    def plan(self, request: str, site: Site, robot: RobotProfile) -> Outcome:
+        """Plan one request.
+
+        Raises:
+            RequestError: The request is empty or too long.
+            ModelError: The model cannot be reached, or none of its answers can be used.
+            OutputError: The transcript cannot be written.
+        """
+        _check(request)
+        self._transcript.begin(
+            request,
+            planner=self._settings.name,
+            provider=self._settings.provider,
+            endpoint=self._settings.endpoint,
+            temperature=self._settings.temperature,
+            site={"name": site.name, "sha256": site.sha256},
+            robot={"name": robot.name, "sha256": robot.sha256},
+            note=self._note,
+        )
+        try:
+            outcome = self._converse(request, site, robot)
+        except ModelError as error:
+            self._transcript.end("failed", self._settings.redact(str(error)))
+            raise
+        self._transcript.end(type(outcome).__name__.lower())
+        return outcome
+
+    def _converse(self, request: str, site: Site, robot: RobotProfile) -> Outcome:
+        """Ask until an answer can be used, at most ``repairs`` times more than once."""
+        talk: list[Message] = [*opening(request, site, robot)]
+        new: Sequence[Message] = talk
+        problems: tuple[Problem, ...] = ()
+        for tries_left in range(self._settings.repairs, -1, -1):
+            reply = self._chat.ask(talk)
+            outcome = self._understand(reply, request, site, robot)
+            problems = outcome if isinstance(outcome, tuple) else ()
+            said = [str(problem) for problem in problems[:MOST_PROBLEMS]]
+            self._transcript.exchange(list(new), reply, said)
+            if not isinstance(outcome, tuple):
+                return outcome
+            if tries_left:
+                new = (repair(said, tries_left),)
+                # Endpoints refuse an assistant's message without text.
+                talk += [Message(role="assistant", text=reply.text.strip() or "(nothing)"), *new]
+        raise self._unusable(problems)
+
+    def _understand(self, reply: Reply, request: str, site: Site, robot: RobotProfile) -> Outcome | tuple[Problem, ...]:
+        """What a reply comes to: an outcome, or why it cannot be used."""
+        name = self._settings.name
+        answer = read_answer(reply)
+        match answer:
+            case Unusable():
+                return (Problem(kind="answer", message=answer.reason),)
+            case QuestionAnswer():
+                return Clarify(question=answer.question, choices=answer.choices, planner=name)
+            case RefusalAnswer():
+                return Refused(reasons=(Reason(what=answer.reason),), planner=name)
+            case TaskAnswer():
+                capabilities = capabilities_of(robot)
+                draft = read_draft(answer.document, capabilities)
+                if isinstance(draft, tuple):
+                    return draft
+                problems = review(draft, site, capabilities)
+                return problems or _planned(draft, request, site, robot, name)
+
+    def _unusable(self, problems: Sequence[Problem]) -> ModelError:
+        """The clear failure at the end of the last try, with the last problems."""
+        shown = "; ".join(str(problem) for problem in problems[:MOST_PROBLEMS])
+        advice = "say the request in other words, or use a larger model"
+        if any(problem.kind == "answer" and "cut off" in problem.message for problem in problems):
+            advice = "set FIELDHAND_MODEL_MAX_TOKENS higher, or give the model a larger context"
+        if self._transcript_path is not None:
+            advice += f"; all that was said is in {self._transcript_path}"
+        tries = self._settings.repairs + 1
+        return ModelError(
+            f"none of {tries} answers could be used; what was wrong with the last: {shown}",
+            where=f"{self._settings.name} at {self._settings.endpoint}",
+            advice=advice,
+        )
+
+
+def _check(request: str) -> None:
+    if not request.strip():
+        raise RequestError(
+            "the request is empty", advice='say what the robot should do, such as "take a picture at ..."'
+        )
+    if len(request) > LONGEST_REQUEST:
+        raise RequestError(
+            f"the request has {len(request)} characters, more than {LONGEST_REQUEST}",
+            advice="say it in fewer words, or in several requests",
+        )
+
+
+def _planned(draft: Draft, request: str, site: Site, robot: RobotProfile, name: str) -> Planned:
+    task = make_task(
+        request=request,
+        plan=draft.plan,
+        measures=measures_of(robot),
+        resources=(
+            Resource(kind="robot", name=robot.name, sha256=robot.sha256),
+            Resource(kind="site", name=site.name, sha256=site.sha256),
+        ),
+        constraints=draft.constraints,
+        nominal=draft.nominal,
+        faulted=draft.faulted or FAULTED_EXITS,
+        assumptions=draft.assumptions,
+    )
+    return Planned(task=task, planner=name)

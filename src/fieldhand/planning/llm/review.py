@@ -1,0 +1,158 @@
+"""From the document that a model wrote to a plan, or to what is wrong with it, in words that the model can act on.
+
+The schema is asked first, then the references inside the plan, then the site (a zone that it does not have, a selection
+without trees). Approval checks all of this again for every planner; here it is asked early, because a model can mend
+its plan and an operator should not have to.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+from fieldhand.errors import PlaceError, TaskError
+from fieldhand.site.context import Context
+from fieldhand.site.kinds import phrase
+from fieldhand.site.model import Place, Site
+from fieldhand.task import conditions, plan, selectors
+from fieldhand.task.capabilities import Capabilities
+from fieldhand.task.codec import Draft, decode_draft
+from fieldhand.task.codec_shapes import NAMESPACE, element_name
+from fieldhand.task.codec_xml import line_of, parse_xml
+from fieldhand.task.conditions import TreeHas
+from fieldhand.task.frames import Command, Composition, Task
+from fieldhand.task.plan import ForEach, Node
+from fieldhand.task.references import references
+from fieldhand.task.schema import validate
+from fieldhand.task.selectors import Bound, Selector
+
+Kind = Literal["answer", "schema", "reference", "site"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Problem:
+    """Why an answer cannot be used.
+
+    Attributes:
+        kind: ``answer``: no document could be read; ``schema``: not valid; ``reference``: a name that nothing binds;
+            ``site``: this site does not have it.
+        where: Line and element; empty where it is about no place of the document.
+    """
+
+    kind: Kind
+    message: str
+    where: str = ""
+
+    def __str__(self) -> str:
+        return f"[{self.kind}] " + (f"{self.where}: " if self.where else "") + self.message
+
+
+def read_draft(document: str, capabilities: Capabilities) -> Draft | tuple[Problem, ...]:
+    """The draft that a document holds, or each problem of its form.
+
+    The ids of the nodes say where in the document they stand (``line 12 <act>``), for the messages that follow;
+    ``task.build.make_task`` gives them their own. Ids and spans that the model wrote do not count.
+    """
+    data = _with_namespace(document).encode()
+    invalid = validate(data, capabilities, draft=True)
+    if invalid:
+        return tuple(
+            Problem(kind="schema", message=p.message, where=f"line {p.line}" + (f" <{p.element}>" if p.element else ""))
+            for p in invalid
+        )
+    try:
+        return decode_draft(_with_lines(data))
+    except TaskError as error:
+        return (Problem(kind="schema", message=_said(error), where=error.where),)
+
+
+def review(draft: Draft, site: Site, capabilities: Capabilities) -> tuple[Problem, ...]:
+    """Every problem of a draft with its references and with the site, each once."""
+    bare = Task(id="draft", command=Command(request=""), composition=Composition(plan=draft.plan))
+    unbound = [Problem(kind="reference", message=message) for message in references(bare, capabilities)]
+    return tuple(dict.fromkeys([*unbound, *_places(draft.plan, site)]))
+
+
+def _with_namespace(document: str) -> str:
+    """Small models forget the namespace. There is one only, so adding it changes no meaning."""
+    opening = document[: document.find(">") + 1]
+    if re.search(r"\sxmlns\s*=", opening):
+        return document
+    return re.sub(r"^<task\b", f'<task xmlns="{NAMESPACE}"', document, count=1)
+
+
+def _with_lines(data: bytes) -> bytes:
+    """The document with the place of each node as its id, each once, and without spans."""
+    from lxml import etree
+
+    root = parse_xml(data)
+    nodes = {f"{{{NAMESPACE}}}{element_name(cls)}" for cls in get_args(Node)}
+    used: dict[str, int] = {}
+    for element in root.iter(*nodes):
+        name = f"line {line_of(element)} <{etree.QName(element).localname}>"
+        used[name] = used.get(name, 0) + 1
+        element.set("id", name if used[name] == 1 else f"{name} no. {used[name]}")
+        element.attrib.pop("said", "")
+    encoded: bytes = etree.tostring(root, encoding="UTF-8")
+    return encoded
+
+
+def _places(root: Node, site: Site) -> Iterator[Problem]:
+    """Problems with what selectors and conditions expect of the site."""
+    known = {phrase(name) for name in site.attributes}
+    for node in plan.walk(root):
+        selector = plan.selector_of(node)
+        if selector is not None:
+            yield from _unresolved(selector, site, node.id)
+            if not isinstance(node, ForEach):
+                yield from _more_than_one(selector, site, node.id)
+        if isinstance(node, ForEach) and node.reward and phrase(node.reward) not in known:
+            yield _no_attribute(node.reward, site, node.id)
+        condition = plan.condition_of(node)
+        for part in conditions.walk(condition) if condition is not None else ():
+            if isinstance(part, TreeHas) and phrase(part.attribute) not in known:
+                yield _no_attribute(part.attribute, site, node.id)
+
+
+def _unresolved(selector: Selector, site: Site, where: str) -> Iterator[Problem]:
+    """Problems of the largest parts that can be resolved before the mission begins."""
+    if selectors.is_relative(selector):
+        for part in selectors.parts(selector):
+            yield from _unresolved(part, site, where)
+        return
+    try:
+        _resolve(selector, site)
+    except PlaceError as error:
+        yield Problem(kind="site", message=_said(error), where=where)
+
+
+def _more_than_one(selector: Selector, site: Site, where: str) -> Iterator[Problem]:
+    """An act or a drive goes to one place; several need a for-each, or a choice of one."""
+    if selectors.is_single(selector) or isinstance(selector, Bound):
+        return
+    if not selectors.is_relative(selector):
+        try:
+            if len(_resolve(selector, site)) == 1:
+                return
+        except PlaceError:
+            return  # said already
+    name = element_name(type(selector))
+    message = f'<{name}> gives several places where one is needed: use a <for-each>, or <take count="1">'
+    yield Problem(kind="site", message=message, where=where)
+
+
+def _resolve(selector: Selector, site: Site) -> tuple[Place, ...]:
+    from fieldhand.site.places import resolve
+
+    return resolve(selector, site, Context(here=site.start))
+
+
+def _no_attribute(name: str, site: Site, where: str) -> Problem:
+    known = ", ".join(list(site.attributes)[:20]) or "none"
+    return Problem(kind="site", message=f"the trees have no attribute {name!r}; they have: {known}", where=where)
+
+
+def _said(error: TaskError | PlaceError) -> str:
+    return f"{error.what}; {error.advice}" if error.advice else error.what

@@ -1,0 +1,179 @@
+"""Which language model, where, and how to ask it: read from the environment.
+
+    FIELDHAND_MODEL        openai:NAME | anthropic:NAME | google:NAME | openai-compatible:NAME
+    FIELDHAND_BASE_URL     where an OpenAI-compatible endpoint listens, such as http://127.0.0.1:11434/v1
+    FIELDHAND_API_KEY      the key; else OPENAI_API_KEY, ANTHROPIC_API_KEY, GOOGLE_API_KEY or GEMINI_API_KEY
+    FIELDHAND_MODEL_TIMEOUT     seconds that one answer may take (120)
+    FIELDHAND_MODEL_MAX_TOKENS  most tokens of one answer (the endpoint's own limit)
+
+Nothing is asked of a model unless ``FIELDHAND_MODEL`` names one: a key that lies in the environment for another program
+is no wish to spend money on planning. A key comes from the environment alone, never from an option that a shell would
+keep in its history.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal, cast, get_args
+from urllib.parse import urlsplit
+
+from fieldhand.errors import ModelError
+
+Provider = Literal["openai", "anthropic", "google", "openai-compatible"]
+
+#: How to configure a model, for every message that has to say so.
+HOW_TO_CONFIGURE = (
+    "name a language model in FIELDHAND_MODEL (openai:NAME, anthropic:NAME, google:NAME, or openai-compatible:NAME "
+    "with FIELDHAND_BASE_URL), and its key in FIELDHAND_API_KEY"
+)
+
+#: Where each provider's own key may stand. An OpenAI key is never sent to another service that speaks its protocol.
+KEY_VARIABLES: Mapping[Provider, tuple[str, ...]] = {
+    "openai": ("OPENAI_API_KEY",),
+    "anthropic": ("ANTHROPIC_API_KEY",),
+    "google": ("GOOGLE_API_KEY", "GEMINI_API_KEY"),
+    "openai-compatible": (),
+}
+
+#: Names by which people also call the providers.
+ALIASES: Mapping[str, Provider] = {"google-gla": "google", "gemini": "google", "compatible": "openai-compatible"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class LlmSettings:
+    """A language model and how to ask it.
+
+    Attributes:
+        model: The provider's name for the model.
+        base_url: Where the endpoint is; empty for the provider's own.
+        api_key: Never shown: not in the representation, not in an error, not in a transcript.
+        temperature: Sampling temperature, 0 to 2.
+        timeout_s: Seconds that one answer may take, above 0.
+        max_tokens: Most tokens of one answer; None leaves it to the endpoint.
+        resends: How often a request is sent again after a fault that may pass (busy, server error, no connection).
+        repairs: How often the model may mend an answer that cannot be used.
+    """
+
+    provider: Provider
+    model: str
+    base_url: str = ""
+    api_key: str = field(default="", repr=False)
+    temperature: float = 0.2
+    timeout_s: float = 120.0
+    max_tokens: int | None = None
+    resends: int = 2
+    repairs: int = 3
+
+    @property
+    def name(self) -> str:
+        """How a plan, a transcript and a message name the planner: ``llm:<model>``."""
+        return f"llm:{self.model}"
+
+    @property
+    def endpoint(self) -> str:
+        """Where requests go, for messages: without user, password, query or key."""
+        if not self.base_url:
+            return self.provider
+        parts = urlsplit(self.base_url)
+        host = parts.netloc.rpartition("@")[2]
+        return f"{parts.scheme}://{host}{parts.path}"
+
+    def redact(self, text: str) -> str:
+        """The text without the key, should an endpoint repeat it."""
+        return text.replace(self.api_key, "[key]") if len(self.api_key) >= 4 else text
+
+
+def settings_from_environment(environ: Mapping[str, str], *, model: str = "", base_url: str = "") -> LlmSettings | None:
+    """What the environment says about the language model.
+
+    Args:
+        environ: Environment variables.
+        model: Takes the place of ``FIELDHAND_MODEL``, for a command line option.
+        base_url: Takes the place of ``FIELDHAND_BASE_URL``.
+
+    Returns:
+        None where no model is named.
+
+    Raises:
+        ModelError: A variable holds what cannot be used. A missing key is no error here but when the model is asked,
+            so that planning without a model goes on working.
+    """
+    wanted = model.strip() or environ.get("FIELDHAND_MODEL", "").strip()
+    if not wanted:
+        return None
+    provider, name = _provider_and_name(wanted)
+    url = _base_url(base_url.strip() or environ.get("FIELDHAND_BASE_URL", "").strip(), provider, environ)
+    return LlmSettings(
+        provider=provider,
+        model=name,
+        base_url=url,
+        api_key=_key(provider, environ),
+        timeout_s=_number(environ, "FIELDHAND_MODEL_TIMEOUT", 120.0),
+        max_tokens=int(_number(environ, "FIELDHAND_MODEL_MAX_TOKENS", 0.0)) or None,
+    )
+
+
+def require_settings(environ: Mapping[str, str], *, model: str = "", base_url: str = "") -> LlmSettings:
+    """Like :func:`settings_from_environment`, for someone who asked for a language model by name.
+
+    Raises:
+        ModelError: No model is configured, or a variable cannot be used.
+    """
+    settings = settings_from_environment(environ, model=model, base_url=base_url)
+    if settings is None:
+        raise ModelError("no language model is configured", where="FIELDHAND_MODEL", advice=HOW_TO_CONFIGURE)
+    return settings
+
+
+def _provider_and_name(wanted: str) -> tuple[Provider, str]:
+    prefix, colon, name = wanted.partition(":")
+    provider = ALIASES.get(prefix, prefix)
+    if not colon or not name.strip() or provider not in get_args(Provider):
+        known = ", ".join(f"{p}:NAME" for p in get_args(Provider))
+        raise ModelError(f"{wanted!r} does not name a model", where="FIELDHAND_MODEL", advice=f"write one of {known}")
+    return cast(Provider, provider), name.strip()
+
+
+def _base_url(given: str, provider: Provider, environ: Mapping[str, str]) -> str:
+    url = given or (environ.get("OPENAI_BASE_URL", "").strip() if provider == "openai" else "")
+    if not url:
+        if provider == "openai-compatible":
+            raise ModelError(
+                "an OpenAI-compatible model needs the address of its endpoint",
+                where="FIELDHAND_BASE_URL",
+                advice="set it, for example to http://127.0.0.1:11434/v1",
+            )
+        return ""
+    try:
+        parts = urlsplit(url)
+        usable = parts.scheme in ("http", "https") and bool(parts.hostname) and parts.port != 0
+    except ValueError:
+        usable = False
+    if not usable:
+        raise ModelError(
+            "the address of the endpoint is not an http address",
+            where="FIELDHAND_BASE_URL",
+            advice="write it like http://127.0.0.1:11434/v1",
+        )
+    return url.rstrip("/")
+
+
+def _key(provider: Provider, environ: Mapping[str, str]) -> str:
+    for variable in ("FIELDHAND_API_KEY", *KEY_VARIABLES[provider]):
+        if key := environ.get(variable, "").strip():
+            return key
+    return ""
+
+
+def _number(environ: Mapping[str, str], variable: str, default: float) -> float:
+    text = environ.get(variable, "").strip()
+    if not text:
+        return default
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0 < value < 1e7:
+        raise ModelError(f"{text!r} is no number above 0", where=variable, advice="give a number, or unset it")
+    return value

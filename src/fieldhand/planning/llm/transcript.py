@@ -1,0 +1,157 @@
+"""Transcripts: what was said between the planner and a model, as JSON lines.
+
+One session is one request. Its first line says what was asked of whom; each further line is one exchange: the messages
+that were new in it, the answer, and what was wrong with the answer; the last line is how it ended. Keys never reach a
+transcript, because nothing that holds one is written.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from fieldhand.errors import InputError, OutputError
+from fieldhand.planning.llm.chat import Message, Reply
+
+FORMAT = "fieldhand-transcript/1"
+
+
+def wall_clock() -> datetime:
+    """The time, with its zone."""
+    return datetime.now(UTC)
+
+
+class TranscriptWriter:
+    """Appends sessions to a file, line by line, so that a failure leaves behind what came before it.
+
+    Args:
+        path: The file; None writes nothing.
+        now: Gives the time.
+    """
+
+    def __init__(self, path: Path | None, now: Callable[[], datetime] = wall_clock) -> None:
+        self._path = path
+        self._now = now
+
+    def begin(self, request: str, **about: Any) -> None:
+        """Open a session: the request word for word, and who is asked about what."""
+        self._write({"kind": "session", "format": FORMAT, "at": self._time(), "request": request, **about})
+
+    def exchange(self, new: Sequence[Message], reply: Reply, problems: Sequence[str]) -> None:
+        """Keep one exchange: the messages that were not sent before, the answer, what was wrong with it."""
+        self._write(
+            {
+                "kind": "exchange",
+                "at": self._time(),
+                "messages": [{"role": m.role, "text": m.text} for m in new],
+                "answer": reply.text,
+                "finish": reply.finish,
+                "tokens": list(reply.tokens),
+                "problems": list(problems),
+            }
+        )
+
+    def end(self, outcome: str, detail: str = "") -> None:
+        """Close a session: planned, clarify, refused or failed."""
+        self._write({"kind": "end", "at": self._time(), "outcome": outcome, "detail": detail})
+
+    def _time(self) -> str:
+        return self._now().isoformat(timespec="seconds")
+
+    def _write(self, line: dict[str, Any]) -> None:
+        if self._path is None:
+            return
+        try:
+            self._path.parent.mkdir(parents=True, exist_ok=True)
+            with self._path.open("a", encoding="utf-8") as file:
+                file.write(json.dumps(line, ensure_ascii=False) + "\n")
+        except OSError as error:
+            raise OutputError(
+                f"the transcript cannot be written ({error.strerror})",
+                where=str(self._path),
+                advice="name another file",
+            ) from error
+
+
+@dataclass(frozen=True, kw_only=True)
+class Exchange:
+    """One exchange of a transcript."""
+
+    messages: tuple[Message, ...]
+    answer: str
+    finish: str
+    problems: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Session:
+    """One request of a transcript.
+
+    Attributes:
+        about: What else the first line says (planner, site, robot, how it was made).
+        outcome: planned, clarify, refused or failed; empty if it was cut off.
+    """
+
+    request: str
+    about: dict[str, Any] = field(default_factory=dict)
+    exchanges: tuple[Exchange, ...] = ()
+    outcome: str = ""
+
+
+def read_transcript(path: Path) -> tuple[Session, ...]:
+    """The sessions of a transcript.
+
+    Raises:
+        InputError: The file cannot be read, or a line is not of this format.
+    """
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"the transcript cannot be read ({error})", where=str(path)) from error
+    sessions: list[Session] = []
+    for number, line in enumerate(lines, start=1):
+        if not line.strip():
+            continue
+        try:
+            _take(json.loads(line), sessions)
+        except (ValueError, KeyError, TypeError, IndexError) as error:
+            raise InputError(
+                f"not a line of a transcript ({type(error).__name__}: {error})",
+                where=f"{path}, line {number}",
+                advice=f"record it again; the format is {FORMAT}",
+            ) from error
+    return tuple(sessions)
+
+
+def _take(line: dict[str, Any], sessions: list[Session]) -> None:
+    match line["kind"]:
+        case "session":
+            if line["format"] != FORMAT:
+                raise ValueError(f"format {line['format']!r}")
+            known = ("kind", "format", "request")
+            sessions.append(Session(request=line["request"], about={k: v for k, v in line.items() if k not in known}))
+        case "exchange":
+            exchange = Exchange(
+                messages=tuple(Message(role=m["role"], text=m["text"]) for m in line["messages"]),
+                answer=line["answer"],
+                finish=line["finish"],
+                problems=tuple(line["problems"]),
+            )
+            last = sessions[-1]
+            sessions[-1] = Session(
+                request=last.request,
+                about=last.about,
+                exchanges=(*last.exchanges, exchange),
+                outcome=last.outcome,
+            )
+        case "end":
+            last = sessions[-1]
+            sessions[-1] = Session(
+                request=last.request, about=last.about, exchanges=last.exchanges, outcome=line["outcome"]
+            )
+        case kind:
+            raise ValueError(f"kind {kind!r}")

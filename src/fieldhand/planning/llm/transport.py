@@ -1,0 +1,275 @@
+"""Talk to a language model over the network: any provider, one kind of failure.
+
+pydantic-ai speaks the protocols; here stand the limits (time, resends) and the sentences that tell the operator what
+went wrong. Resending is done here alone: the clients below are told not to, or the two would multiply.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable, Coroutine, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from fieldhand.errors import ModelError
+from fieldhand.planning.llm.chat import Message, Reply
+from fieldhand.planning.llm.settings import KEY_VARIABLES, LlmSettings
+
+if TYPE_CHECKING:
+    from pydantic_ai.messages import ModelMessage, ModelResponse
+    from pydantic_ai.models import Model
+
+#: HTTP statuses after which the same request may succeed.
+MAY_PASS = frozenset({408, 409, 425, 429, 500, 502, 503, 504, 529})
+#: The longest wait before a request is sent again, in seconds, whatever the endpoint asks for.
+LONGEST_WAIT_S = 30.0
+#: An endpoint's own words are cut to this many characters.
+QUOTED = 300
+
+
+class ModelChat:
+    """A language model behind an HTTP endpoint.
+
+    Args:
+        settings: Which model and how to ask it.
+        sleep: Waits so many seconds between resends.
+    """
+
+    def __init__(self, settings: LlmSettings, *, sleep: Callable[[float], None] = time.sleep) -> None:
+        self._settings = settings
+        self._sleep = sleep
+
+    def ask(self, messages: Sequence[Message]) -> Reply:
+        require_extra()
+        require_key(self._settings)
+        for attempt in range(self._settings.resends + 1):
+            try:
+                return _reply(_run(_request(self._settings, messages)))
+            except Exception as error:  # noqa: BLE001 - the clients below raise what they like; explain() sorts it
+                wait = _wait_s(error, attempt)
+                if wait is None or attempt == self._settings.resends:
+                    explain(error, self._settings, attempts=attempt + 1)
+                self._sleep(wait)
+        raise AssertionError("the loop returns or raises")
+
+
+def require_extra() -> None:
+    """Check that the optional packages are installed.
+
+    Raises:
+        ModelError: They are not.
+    """
+    try:
+        import pydantic_ai  # noqa: F401
+    except ImportError as error:
+        raise ModelError(
+            f"planning with a language model needs a package that is not installed ({error.name})",
+            advice='install it with: pip install "fieldhand[llm]"',
+        ) from error
+
+
+def require_key(settings: LlmSettings) -> None:
+    """Check that there is a key where the provider wants one.
+
+    Raises:
+        ModelError: There is none.
+    """
+    if not settings.api_key and settings.provider != "openai-compatible":
+        names = " or ".join(("FIELDHAND_API_KEY", *KEY_VARIABLES[settings.provider]))
+        raise ModelError(f"no key for {settings.provider}:{settings.model}", where="environment", advice=f"set {names}")
+
+
+def build_model(settings: LlmSettings) -> Model[Any]:
+    """The model as pydantic-ai knows it. Its packages are imported here, the ones of other providers are not."""
+    url, key = settings.base_url or None, settings.api_key
+    match settings.provider:
+        case "anthropic":
+            from pydantic_ai.models.anthropic import AnthropicModel
+            from pydantic_ai.providers.anthropic import AnthropicProvider
+
+            return AnthropicModel(settings.model, provider=AnthropicProvider(api_key=key, base_url=url))
+        case "google":
+            from pydantic_ai.models.google import GoogleModel
+            from pydantic_ai.providers.google import GoogleProvider
+
+            return GoogleModel(settings.model, provider=GoogleProvider(api_key=key, base_url=url))
+        case "openai" | "openai-compatible":
+            from pydantic_ai.models.openai import OpenAIChatModel
+            from pydantic_ai.providers.openai import OpenAIProvider
+
+            # An endpoint that needs no key still wants the header: without this the client would take
+            # OPENAI_API_KEY from the environment and send it there.
+            provider = OpenAIProvider(base_url=url, api_key=key or "no-key")
+            return OpenAIChatModel(settings.model, provider=provider)
+
+
+async def _request(settings: LlmSettings, messages: Sequence[Message]) -> ModelResponse:
+    from pydantic_ai.direct import model_request
+    from pydantic_ai.settings import ModelSettings
+
+    wanted = ModelSettings(temperature=settings.temperature, timeout=settings.timeout_s, max_retries=0)
+    if settings.max_tokens is not None:
+        wanted["max_tokens"] = settings.max_tokens
+    # The client's own time limit starts anew with every byte, so an endpoint that trickles would never meet it.
+    async with build_model(settings) as model, asyncio.timeout(settings.timeout_s):
+        return await model_request(model, _as_messages(messages), model_settings=wanted)
+
+
+def _as_messages(messages: Sequence[Message]) -> list[ModelMessage]:
+    from pydantic_ai.messages import ModelRequest, ModelResponse, SystemPromptPart, TextPart, UserPromptPart
+
+    converted: list[ModelMessage] = []
+    for message in messages:
+        match message.role:
+            case "assistant":
+                converted.append(ModelResponse(parts=[TextPart(content=message.text)]))
+            case "system":
+                converted.append(ModelRequest(parts=[SystemPromptPart(content=message.text)]))
+            case "user":
+                converted.append(ModelRequest(parts=[UserPromptPart(content=message.text)]))
+    return converted
+
+
+def _reply(response: ModelResponse) -> Reply:
+    from pydantic_ai.messages import TextPart
+
+    text = "".join(part.content for part in response.parts if isinstance(part, TextPart))
+    return Reply(
+        text=text,
+        finish=response.finish_reason or "",
+        tokens=(response.usage.input_tokens, response.usage.output_tokens),
+    )
+
+
+def _run(request: Coroutine[Any, Any, ModelResponse]) -> ModelResponse:
+    """Run to the end, also where the caller is inside an event loop already (a web server, a notebook)."""
+    inside = True
+    try:
+        asyncio.get_running_loop()
+    except RuntimeError:
+        inside = False
+    if not inside:
+        return asyncio.run(request)
+    with ThreadPoolExecutor(max_workers=1) as pool:
+        return pool.submit(asyncio.run, request).result()
+
+
+def _wait_s(error: Exception, attempt: int) -> float | None:
+    """Seconds after which sending again makes sense; None if it makes none."""
+    from pydantic_ai.exceptions import ModelAPIError, ModelHTTPError
+
+    backoff = 0.5 * 2.0**attempt
+    if isinstance(error, ModelHTTPError):
+        if error.status_code not in MAY_PASS:
+            return None
+        return min(LONGEST_WAIT_S, max(backoff, getattr(error, "retry_after", None) or 0.0))
+    if isinstance(error, ModelAPIError) and not _timed_out(error) and _unconnected(error):
+        return backoff
+    return None
+
+
+def explain(error: Exception, settings: LlmSettings, *, attempts: int) -> NoReturn:
+    """Raise the ModelError that says what went wrong, where, and what to do.
+
+    Raises:
+        ModelError: Always.
+    """
+    from pydantic_ai.exceptions import AgentRunError, ModelHTTPError
+
+    def fail(what: str, advice: str) -> NoReturn:
+        times = f" (tried {attempts} times)" if attempts > 1 else ""
+        raise ModelError(settings.redact(what) + times, where=settings.endpoint, advice=advice) from error
+
+    if isinstance(error, ModelError):
+        raise error
+    if _timed_out(error):
+        fail(
+            f"no answer within {settings.timeout_s:g} s",
+            "ask again, set FIELDHAND_MODEL_TIMEOUT higher, or use a faster model",
+        )
+    if isinstance(error, ModelHTTPError):
+        fail(*_about_status(error.status_code, _body_text(error.body), settings))
+    if isinstance(error, ImportError):
+        fail(f"a package for {settings.provider} is not installed", 'install it with: pip install "fieldhand[llm]"')
+    if isinstance(error, AgentRunError) and _unconnected(error):
+        why = next((str(e) for e in reversed(_causes(error)) if str(e)), "no reason given")
+        fail(
+            f"the endpoint cannot be reached ({_cut(why)})",
+            "check that it runs, its address in FIELDHAND_BASE_URL, and the network",
+        )
+    # What is left is a body that is no answer. The clients trip over some of them (TypeError, AttributeError).
+    fail(
+        f"the endpoint's answer is not a chat completion ({type(error).__name__}: {_cut(str(error))})",
+        "check that FIELDHAND_BASE_URL is the address of a chat endpoint; it usually ends in /v1",
+    )
+
+
+def _about_status(status: int, body: str, settings: LlmSettings) -> tuple[str, str]:
+    """What an HTTP status means and what to do about it."""
+    said = f": {body}" if body else ""
+    key = " or ".join(("FIELDHAND_API_KEY", *KEY_VARIABLES[settings.provider]))
+    match status:
+        case 401 | 403:
+            return f"the endpoint refused the key (HTTP {status}){said}", f"check {key}"
+        case 404:
+            return (
+                f"there is no model {settings.model!r} or no chat endpoint at this address (HTTP 404){said}",
+                "check the name in FIELDHAND_MODEL and FIELDHAND_BASE_URL, which usually ends in /v1",
+            )
+        case 402 | 429:
+            return f"too many requests, or the account has no credit left (HTTP {status}){said}", "wait, or use another"
+        case 400 | 413 | 422:
+            return (
+                f"the endpoint did not take the request (HTTP {status}){said}",
+                "check that the model's context holds 8,000 tokens and that it is a chat model",
+            )
+        case _ if status >= 500:
+            return f"the endpoint failed (HTTP {status}){said}", "try again later, or look into its log"
+        case _:
+            return f"the endpoint answered with HTTP {status}{said}", "check FIELDHAND_BASE_URL"
+
+
+def _causes(error: BaseException) -> list[BaseException]:
+    found: list[BaseException] = []
+    current: BaseException | None = error
+    while current is not None and current not in found:
+        found.append(current)
+        current = current.__cause__ or current.__context__
+    return found
+
+
+def _timed_out(error: BaseException) -> bool:
+    names = {type(e).__name__ for e in _causes(error)}
+    if "ConnectTimeout" in names:  # nobody is there, which is another failure than a slow answer
+        return False
+    return any("timeout" in name.lower() for name in names)
+
+
+def _unconnected(error: BaseException) -> bool:
+    """Whether the connection failed or broke, by the names that the clients give it (they share no base class)."""
+    names = {type(e).__name__ for e in _causes(error)}
+    signs = (
+        "ConnectError",
+        "ConnectTimeout",
+        "ConnectionError",
+        "ConnectionRefusedError",
+        "ReadError",
+        "RemoteProtocolError",
+        "gaierror",
+    )
+    return bool(names & {*signs, "APIConnectionError", "ModelConnectionError", "ConnectionResetError"})
+
+
+def _body_text(body: object) -> str:
+    """What the endpoint itself says about the failure, in one line."""
+    if isinstance(body, dict):
+        inner = body.get("error", body)
+        body = inner.get("message", inner) if isinstance(inner, dict) else inner
+    return _cut(str(body)) if body else ""
+
+
+def _cut(text: str) -> str:
+    """The text on one line, and not too long."""
+    text = " ".join(text.split())
+    return text if len(text) <= QUOTED else text[:QUOTED] + "..."

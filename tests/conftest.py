@@ -1,0 +1,45 @@
+"""For every test: no language model, no network beyond this machine, no configuration of the developer's own."""
+
+from __future__ import annotations
+
+import os
+import socket
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+#: A developer's own keys, endpoints and proxies must not change what a test sees, nor spend money.
+_PRIVATE = ("FIELDHAND_", "OPENAI_", "ANTHROPIC_", "GOOGLE_", "GEMINI_")
+_PROXIES = ("http_proxy", "https_proxy", "all_proxy")
+_LOCAL = ("127.0.0.1", "::1", "localhost", None, b"localhost")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _no_private_environment() -> Iterator[None]:
+    with pytest.MonkeyPatch.context() as patch:
+        for name in list(os.environ):
+            if name.startswith(_PRIVATE) or name.lower() in _PROXIES:
+                patch.delenv(name)
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _no_real_model_calls() -> Iterator[None]:
+    """A test that reaches for another machine fails, whoever catches exceptions on the way."""
+    connect, resolve = socket.socket.connect, socket.getaddrinfo
+
+    def guarded_connect(self: socket.socket, address: Any) -> None:
+        if self.family in (socket.AF_INET, socket.AF_INET6) and address[0] not in _LOCAL:
+            pytest.fail(f"a test tried to connect to {address[0]}")
+        connect(self, address)
+
+    def guarded_resolve(host: Any, *args: Any, **kwargs: Any) -> Any:
+        if host not in _LOCAL:
+            pytest.fail(f"a test tried to find the address of {host}")
+        return resolve(host, *args, **kwargs)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(socket.socket, "connect", guarded_connect)
+        patch.setattr(socket, "getaddrinfo", guarded_resolve)
+        yield

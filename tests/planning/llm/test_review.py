@@ -1,0 +1,141 @@
+"""Review: a good draft passes unchanged; each way to be wrong is told with its kind and its line."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+
+from fieldhand.planning.llm.review import Problem, read_draft, review
+from fieldhand.robot.capabilities import capabilities_of
+from fieldhand.robot.loader import load_robot
+from fieldhand.task.build import number
+from fieldhand.task.codec import Draft, encode
+from fieldhand.task.frames import Task
+from fieldhand.task.plan import walk
+from site_grids import grid
+from strategies import ROVER, Parts
+
+SITE = grid(4, 6)
+AMIGA = capabilities_of(load_robot("amiga"))
+XMLNS = ' xmlns="urn:fieldhand:task:1"'
+
+
+def document(plan: str, xmlns: str = XMLNS) -> str:
+    return f"<task{xmlns}>\n<task-composition>\n<plan>\n{plan}\n</plan>\n</task-composition>\n</task>"
+
+
+def problems(plan: str) -> tuple[Problem, ...]:
+    draft = read_draft(document(plan), AMIGA)
+    return draft if isinstance(draft, tuple) else review(draft, SITE, AMIGA)
+
+
+@settings(max_examples=40, suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much])
+@given(task=Parts(ROVER).tasks())
+def test_a_valid_task_is_read_as_the_plan_that_it_holds_but_for_ids_and_spans(task: Task) -> None:
+    draft = read_draft(encode(task).decode().partition("\n")[2], ROVER)
+    assert isinstance(draft, Draft), draft
+    assert [type(n) for n in walk(draft.plan)] == [type(n) for n in walk(task.composition.plan)]
+    assert all(not n.said for n in walk(draft.plan))
+    ids = [n.id for n in walk(draft.plan)]
+    assert len(set(ids)) == len(ids)
+    assert [n.id for n in walk(number(draft.plan))] == [n.id for n in walk(task.composition.plan)]
+    assert draft.constraints == task.constraints
+
+
+def test_a_forgotten_namespace_is_added() -> None:
+    plan = "<act><take_picture/><at><first/></at></act>"
+    with_it, without = read_draft(document(plan), AMIGA), read_draft(document(plan, xmlns=""), AMIGA)
+    assert isinstance(with_it, Draft)
+    assert with_it == without
+
+
+def test_a_wrong_namespace_is_not_passed_over() -> None:
+    found = read_draft(document("<stop/>", xmlns=' xmlns="urn:other"'), AMIGA)
+    assert isinstance(found, tuple)
+    assert found[0].kind == "schema"
+
+
+@pytest.mark.parametrize(
+    ("plan", "kind", "where", "words"),
+    [
+        ("<act><prune/><at><first/></at></act>", "schema", "line 4", "prune"),
+        ("<act><take_picture/>\n<at><nord/></at></act>", "schema", "line 5", "nord"),
+        ('<act><take_picture zoom="3"/></act>', "schema", "line 4", "zoom"),
+        ("<sequence>\n<act><take_picture></act></sequence>", "schema", "line 5", "well-formed"),
+        (
+            '<if><condition><level reading="r"><soil_moisture level="low"/></level></condition>'
+            "<then><act><take_picture/></act></then></if>",
+            "reference",
+            "",
+            "'r'",
+        ),
+        ('<go-to><bound label="x"/></go-to>', "reference", "", "'x'"),
+        ('<go-to><take count="1"><in-zone zone="pond"/></take></go-to>', "site", "line 4 <go-to>", "pond"),
+        ('<go-to><tree-is tree="999"/></go-to>', "site", "line 4 <go-to>", "999"),
+        ('<go-to><marker name="charger"/></go-to>', "site", "line 4 <go-to>", "charger"),
+        (
+            '<for-each><select><top attribute="species" count="1"/></select><body><stop/></body></for-each>',
+            "site",
+            "line 4 <for-each>",
+            "species",
+        ),
+        (
+            '<for-each><select><where attribute="age" test="gt" value="99"/></select><body><stop/></body></for-each>',
+            "site",
+            "line 4 <for-each>",
+            "age",
+        ),
+        (
+            '<for-each reward="nuts"><select><trees/></select><body><stop/></body></for-each>',
+            "site",
+            "line 4 <for-each>",
+            "variety",
+        ),
+        (
+            '<if><condition><tree-has attribute="height" test="gt" value="2"/></condition>'
+            "<then><act><take_picture/></act></then></if>",
+            "site",
+            "line 4 <if>",
+            "height",
+        ),
+        ("<act><take_picture/><at><corners/></at></act>", "site", "line 4 <act>", "for-each"),
+        ("<act><take_picture/><at><other/></at></act>", "site", "line 4 <act>", "for-each"),
+    ],
+)
+def test_what_is_wrong_is_told_with_its_kind_and_place(plan: str, kind: str, where: str, words: str) -> None:
+    found = problems(plan)
+    assert [p.kind for p in found] == [kind] * len(found)
+    assert found
+    assert any(p.where.startswith(where) and words in str(p) for p in found), found
+    assert all("\n" not in str(p) for p in found)
+
+
+def test_a_static_part_of_a_relative_selector_is_checked_too() -> None:
+    found = problems('<go-to><nearest><to><here/></to><of><in-zone zone="pond"/></of></nearest></go-to>')
+    assert [p.kind for p in found] == ["site"]
+
+
+@pytest.mark.parametrize(
+    "selector",
+    [
+        '<corners which="nw"/>',
+        '<take count="1"><other/></take>',
+        "<first><other/></first>",
+        '<nearest fresh="true"><to><here/></to></nearest>',
+        '<where attribute="Variety" test="eq" value="kerman"><corners which="nw"/></where>',
+    ],
+)
+def test_a_selector_that_gives_one_place_may_be_where_an_act_is_done(selector: str) -> None:
+    assert problems(f"<act><take_picture/><at>{selector}</at></act>") == ()
+
+
+def test_problems_of_two_nodes_on_one_line_are_two() -> None:
+    found = problems('<sequence><go-to><tree-is tree="999"/></go-to><go-to><tree-is tree="999"/></go-to></sequence>')
+    assert [p.where for p in found] == ["line 4 <go-to>", "line 4 <go-to> no. 2"]
+
+
+def test_entities_are_refused() -> None:
+    bomb = '<!DOCTYPE task [<!ENTITY a "aaaa">]>' + document("<stop/>")
+    found = read_draft(bomb, AMIGA)
+    assert isinstance(found, tuple)
+    assert found[0].kind == "schema"
