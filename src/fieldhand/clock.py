@@ -44,6 +44,11 @@ class ScaledClock:
         self._speed = speed
         self._start = time.monotonic()
 
+    @property
+    def speed(self) -> float:
+        """Seconds that pass here in one second of the wall clock."""
+        return self._speed
+
     def now(self) -> float:
         return (time.monotonic() - self._start) * self._speed
 

@@ -1,0 +1,320 @@
+"""An attempt at a Task: everything that changes while it is carried out.
+
+The behaviors of the tree hold no state of the mission: they share one :class:`Attempt`, which is passed to each.
+There is no blackboard.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from fieldhand.clock import Clock
+from fieldhand.errors import ActionFault, DriveFault, FieldhandError, PlaceError
+from fieldhand.execution.conditions import Facts
+from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, Progress
+from fieldhand.execution.guard import Guard
+from fieldhand.forecast.state import MissionState, Spent
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.context import Context
+from fieldhand.site.drives import Drives
+from fieldhand.site.model import Place, Site
+from fieldhand.site.places import resolve, resolve_one
+from fieldhand.task.build import FAULTED_EXITS
+from fieldhand.task.frames import Fault, Task, Then
+from fieldhand.task.results import Acted, Arrived, Driving, Event, Faulted, MissionStatus
+from fieldhand.task.selectors import Selector
+
+#: Metres within which the robot counts as standing at a place.
+AT_M = 0.5
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ending:
+    """How the plan came to its end, and which exit follows from that."""
+
+    status: MissionStatus
+    exit: Literal["nominal", "faulted"]
+    then: Then
+    reason: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenDrive:
+    """A drive that the driver has begun and whose end is not recorded yet."""
+
+    node: str
+    place: Place
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenCapture:
+    """A capture that the driver has begun and whose end is not recorded yet."""
+
+    node: str
+    action: str
+    number: int
+
+
+class Attempt:
+    """Where the robot is and has been, what was bound and read, what was used, what happened.
+
+    Args:
+        task, site, robot: What is carried out, where, by which robot.
+        driver: The robot, real or simulated.
+        guard: Who watches the budget.
+        clock: The mission's time; the attempt begins now.
+        drives: Ways between places.
+        emit: Takes each event as it happens.
+
+    Attributes:
+        here: The place in hand (:mod:`fieldhand.task.plan`).
+        standing: Where the robot itself is: ``here``, or a point on the way where a drive failed.
+        visited: Ids of the trees at which it has stopped, each once.
+        readings: For each reading that is bound, its value by quantity.
+        ending: Set when the plan is over before its last node: the tree is ticked no more.
+        giving_up: Id of the optional for-each whose visit in hand is given up; it takes that back.
+        fault: What the failure in hand is to the exits of the Task.
+    """
+
+    def __init__(
+        self,
+        *,
+        task: Task,
+        site: Site,
+        robot: RobotProfile,
+        driver: Driver,
+        guard: Guard,
+        clock: Clock,
+        drives: Drives,
+        emit: Callable[[Event], None],
+    ) -> None:
+        self.task = task
+        self.site = site
+        self.robot = robot
+        self.driver = driver
+        self.guard = guard
+        self.clock = clock
+        self.drives = drives
+        self._emit = emit
+        self._begun_s = clock.now()
+        self._full = driver.charge_percent()
+        self._open: OpenDrive | OpenCapture | None = None
+        self.events: list[Event] = []
+        self.here = site.start
+        self.standing = self._stands()
+        self.arrived_at: Place | None = None
+        self.visited: list[str] = []
+        self.bound: dict[str, tuple[Place, ...]] = {}
+        self.readings: dict[str, Mapping[str, float]] = {}
+        self.travelled_m = 0.0
+        self.ending: Ending | None = None
+        self.giving_up = ""
+        self.fault: Fault = "action_failed"
+        self.what = ""
+
+    @property
+    def t(self) -> float:
+        """Seconds since the attempt began."""
+        return self.clock.now() - self._begun_s
+
+    @property
+    def spent(self) -> Spent:
+        """What was used so far."""
+        percent = self._full - self.driver.charge_percent()
+        return Spent(metres=self.travelled_m, seconds=self.t, percent=percent)
+
+    @property
+    def facts(self) -> Facts:
+        """What a condition is tested against now."""
+        return Facts(site=self.site, robot=self.robot, here=self.here, readings=self.readings)
+
+    def emit(self, event: Event) -> None:
+        """Record what happened."""
+        self.events.append(event)
+        self._emit(event)
+
+    def resolve(self, selector: Selector) -> tuple[Place, ...]:
+        """The places of a selector, as they are now.
+
+        Raises:
+            PlaceError: It selects nothing, or names what the site lacks.
+        """
+        return tuple(resolve(selector, self.site, self._context(self.here)))
+
+    def resolve_one(self, selector: Selector) -> Place:
+        """The place of a selector that must give one.
+
+        Raises:
+            PlaceError: It gives none or several, or names what the site lacks.
+        """
+        return resolve_one(selector, self.site, self._context(self.here))
+
+    def state(self, node: str) -> MissionState:
+        """What the guard decides on. ``here`` is where the robot itself stands: from there it has to come home."""
+        return MissionState(
+            node=node,
+            context=self._context(self.standing),
+            spent=self.spent,
+            charge_percent=self.driver.charge_percent(),
+        )
+
+    def bind(self, label: str, places: tuple[Place, ...]) -> None:
+        """Bind places to a label, if the node has one."""
+        if label:
+            self.bound[label] = places
+
+    def end(self, ending: Ending) -> None:
+        """Let the plan be over, unless it is already."""
+        if self.ending is None:
+            self.ending = ending
+
+    def exit_for(self, fault: Fault) -> Then:
+        """Where the Task wants the robot after a fault; a Task that does not say gets what every mission does."""
+        chosen = {f.fault: f.then for f in (*FAULTED_EXITS, *self.task.composition.faulted)}
+        return chosen[fault]
+
+    def fail(self, node: str, error: FieldhandError, *, handled: bool) -> None:
+        """Record that a node failed for good; ``handled`` where a try/otherwise will go on from there."""
+        match error:
+            case DriveFault():
+                self.fault, name = "drive_failed", "drive_failed"
+            case ActionFault():
+                self.fault, name = "action_failed", "action_failed"
+            case _:
+                # Work that cannot be placed: the robot is well, so the Task's exit for failed work fits.
+                self.fault, name = "action_failed", "no_place" if isinstance(error, PlaceError) else "cannot_go_on"
+        self.what = str(error)
+        self.emit(Faulted(t=self.t, node=node, fault=name, what=self.what, handled=handled))
+
+    def is_at(self, place: Place) -> bool:
+        """Whether the robot has stopped at a place and stands there still."""
+        return self.arrived_at is not None and (self.arrived_at.kind, self.arrived_at.id) == (place.kind, place.id)
+
+    def stop_at(self, place: Place) -> None:
+        """The robot has reached a place."""
+        self.here = self.standing = self.arrived_at = place
+        if place.kind == "tree" and place.id not in self.visited:
+            self.visited.append(place.id)
+
+    def start_drive(self, node: str, place: Place) -> None:
+        """Let the driver begin a drive.
+
+        Raises:
+            DriveFault, PlaceError: There is no way to the place.
+        """
+        drive = self.drives.between(self.standing, place)
+        corners = tuple((float(x), float(y)) for x, y in drive.points)
+        degrees = tuple((float(lat), float(lon)) for lat, lon in self.site.projection.degrees(corners))
+        wanted = self.task.constraints.speed_m_s
+        goal = DriveGoal(
+            place=place,
+            path_m=corners,
+            path_degrees=degrees,
+            length_m=drive.length_m,
+            speed_m_s=self.robot.speed_m_s if wanted is None else min(wanted, self.robot.speed_m_s),
+        )
+        self.emit(Driving(t=self.t, node=node, kind=place.kind, place=place.id, planned_m=drive.length_m, path=degrees))
+        self._open = OpenDrive(node=node, place=place)
+        self.driver.start_drive(goal)
+
+    def start_capture(self, node: str, action: str, parameters: Mapping[str, str | float], number: int) -> None:
+        """Let the driver begin the ``number``-th try of a capture."""
+        self._open = OpenCapture(node=node, action=action, number=number)
+        self.driver.start_action(ActionGoal(action=action, place=self.here, parameters=parameters))
+
+    def attend(self) -> Progress:
+        """How the goal in hand stands; when it is over, what came of it is recorded, once."""
+        progress = self.driver.poll()
+        goal = self._open
+        if goal is None or not progress.over:
+            return progress
+        self._open = None
+        if isinstance(goal, OpenDrive):
+            self._conclude_drive(goal, progress)
+            return progress
+        return self._conclude_capture(goal, progress)
+
+    def stop_driver(self) -> None:
+        """Ask the driver to end the goal in hand, if there is one."""
+        if self._open is not None:
+            self.driver.cancel()
+
+    @property
+    def busy(self) -> bool:
+        """Whether a goal is in hand whose end is not recorded yet."""
+        return self._open is not None
+
+    def _conclude_drive(self, goal: OpenDrive, progress: Progress) -> None:
+        self.travelled_m += progress.metres
+        if progress.state != "succeeded":
+            self.arrived_at, self.standing = None, self._stands()
+            return
+        self.stop_at(goal.place)
+        position = self.driver.position()
+        self.emit(
+            Arrived(
+                t=self.t,
+                node=goal.node,
+                kind=goal.place.kind,
+                place=goal.place.id,
+                lat=position.lat,
+                lon=position.lon,
+                leg_m=progress.metres,
+                travelled_m=self.travelled_m,
+                charge_percent=self.driver.charge_percent(),
+            )
+        )
+
+    def _conclude_capture(self, goal: OpenCapture, progress: Progress) -> Progress:
+        if progress.state == "cancelled":
+            return progress  # nothing was done, so nothing happened
+        measures = self.robot.action[goal.action].measures
+        if progress.state == "succeeded":
+            what = next(filter(None, (self._unusable(q, progress.readings.get(q)) for q in measures)), "")
+            if what:
+                progress = dataclasses.replace(progress, state="failed", readings={}, what=what)
+        done = progress.state == "succeeded"
+        self.emit(
+            Acted(
+                t=self.t,
+                node=goal.node,
+                action=goal.action,
+                status="success" if done else "failed",
+                kind=self.here.kind,
+                place=self.here.id,
+                lat=self.here.lat,
+                lon=self.here.lon,
+                attempt=goal.number,
+                readings={q: progress.readings[q] for q in measures} if done else {},
+                units={q: self.robot.quantity[q].unit for q in measures} if done else {},
+                what=progress.what,
+                charge_percent=self.driver.charge_percent(),
+            )
+        )
+        return progress
+
+    def _unusable(self, name: str, value: float | None) -> str:
+        """Why a reading cannot be believed; empty if it can."""
+        quantity = self.robot.quantity[name]
+        if value is None:
+            return f"the sensor gave no {name}"
+        if not math.isfinite(value) or not quantity.minimum <= value <= quantity.maximum:
+            return (
+                f"{name} {value:g} {quantity.unit} is outside {quantity.minimum:g} to {quantity.maximum:g}:"
+                " the sensor cannot be believed"
+            )
+        return ""
+
+    def _context(self, here: Place) -> Context:
+        return Context(here=here, visited=tuple(self.visited), bound=dict(self.bound))
+
+    def _stands(self) -> Place:
+        """Where the robot is, as a place: the place in hand if it is there."""
+        position = self.driver.position()
+        if math.dist((position.x, position.y), self.here.xy) <= AT_M:
+            return self.here
+        return Place(kind="point", id="on the way", x=position.x, y=position.y, lat=position.lat, lon=position.lon)

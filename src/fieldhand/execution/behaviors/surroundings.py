@@ -1,0 +1,157 @@
+"""What a behavior sees of the tree around it: who catches its failure, which loops it is in, what comes after it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
+
+from py_trees.behaviour import Behaviour
+from py_trees.composites import Selector as PyTreesSelector
+from py_trees.composites import Sequence as PyTreesSequence
+
+from fieldhand.errors import PlaceError
+from fieldhand.execution.attempt import Attempt, Ending
+from fieldhand.forecast.service import service_of
+from fieldhand.forecast.state import Choice, Verdict, Visit
+from fieldhand.site.model import Place
+from fieldhand.task import plan
+from fieldhand.task.plan import Node
+from fieldhand.task.results import Shed
+from fieldhand.task.selectors import is_relative
+
+if TYPE_CHECKING:
+    from fieldhand.execution.behaviors.loops import ForEachPlace
+
+
+@runtime_checkable
+class HasNode(Protocol):
+    """A behavior that stands for a plan node."""
+
+    node: Node
+
+
+def ancestors(behavior: Behaviour) -> Iterator[tuple[Behaviour, Behaviour]]:
+    """(parent, the child of it that we come from), innermost first."""
+    child, parent = behavior, behavior.parent
+    while parent is not None:
+        yield parent, child
+        child, parent = parent, parent.parent
+
+
+def is_caught(behavior: Behaviour) -> bool:
+    """Whether a try/otherwise around the behavior goes on if it fails."""
+    return any(
+        isinstance(parent, PyTreesSelector) and child is parent.children[0] for parent, child in ancestors(behavior)
+    )
+
+
+def loops(behavior: Behaviour) -> Iterator[ForEachPlace]:
+    """The for-each loops around a behavior, innermost first."""
+    from fieldhand.execution.behaviors.loops import ForEachPlace
+
+    for parent, _ in ancestors(behavior):
+        if isinstance(parent, ForEachPlace):
+            yield parent
+
+
+def visit_to(attempt: Attempt, place: Place, work: Node, reward: float = 1.0) -> Visit:
+    """A visit as the guard sees it."""
+    seconds, joules = service_of(work, attempt.robot)
+    return Visit(place=place, reward=reward, service_s=seconds, service_j=joules)
+
+
+def admitted(
+    behavior: Behaviour,
+    node: Node,
+    attempt: Attempt,
+    visit: Visit,
+    *,
+    refused: Sequence[Place],
+    later: Sequence[Visit] = (),
+) -> bool:
+    """Ask the guard about mandatory work; where it says no, do what follows from that.
+
+    Inside an optional visit only that visit is given up. Else the mission turns home, and all that it will not do is
+    said.
+
+    Args:
+        behavior, node: What is about to drive or act.
+        attempt: The state of the mission.
+        visit: The drive and the work that it is about.
+        refused: Places of the node that stay undone if the guard says no.
+        later: Visits of the node itself that come after this one; those of the loops around it are added.
+    """
+    around = list(loops(behavior))
+    to_come = [*later, *(visit for loop in around if not loop.node.optional for visit in loop.still_to_come())]
+    verdict = attempt.guard.admit(attempt.state(node.id), visit, to_come)
+    if verdict.go:
+        return True
+    optional = next((loop for loop in around if loop.node.optional), None)
+    if optional is not None:
+        shed(attempt, optional.node.id, [optional.place or visit.place], verdict, optional=True)
+        attempt.giving_up = optional.node.id
+    else:
+        turn_home(behavior, node, attempt, refused, verdict)
+    return False
+
+
+def turn_home(behavior: Behaviour, node: Node, attempt: Attempt, places: Sequence[Place], verdict: Verdict) -> None:
+    """Give up this node and all that would come after it, say so, and take the exit for a low budget."""
+    shed(attempt, node.id, places, verdict, optional=False)
+    missed = Verdict(go=False, reason=f"not reached: {verdict.reason}", chance_short=verdict.chance_short)
+    for undone, left, optional in left_undone(behavior, attempt):
+        shed(attempt, undone.id, left, missed, optional=optional)
+    attempt.end(Ending(status="returned", exit="faulted", then=attempt.exit_for("low_budget"), reason=verdict.reason))
+
+
+def left_undone(behavior: Behaviour, attempt: Attempt) -> Iterator[tuple[Node, Sequence[Place], bool]]:
+    """What stands after a behavior: (node, places as far as they are known now, whether it was optional)."""
+    from fieldhand.execution.behaviors.loops import ForEachPlace, RepeatBody
+
+    for parent, child in ancestors(behavior):
+        if isinstance(parent, ForEachPlace):
+            if parent.left:
+                yield parent.node, tuple(v.place for v in parent.left), parent.node.optional
+        elif isinstance(parent, RepeatBody):
+            if parent.rounds_left:
+                yield parent.node, (), False
+        elif isinstance(parent, PyTreesSequence):
+            for later in parent.children[parent.children.index(child) + 1 :]:
+                if isinstance(later, HasNode):
+                    yield from _work_of(later.node, attempt)
+
+
+def _work_of(node: Node, attempt: Attempt) -> Iterator[tuple[Node, Sequence[Place], bool]]:
+    match node:
+        case plan.Sequence(steps=steps) | plan.AnyOrder(steps=steps):
+            for step in steps:
+                yield from _work_of(step, attempt)
+        case plan.Stop():
+            return
+        case _:
+            optional = isinstance(node, plan.ForEach) and node.optional
+            yield node, _places_of(node, attempt), optional
+
+
+def _places_of(node: Node, attempt: Attempt) -> tuple[Place, ...]:
+    selector = plan.selector_of(node)
+    if selector is None or is_relative(selector):
+        return ()
+    try:
+        return attempt.resolve(selector)
+    except PlaceError:
+        return ()
+
+
+def shed(attempt: Attempt, node: str, places: Sequence[Place], verdict: Verdict | Choice, *, optional: bool) -> None:
+    """Say what is given up, and why."""
+    attempt.emit(
+        Shed(
+            t=attempt.t,
+            node=node,
+            places=tuple(p.id for p in places),
+            optional=optional,
+            reason=verdict.reason,
+            chance_short=verdict.chance_short,
+        )
+    )

@@ -1,0 +1,216 @@
+"""What the simulated robot finds: the world file bound to a site and a robot.
+
+What the file says is exact. What it leaves open is drawn from the profile's ``typical`` and ``spread``: a value for
+each tree and quantity that depends on the seed, the tree and the quantity alone, so that it is the same whichever
+tree comes first, and a little noise for each capture.
+"""
+
+from __future__ import annotations
+
+import difflib
+import hashlib
+import itertools
+import math
+from collections import Counter
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+
+from fieldhand.errors import WorldError
+from fieldhand.execution.world import (
+    ActionFails,
+    BatteryDrains,
+    Blocked,
+    RobotStops,
+    SensorAbsurd,
+    SensorSilent,
+    Spot,
+    Truth,
+    World,
+)
+from fieldhand.robot.model import Quantity, RobotProfile
+from fieldhand.site.model import Place, Site
+
+#: Standard deviation of the noise of a capture, as a part of the spread between trees.
+NOISE = 0.02
+
+#: Metres within which a robot stands at the rim of an obstacle.
+RIM = 1e-6
+
+Point = tuple[float, float]
+
+
+class GroundTruth:
+    """The world of one simulated mission: asked for readings, failures and obstacles; counts what is limited.
+
+    Args:
+        world: What the world file says.
+        site, robot: What the mission runs on.
+        seed: Of the values that the file leaves open.
+
+    Raises:
+        WorldError: The file names a quantity or an action that the robot lacks, or a tree that the site lacks.
+    """
+
+    def __init__(self, world: World, site: Site, robot: RobotProfile, seed: int) -> None:
+        self._robot = robot
+        self._seed = seed
+        self._captures: Counter[tuple[str, str]] = Counter()
+        self._used: Counter[int] = Counter()
+        self._source = world.source
+        self._known(world.readings, robot.quantity, "readings", "quantity")
+        self._values = {name: self._bound(truth, site, name) for name, truth in world.readings.items()}
+        self._defaults = {name: t.default for name, t in world.readings.items() if t.default is not None}
+        self._faults = world.faults
+        self._trees: dict[int, Place] = {}
+        for number in range(len(world.faults)):
+            self._bind_fault(number, site)
+        drains = [f.factor for f in world.faults if isinstance(f, BatteryDrains)]
+        self.drain = math.prod(drains)
+        self.stop = min((f for f in world.faults if isinstance(f, RobotStops)), key=lambda f: f.at_s, default=None)
+
+    def capture(self, action: str, place: Place) -> tuple[dict[str, float], str]:
+        """What one attempt of an action at a place yields: readings, and why it failed (empty if it did not)."""
+        for number, fault in enumerate(self._faults):
+            if isinstance(fault, ActionFails) and fault.action == action and self._strikes(number, place):
+                return {}, f"{action} gave an error"
+        readings: dict[str, float] = {}
+        for name in self._robot.action[action].measures:
+            value = self._sensed(self._robot.quantity[name], place)
+            if value is not None:
+                readings[name] = value
+        return readings, ""
+
+    def obstacle(self, path: tuple[Point, ...]) -> tuple[float, str] | None:
+        """Where along a path, in metres from its start, something stands in the way, and what; None if it is free."""
+        found: list[tuple[float, int, str]] = []
+        for number, fault in enumerate(self._faults):
+            if isinstance(fault, Blocked) and not self._exhausted(number):
+                tree = self._trees[number]
+                reach = _enters(path, tree.xy, fault.within_m)
+                if reach is not None:
+                    found.append((reach, number, f"something stands in the way at tree {tree.id}"))
+        if not found:
+            return None
+        at, number, what = min(found)
+        self._used[number] += 1
+        return at, what
+
+    def _sensed(self, quantity: Quantity, place: Place) -> float | None:
+        for number, fault in enumerate(self._faults):
+            match fault:
+                case SensorSilent(quantity=name) if name == quantity.name and self._strikes(number, place):
+                    return None
+                case SensorAbsurd(quantity=name, value=value) if name == quantity.name and self._strikes(number, place):
+                    return value
+                case _:
+                    pass
+        told = self._values.get(quantity.name, {}).get(place.id) if place.kind == "tree" else None
+        if told is None:
+            told = self._defaults.get(quantity.name)
+        return self._drawn(quantity, place) if told is None else told
+
+    def _drawn(self, quantity: Quantity, place: Place) -> float:
+        times = self._captures[quantity.name, place.id]
+        self._captures[quantity.name, place.id] += 1
+        base = self._generator(quantity.name, place.kind, place.id).normal(quantity.typical, quantity.spread)
+        noise = self._generator(quantity.name, place.kind, place.id, str(times)).normal(0.0, NOISE * quantity.spread)
+        return float(np.clip(base + noise, quantity.minimum, quantity.maximum))
+
+    def _generator(self, *key: str) -> np.random.Generator:
+        digest = hashlib.sha256("\0".join(key).encode()).digest()
+        return np.random.default_rng([self._seed, int.from_bytes(digest[:8], "big")])
+
+    def _strikes(self, number: int, place: Place) -> bool:
+        """Whether fault ``number`` happens here and now; counts it if so."""
+        fault = self._faults[number]
+        tree = self._trees.get(number)
+        if self._exhausted(number) or (tree is not None and (place.kind, place.id) != ("tree", tree.id)):
+            return False
+        if isinstance(fault, ActionFails | SensorSilent | SensorAbsurd):
+            self._used[number] += 1
+        return True
+
+    def _exhausted(self, number: int) -> bool:
+        times = getattr(self._faults[number], "times", None)
+        return times is not None and self._used[number] >= times
+
+    def _bind_fault(self, number: int, site: Site) -> None:
+        fault = self._faults[number]
+        where = f"faults[{number}]"
+        match fault:
+            case ActionFails(action=action):
+                self._known([action], self._robot.action, where, "action")
+            case SensorSilent(quantity=quantity) | SensorAbsurd(quantity=quantity):
+                self._known([quantity], self._robot.quantity, where, "quantity")
+            case _:
+                pass
+        spot = getattr(fault, "at", None)
+        if isinstance(spot, Spot):
+            self._trees[number] = self._tree(spot, site, where)
+
+    def _bound(self, truth: Truth, site: Site, name: str) -> dict[str, float]:
+        """Values by tree id."""
+        return {
+            self._tree(spot, site, f"readings.{name}.trees[{number}]").id: value
+            for number, (spot, value) in enumerate(truth.trees)
+        }
+
+    def _known(self, names: Iterable[str], known: Mapping[str, object], where: str, noun: str) -> None:
+        for name in names:
+            if name not in known:
+                near = difflib.get_close_matches(name.lower(), known, n=1)
+                hint = f"did you mean '{near[0]}'? " if near else ""
+                many = "quantities" if noun == "quantity" else "actions"
+                raise WorldError(
+                    f"the robot {self._robot.name} has no {noun} '{name}'",
+                    where=f"{self._source}: {where}",
+                    advice=f"{hint}its {many} are {', '.join(known)}",
+                )
+
+    def _tree(self, spot: Spot, site: Site, where: str) -> Place:
+        """The tree that a spot names: by id, or the nearest if it is no farther than a spacing."""
+        if spot.id is not None:
+            tree = site.by_id.get(spot.id)
+            if tree is None:
+                near = difflib.get_close_matches(spot.id, site.by_id, n=1)
+                raise WorldError(
+                    f"{site.name} has no tree '{spot.id}'",
+                    where=f"{self._source}: {where}",
+                    advice=f"did you mean '{near[0]}'?" if near else f"it has {len(site.trees)} trees",
+                )
+            return tree.place
+        xy = site.projection.metres(spot.lat, spot.lon)[0]
+        away = np.hypot(*(site.xy - xy).T)
+        nearest = int(np.argmin(away))
+        if not away[nearest] <= site.spacing_m:
+            raise WorldError(
+                f"{site.name} has no tree at {spot}: the nearest is {away[nearest]:.0f} m away",
+                where=f"{self._source}: {where}",
+                advice="is it the world of another site?",
+            )
+        return site.trees[nearest].place
+
+
+def _enters(path: tuple[Point, ...], centre: Point, radius: float) -> float | None:
+    """Metres along a path at which it first comes within ``radius`` of a point; None if it never does.
+
+    A path that begins inside is let out, and stopped where it comes back in. A robot that was stopped at the rim is
+    outside, so that trying again does not get through.
+    """
+    driven, outside = 0.0, math.dist(path[0], centre) > radius - RIM
+    for (ax, ay), (bx, by) in itertools.pairwise(path):
+        length = math.dist((ax, ay), (bx, by))
+        if length == 0:
+            continue
+        ux, uy = (bx - ax) / length, (by - ay) / length
+        along = (centre[0] - ax) * ux + (centre[1] - ay) * uy
+        across = abs((centre[0] - ax) * uy - (centre[1] - ay) * ux)
+        if across <= radius:
+            half = math.sqrt(radius**2 - across**2)
+            entry, leave = along - half, along + half
+            if outside and -RIM <= entry <= length:
+                return driven + max(0.0, entry)
+            outside = leave < length if not outside else True
+        driven += length
+    return None

@@ -1,0 +1,136 @@
+"""What a robot must be able to do to carry out a mission: the contract between execution and a driver.
+
+A driver has one goal at a time, a drive or an action. Nothing blocks: ``start_*`` begins a goal, :meth:`Driver.poll`
+says how far it is, :meth:`Driver.cancel` asks for its end. That is how a ROS 2 action client works; the simulated
+twin keeps to it.
+
+    start_drive / start_action ──▶ running ──▶ succeeded | failed
+                                      └─cancel──▶ cancelled
+
+A goal that the robot's own stop cuts short (:meth:`Driver.stopped`) is cancelled, too.
+
+The outcome of a goal stays what :meth:`~Driver.poll` answers until the next goal starts, so that nothing is lost when
+a mission is interrupted between two calls. ``tests/driver_contract.py`` holds every driver to this.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal, Protocol
+
+from fieldhand.site.model import Place
+
+GoalState = Literal["idle", "running", "succeeded", "failed", "cancelled"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Position:
+    """Where the robot itself is (not the tree that it stands beside).
+
+    Attributes:
+        x, y: Metres east and north in the site's projection.
+        lat, lon: Degrees, WGS 84.
+    """
+
+    x: float
+    y: float
+    lat: float
+    lon: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class DriveGoal:
+    """A drive along a path to a place.
+
+    Attributes:
+        place: Where it leads.
+        path_m: Corners of the path in local metres, the robot's own position first, at least two.
+        path_degrees: The same corners as (lat, lon).
+        length_m: Of the path.
+        speed_m_s: Not faster than this.
+    """
+
+    place: Place
+    path_m: tuple[tuple[float, float], ...]
+    path_degrees: tuple[tuple[float, float], ...]
+    length_m: float
+    speed_m_s: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class ActionGoal:
+    """One capture of an action at the place where the robot stands, with every parameter that the profile declares."""
+
+    action: str
+    place: Place
+    parameters: Mapping[str, str | float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Progress:
+    """How far the goal in hand is, and what it has cost so far.
+
+    Attributes:
+        metres: Driven for this goal, by the robot's odometry.
+        seconds: Since the goal was started, until it was over.
+        readings: What a capture measured, by quantity, in the units of the profile. A sensor that gave nothing is
+            absent.
+        what: Why it failed, in words.
+    """
+
+    state: GoalState
+    metres: float = 0.0
+    seconds: float = 0.0
+    readings: Mapping[str, float] = field(default_factory=dict)
+    what: str = ""
+
+    @property
+    def over(self) -> bool:
+        """Whether the robot has nothing more to do for the goal."""
+        return self.state != "running"
+
+
+class Driver(Protocol):
+    """A robot, real or simulated. One goal at a time; no call blocks; no call fails because a robot does."""
+
+    @property
+    def seed(self) -> int | None:
+        """The seed of a simulation, None where the robot is real."""
+        ...
+
+    def start_drive(self, goal: DriveGoal) -> None:
+        """Begin a drive. No goal may be running."""
+        ...
+
+    def start_action(self, goal: ActionGoal) -> None:
+        """Begin one capture. No goal may be running."""
+        ...
+
+    def poll(self) -> Progress:
+        """How the last goal stands; ``idle`` before the first. Asking twice changes nothing."""
+        ...
+
+    def cancel(self) -> None:
+        """Ask for the end of the goal in hand; it is over when :meth:`poll` says so. Does nothing without one."""
+        ...
+
+    def next_event_in(self) -> float | None:
+        """Seconds until :meth:`poll` is worth asking again; None where no goal is running.
+
+        The simulation knows when a goal will be over, and a simulated clock jumps there; a real robot gives its
+        polling period.
+        """
+        ...
+
+    def position(self) -> Position:
+        """Where the robot is now."""
+        ...
+
+    def charge_percent(self) -> float:
+        """Charge of the battery now, 0 to 100."""
+        ...
+
+    def stopped(self) -> str | None:
+        """Why the robot will not move again in this mission (emergency stop, power cut); None while it may."""
+        ...

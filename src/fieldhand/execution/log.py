@@ -1,0 +1,80 @@
+"""Event logs: one JSON object a line (docs/formats.md, "Event log")."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import TracebackType
+from typing import TextIO
+
+from fieldhand.errors import InputError, OutputError
+from fieldhand.task.results import Event, from_json, to_json
+
+
+class EventLog:
+    """Writes events as they happen: each line is on its way to the disk before the next thing is done.
+
+    Args:
+        path: File to write; it is replaced, its folder is made.
+
+    Raises:
+        OutputError: It cannot be written, now or later (a full disk).
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            self._file: TextIO = path.open("w", encoding="utf-8", newline="\n")
+        except (OSError, ValueError) as error:
+            raise self._unwritable(error) from None
+
+    def __call__(self, event: Event) -> None:
+        """Write one event."""
+        try:
+            self._file.write(to_json(event) + "\n")
+            self._file.flush()
+        except (OSError, ValueError) as error:
+            raise self._unwritable(error) from None
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+    def __enter__(self) -> EventLog:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def _unwritable(self, error: Exception) -> OutputError:
+        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        why = "its folder is a file" if isinstance(error, FileExistsError) else why
+        return OutputError(
+            f"the event log cannot be written: {why}",
+            where=str(self._path),
+            advice="give a file in a folder that you may write to",
+        )
+
+
+def read_events(path: Path) -> tuple[Event, ...]:
+    """The events of a log, in order; those of types that this version does not know are left out.
+
+    Raises:
+        InputError: The file cannot be read.
+        TaskError: A line is no event; says which.
+    """
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, ValueError) as error:
+        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise InputError(
+            f"the event log cannot be read: {why}", where=str(path), advice="give a log that --events wrote"
+        ) from None
+    events = (
+        from_json(line, where=f"{path}, line {number}")
+        for number, line in enumerate(text.split("\n"), start=1)
+        if line.strip()
+    )
+    return tuple(event for event in events if event is not None)

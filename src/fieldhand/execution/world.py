@@ -1,0 +1,187 @@
+"""The world of a simulation: what sensors would read, and what goes wrong. Read from YAML by :func:`load_world`.
+
+A world names trees by id or by latitude and longitude, so that it does not depend on how a program numbers them.
+Whether it fits a site and a robot is checked where it is used (:mod:`fieldhand.execution.drivers.groundtruth`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from fieldhand.errors import WorldError
+
+#: A world of a value for each of 3,000 trees is 200 kB; a file beyond this is something else.
+MAX_BYTES = 5_000_000
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spot:
+    """A tree, by its id or else as the one nearest to a position in degrees (WGS 84)."""
+
+    id: str | None = None
+    lat: float = 0.0
+    lon: float = 0.0
+
+    def __str__(self) -> str:
+        return f"tree {self.id}" if self.id is not None else f"lat {self.lat}, lon {self.lon}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Truth:
+    """What a sensor reads, exactly: at some trees, and everywhere else (None: drawn from the profile)."""
+
+    default: float | None = None
+    trees: tuple[tuple[Spot, float], ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class ActionFails:
+    """An action fails its first ``times`` attempts (None: always), at one tree or wherever it is tried."""
+
+    action: str
+    times: int | None = None
+    at: Spot | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SensorSilent:
+    """A capture succeeds but lacks a quantity."""
+
+    quantity: str
+    times: int | None = None
+    at: Spot | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SensorAbsurd:
+    """A sensor reads ``value``, whatever is there."""
+
+    quantity: str
+    value: float
+    times: int | None = None
+    at: Spot | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Blocked:
+    """Something stands in the way: a leg that passes within ``within_m`` metres of ``at`` ends there."""
+
+    at: Spot
+    within_m: float = 1.0
+    times: int | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class BatteryDrains:
+    """The battery empties ``factor`` times as fast as the profile says."""
+
+    factor: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class RobotStops:
+    """The robot stops for good ``at_s`` seconds into the mission: a power cut, an emergency stop."""
+
+    at_s: float
+    why: str = "power cut"
+
+
+WorldFault = ActionFails | SensorSilent | SensorAbsurd | Blocked | BatteryDrains | RobotStops
+
+
+@dataclass(frozen=True, kw_only=True)
+class World:
+    """What the simulation is told of the world; what it is not told it draws from the profile and the seed.
+
+    Attributes:
+        readings: By quantity.
+        seed: Of every random thing in it, where the run names none.
+        charge_percent: Of the battery at the start.
+        source: File, for messages.
+    """
+
+    readings: Mapping[str, Truth] = field(default_factory=dict)
+    faults: tuple[WorldFault, ...] = ()
+    seed: int = 0
+    charge_percent: float = 100.0
+    source: str = "world"
+
+
+def load_world(path: Path) -> World:
+    """The world of a YAML file (docs/formats.md, "World file").
+
+    Raises:
+        WorldError: It cannot be read or used; says which key, and what to do.
+    """
+    source = str(path)
+    try:
+        if path.stat().st_size > MAX_BYTES:
+            raise WorldError(f"is larger than {MAX_BYTES:,} bytes", where=source, advice="is it a world file?")
+        text = path.read_text(encoding="utf-8-sig")
+    except (OSError, ValueError) as error:
+        if isinstance(error, UnicodeDecodeError):
+            raise WorldError("is not UTF-8 text", where=source, advice="save it as UTF-8") from None
+        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise WorldError(f"cannot be read: {why}", where=source, advice="give the path of a YAML file") from None
+    return parse_world(_content(text, source), source=source)
+
+
+def parse_world(content: Mapping[str, Any], *, source: str = "world") -> World:
+    """The world that the content of a world file says.
+
+    Args:
+        content: As YAML or JSON gives it.
+        source: What to call it in messages.
+
+    Raises:
+        WorldError: It cannot be used; says which key, and what to do.
+    """
+    from fieldhand.execution.world_file import world_of
+
+    return world_of(content, source=source)
+
+
+def _content(text: str, source: str) -> dict[Any, Any]:
+    import yaml
+
+    try:
+        content = yaml.load(text, Loader=_loader())  # noqa: S506  a SafeLoader
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        where = f"{source}, line {mark.line + 1}" if mark else source
+        problem = error.problem or error.context
+        raise WorldError(f"is not YAML: {problem}", where=where, advice="correct that line") from None
+    except (yaml.YAMLError, ValueError) as error:
+        first = " ".join(str(error).split())
+        raise WorldError(f"is not YAML: {first}", where=source, advice="save it as plain text") from None
+    except RecursionError:
+        raise WorldError("is nested too deep", where=source, advice="see docs/formats.md, 'World file'") from None
+    if content is None:
+        raise WorldError("is empty", where=source, advice="leave --world out for a world without surprises")
+    if not isinstance(content, dict):
+        raise WorldError(
+            "is not a mapping of keys to values", where=source, advice="begin with readings:, faults: or seed:"
+        )
+    return content
+
+
+def _loader() -> Any:
+    """Safe YAML in which a key stands once: a second value for the same quantity must not replace the first unseen."""
+    import yaml
+
+    class WorldYaml(yaml.SafeLoader):
+        def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+            seen: set[str] = set()
+            for key, _ in node.value:
+                if isinstance(key, yaml.ScalarNode):
+                    if key.value in seen:
+                        raise yaml.constructor.ConstructorError(
+                            None, None, f"the key '{key.value}' stands twice", key.start_mark
+                        )
+                    seen.add(key.value)
+            return super().construct_mapping(node, deep)
+
+    return WorldYaml

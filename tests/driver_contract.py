@@ -1,0 +1,142 @@
+"""What every driver must do: subclass :class:`DriverContract` for a new twin and say how to make one."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+
+import pytest
+
+from fieldhand.clock import Clock
+from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, Progress
+from fieldhand.site.model import Place, Site
+
+#: More looks than any goal of these tests needs.
+MANY = 10_000
+
+
+class DriverContract(ABC):
+    """The contract of :mod:`fieldhand.execution.drivers.protocol`, as tests."""
+
+    #: An action of the robot, with the quantity that it measures.
+    action = "read_co2"
+    measures = "co2"
+
+    @abstractmethod
+    def make(self) -> tuple[Driver, Clock, Site]:
+        """A driver in no goal at the start of a site, with a charged battery, and its clock."""
+
+    def test_it_begins_idle_at_the_start(self) -> None:
+        driver, _, site = self.make()
+        assert driver.poll().state == "idle"
+        assert driver.next_event_in() is None
+        assert math.dist((driver.position().x, driver.position().y), site.start.xy) < 1.0
+        assert 0 < driver.charge_percent() <= 100
+        assert driver.stopped() is None
+
+    def test_a_drive_runs_and_then_has_arrived(self) -> None:
+        driver, clock, site = self.make()
+        goal = drive_goal(site, site.start, site.trees[0].place)
+        driver.start_drive(goal)
+        assert driver.poll().state == "running"
+        progress = finish(driver, clock)
+        assert progress.state == "succeeded"
+        assert progress.metres > 0
+        assert progress.seconds > 0
+        assert math.dist((driver.position().x, driver.position().y), goal.path_m[-1]) < 0.5
+
+    def test_the_position_is_on_the_way_while_it_drives(self) -> None:
+        driver, clock, site = self.make()
+        goal = drive_goal(site, site.start, site.trees[-1].place)
+        driver.start_drive(goal)
+        wait = driver.next_event_in()
+        assert wait is not None
+        clock.advance(min(wait, 4.0) / 2)
+        here = (driver.position().x, driver.position().y)
+        (ax, ay), (bx, by) = goal.path_m[0], goal.path_m[-1]
+        off = abs((here[0] - ax) * (by - ay) - (here[1] - ay) * (bx - ax)) / math.dist((ax, ay), (bx, by))
+        assert off < 0.5
+        assert math.dist(here, goal.path_m[-1]) < math.dist(goal.path_m[0], goal.path_m[-1])
+        position = driver.position()
+        assert site.projection.metres(position.lat, position.lon)[0] == pytest.approx(here, abs=0.01)
+
+    def test_a_capture_gives_readings(self) -> None:
+        driver, clock, site = self.make()
+        driver.start_action(ActionGoal(action=self.action, place=site.trees[0].place))
+        progress = finish(driver, clock)
+        assert progress.state == "succeeded"
+        assert math.isfinite(progress.readings[self.measures])
+
+    def test_the_outcome_stays_until_the_next_goal(self) -> None:
+        driver, clock, site = self.make()
+        driver.start_action(ActionGoal(action=self.action, place=site.trees[0].place))
+        first = finish(driver, clock)
+        assert [driver.poll() for _ in range(3)] == [first] * 3
+        assert driver.next_event_in() is None
+
+    def test_the_battery_empties_and_never_fills(self) -> None:
+        driver, clock, site = self.make()
+        charges = [driver.charge_percent()]
+        driver.start_drive(drive_goal(site, site.start, site.trees[-1].place))
+        while not driver.poll().over:
+            clock.advance(min(driver.next_event_in() or 0.0, 2.0))
+            charges.append(driver.charge_percent())
+        assert charges == sorted(charges, reverse=True)
+        assert charges[-1] < charges[0]
+
+    def test_a_cancelled_drive_comes_to_rest_where_it_is(self) -> None:
+        driver, clock, site = self.make()
+        driver.start_drive(drive_goal(site, site.start, site.trees[-1].place))
+        clock.advance(min(driver.next_event_in() or 0.0, 4.0) / 2)
+        driver.cancel()
+        progress = finish(driver, clock)
+        assert progress.state == "cancelled"
+        assert progress.metres > 0
+        stood = driver.position()
+        clock.advance(5.0)
+        assert driver.position() == stood
+
+    def test_cancel_without_a_goal_does_nothing(self) -> None:
+        driver, clock, site = self.make()
+        driver.cancel()
+        assert driver.poll().state == "idle"
+        driver.start_action(ActionGoal(action=self.action, place=site.trees[0].place))
+        done = finish(driver, clock)
+        driver.cancel()
+        assert driver.poll() == done
+
+    def test_a_second_goal_at_once_is_refused(self) -> None:
+        driver, _, site = self.make()
+        goal = drive_goal(site, site.start, site.trees[-1].place)
+        driver.start_drive(goal)
+        with pytest.raises(RuntimeError, match="one at a time"):
+            driver.start_drive(goal)
+
+    def test_a_goal_can_follow_a_cancelled_one(self) -> None:
+        driver, clock, site = self.make()
+        driver.start_drive(drive_goal(site, site.start, site.trees[-1].place))
+        driver.cancel()
+        finish(driver, clock)
+        driver.start_action(ActionGoal(action=self.action, place=site.trees[0].place))
+        assert finish(driver, clock).state == "succeeded"
+
+
+def drive_goal(site: Site, start: Place, end: Place, speed_m_s: float = 1.0) -> DriveGoal:
+    """A straight drive."""
+    return DriveGoal(
+        place=end,
+        path_m=(start.xy, end.xy),
+        path_degrees=((start.lat, start.lon), (end.lat, end.lon)),
+        length_m=math.dist(start.xy, end.xy),
+        speed_m_s=speed_m_s,
+    )
+
+
+def finish(driver: Driver, clock: Clock) -> Progress:
+    """Let time pass until the goal in hand is over."""
+    for _ in range(MANY):
+        progress = driver.poll()
+        if progress.over:
+            return progress
+        clock.advance(driver.next_event_in() or 0.0)
+    raise AssertionError("the goal is never over")

@@ -1,0 +1,136 @@
+"""World files: what they say is what the simulation gets, and each mistake is one line that names it."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from fieldhand.errors import WorldError
+from fieldhand.execution import world as w
+from fieldhand.execution.world import World, load_world
+
+
+def write(tmp_path: Path, text: str) -> Path:
+    path = tmp_path / "w.yaml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_a_whole_file_is_read(tmp_path: Path) -> None:
+    text = """
+readings:
+  co2: 380
+  wet: true
+  canopy_temperature:
+    default: 31.5
+    trees:
+    - {lat: 37.0001, lon: -120.0002, value: 40}
+    - {id: 12, value: false}
+seed: 7
+charge_percent: 64.5
+faults:
+- {fault: action_fails, action: read_co2, times: 2}
+- {fault: sensor_silent, quantity: co2, at: {id: r1c1}}
+- {fault: sensor_absurd, quantity: co2, value: 99999}
+- {fault: blocked, at: {id: r1c1}, within_m: 2}
+- {fault: battery_drains, factor: 3}
+- {fault: robot_stops, at_s: 120}
+"""
+    world = load_world(write(tmp_path, text))
+    assert world.readings == {
+        "co2": w.Truth(default=380.0),
+        "wet": w.Truth(default=1.0),
+        "canopy_temperature": w.Truth(
+            default=31.5, trees=((w.Spot(lat=37.0001, lon=-120.0002), 40.0), (w.Spot(id="12"), 0.0))
+        ),
+    }
+    assert (world.seed, world.charge_percent) == (7, 64.5)
+    assert world.faults == (
+        w.ActionFails(action="read_co2", times=2),
+        w.SensorSilent(quantity="co2", at=w.Spot(id="r1c1")),
+        w.SensorAbsurd(quantity="co2", value=99999.0),
+        w.Blocked(at=w.Spot(id="r1c1"), within_m=2.0),
+        w.BatteryDrains(factor=3.0),
+        w.RobotStops(at_s=120.0, why="power cut"),
+    )
+
+
+def test_what_a_file_leaves_out_is_as_in_a_world_without_one(tmp_path: Path) -> None:
+    world = load_world(write(tmp_path, "readings: {}\n"))
+    assert (world.readings, world.faults, world.seed, world.charge_percent) == ({}, (), 0, 100.0)
+    assert World().charge_percent == 100.0
+
+
+def test_the_example_in_the_docs_is_a_world(tmp_path: Path) -> None:
+    page = (Path(__file__).resolve().parents[2] / "docs" / "formats.md").read_text()
+    example = re.search(r"## World file.*?```yaml\n(.*?)```", page, re.DOTALL)
+    assert example is not None
+    world = load_world(write(tmp_path, example[1]))
+    kinds = {type(f) for f in world.faults}
+    assert kinds == {w.ActionFails, w.SensorSilent, w.SensorAbsurd, w.Blocked, w.BatteryDrains, w.RobotStops}
+    assert set(world.readings) == {"co2", "canopy_temperature"}
+
+
+BAD = {
+    "": "is empty",
+    "- a": "is not a mapping",
+    "a: [": "line 1: is not YAML",
+    "seed: 1\nseed: 2": "line 2: is not YAML: the key 'seed' stands twice",
+    "seed: 2024-13-45": "is not YAML",
+    "seed: \x00": "is not YAML",
+    "x: " + "[" * 5000: "nested too deep",
+    "reading: {co2: 1}": "reading: there is no key 'reading' here; did you mean 'readings'?",
+    "readings: 3": "readings: must hold keys and values",
+    "readings: {co2: lots}": "readings.co2: must be a number, true or false, is lots",
+    "readings: {co2: .nan}": "readings.co2: must be a number, true or false, is nan",
+    "readings: {co2: [1]}": "readings.co2: must be a number, true or false, is a list",
+    "readings: {co2: }": "readings.co2: must be a number, true or false, is empty",
+    "readings: {co2: {defalt: 3}}": "readings.co2.defalt: there is no key 'defalt' here; did you mean 'default'?",
+    "readings: {co2: {trees: [{id: 4, valu: 3}]}}": "readings.co2.trees[0].valu: there is no key 'valu' here; did",
+    "readings: {co2: {trees: [{id: 4}]}}": "readings.co2.trees[0]: the key 'value' is missing",
+    "readings: {co2: {trees: [{lat: 4, value: 3}]}}": "readings.co2.trees[0]: a tree is named by id, or by lat and lon",
+    "readings: {co2: {trees: [{lat: 94, lon: 3, value: 3}]}}": "trees[0].lat: must be less than or equal to 90",
+    "faults: {fault: x}": "faults: must be a list, is a mapping",
+    "faults: [3]": "faults[0]: must hold keys and values, is 3",
+    "faults: [{action: x}]": "faults[0]: the key 'fault' is missing",
+    "faults: [{fault: action_fail, action: x}]": "faults[0]: there is no fault 'action_fail'; did you mean 'action",
+    "faults: [{fault: action_fails}]": "faults[0]: the key 'action' is missing",
+    "faults: [{fault: action_fails, action: x, time: 2}]": "faults[0].time: there is no key 'time' here; did you mean",
+    "faults: [{fault: action_fails, action: x, times: 0}]": "faults[0].times: must be greater than or equal to 1",
+    "faults: [{fault: blocked, at: {ids: 4}}]": "faults[0].at.ids: there is no key 'ids' here; did you mean 'id'?",
+    "faults: [{fault: battery_drains, factor: 0}]": "faults[0].factor: must be greater than 0",
+    "faults: [{fault: robot_stops, at_s: -1}]": "faults[0].at_s: must be greater than or equal to 0",
+    "seed: -1": "seed: must be greater than or equal to 0",
+    "seed: 1.5": "seed: must be a valid integer, is 1.5",
+    "charge_percent: 0": "charge_percent: must be greater than 0",
+    "charge_percent: 101": "charge_percent: must be less than or equal to 100",
+}
+
+
+@pytest.mark.parametrize(("text", "says"), BAD.items(), ids=[k[:40] for k in BAD])
+def test_a_mistake_is_one_line_that_says_where_and_what(tmp_path: Path, text: str, says: str) -> None:
+    path = write(tmp_path, text)
+    with pytest.raises(WorldError) as caught:
+        load_world(path)
+    line = str(caught.value)
+    assert line.startswith(str(path))
+    assert says in line
+    assert "\n" not in line
+    assert caught.value.advice
+
+
+def test_files_that_cannot_be_read(tmp_path: Path) -> None:
+    with pytest.raises(WorldError, match=r"cannot be read: No such file"):
+        load_world(tmp_path / "missing.yaml")
+    with pytest.raises(WorldError, match=r"cannot be read: Is a directory"):
+        load_world(tmp_path)
+    binary = tmp_path / "b.yaml"
+    binary.write_bytes(b"\xff\xfe\x00x")
+    with pytest.raises(WorldError, match="is not UTF-8"):
+        load_world(binary)
+    large = tmp_path / "l.yaml"
+    large.write_text("#" * (w.MAX_BYTES + 1))
+    with pytest.raises(WorldError, match="is larger than"):
+        load_world(large)
