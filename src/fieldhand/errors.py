@@ -9,6 +9,7 @@
     │   ├── WorldError              the world file of a simulation
     │   ├── PlaceError              a selector that this site cannot resolve
     │   ├── OutputError             a place to write to that cannot be written
+    │   ├── ProblemError            an orienteering problem that contradicts itself or has no solution
     │   └── ModelError              the language model: key, endpoint, answer
     ├── NotApprovedError            a check failed or the operator said no
     └── ExecutionError              the robot
@@ -30,6 +31,7 @@ __all__ = [
     "NotApprovedError",
     "OutputError",
     "PlaceError",
+    "ProblemError",
     "ProfileError",
     "RequestError",
     "SiteError",
@@ -93,6 +95,10 @@ class PlaceError(InputError):
 
 class OutputError(InputError):
     """A file or folder cannot be written."""
+
+
+class ProblemError(InputError):
+    """An orienteering problem is not a problem: bad numbers, a vertex that does not exist, no way to the end."""
 
 
 class ModelError(InputError):

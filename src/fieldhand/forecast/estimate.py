@@ -1,0 +1,226 @@
+"""What a Task will take on every branch: metres, seconds and charge as distributions, and chances of running short."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.forecast import routes
+from fieldhand.forecast.branches import branches
+from fieldhand.forecast.limits import Resource, ResourceKind, resources_of, speed_of
+from fieldhand.forecast.steps import Decision, Walk
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Place, Site
+from fieldhand.task.frames import Task
+from fieldhand.task.plan import ForEach
+
+if TYPE_CHECKING:
+    from fieldhand.site.drives import Drives
+
+Floats = NDArray[np.float64]
+
+DRAWS = 2000
+
+
+@dataclass(frozen=True, kw_only=True)
+class Figure:
+    """A random amount: its mean, and what it exceeds once in ten missions (90th percentile)."""
+
+    mean: float
+    p90: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Chance:
+    """The chance of using more of a resource than there is.
+
+    Attributes:
+        kind: Which budget, or ``reserve``.
+        limit: Metres, seconds, or percent of a full battery.
+        accepted: The failure probability that the Task accepts.
+    """
+
+    kind: ResourceKind
+    limit: float
+    accepted: float
+    chance: float
+
+    @property
+    def exceeded(self) -> bool:
+        """Whether the chance is more than is accepted, beyond what the number of draws can tell."""
+        noise = 2.0 * np.sqrt(self.accepted * (1.0 - self.accepted) / DRAWS)
+        return bool(self.chance > self.accepted + noise)
+
+
+@dataclass(frozen=True, kw_only=True)
+class BranchEstimate:
+    """One branch.
+
+    Attributes:
+        decisions: What was answered on it.
+        metres, seconds, percent: What it takes; percent of a full battery.
+        chances: For each budget, and then for the battery's reserve.
+        captures: Number of captures on it.
+        visits: Optional visits that are expected to fit.
+        shed: Optional visits that are not, the places.
+        walk: The branch itself.
+    """
+
+    decisions: tuple[Decision, ...]
+    metres: Figure
+    seconds: Figure
+    percent: Figure
+    chances: tuple[Chance, ...]
+    captures: int
+    visits: int
+    shed: tuple[Place, ...]
+    walk: Walk
+
+
+@dataclass(frozen=True, kw_only=True)
+class Estimate:
+    """What a Task will take.
+
+    Attributes:
+        branches: Every branch that was looked at; the first is the one on which every condition holds.
+        worst: The branch most likely to run short, and among equals the one that takes longest.
+        complete: Whether every branch was looked at.
+        problems: What stands in the way of carrying it out within its limits, as sentences.
+    """
+
+    branches: tuple[BranchEstimate, ...]
+    worst: BranchEstimate
+    complete: bool
+    problems: tuple[str, ...]
+
+    def as_record(self) -> dict[str, object]:
+        """The figures as JSON: the worst branch, and how many branches there are."""
+        worst = self.worst
+        return {
+            "branches": len(self.branches),
+            "complete": self.complete,
+            "distance_m": asdict(worst.metres),
+            "duration_s": asdict(worst.seconds),
+            "battery_percent": asdict(worst.percent),
+            "captures": worst.captures,
+            "limits": [asdict(chance) for chance in worst.chances],
+            "problems": list(self.problems),
+        }
+
+
+def estimate(
+    task: Task,
+    site: Site,
+    robot: RobotProfile,
+    seed: int = 0,
+    *,
+    drives: Drives | None = None,
+    charge_percent: float = 100.0,
+) -> Estimate:
+    """Estimate a Task on every branch by drawing the cost of each leg.
+
+    A leg of ``d`` metres that costs ``c`` counts as ``c`` metres driven, so distance, time and energy are all random.
+    On board the guard decides again after every leg; so optional visits run short less often than is said here.
+
+    Args:
+        task, site, robot: The mission.
+        seed: The same seed gives the same estimate.
+        drives: The ways of the site, if the caller has them.
+        charge_percent: Charge at the beginning.
+
+    Raises:
+        PlaceError: A selector gives nothing on one of the branches.
+        DriveFault: A place that cannot be reached.
+    """
+    ways = drives or routes.drives_for(site, robot)
+    resources = resources_of(task.constraints, robot, charge_percent)
+    found = branches(task, site, robot, drives=ways, charge_percent=charge_percent)
+    speed = speed_of(task.constraints, robot)
+    estimates = tuple(_branch(w, resources, robot, speed, seed) for w in found.walks)
+    worst = max(estimates, key=lambda b: (max(c.chance - c.accepted for c in b.chances), b.seconds.mean))
+    return Estimate(
+        branches=estimates,
+        worst=worst,
+        complete=found.complete,
+        problems=_problems(task, site, ways, resources, worst),
+    )
+
+
+def draw_costs(legs_m: tuple[float, ...], alpha: float, rng: np.random.Generator, draws: int = DRAWS) -> Floats:
+    """What all legs cost together, in metres, shape (draws,)."""
+    legs = np.asarray(legs_m, dtype=np.float64)
+    if not len(legs):
+        return np.zeros(draws)
+    if alpha >= 1.0:
+        return np.full(draws, legs.sum())
+    return np.asarray(alpha * legs.sum() + rng.exponential(1.0 - alpha, size=(draws, len(legs))) @ legs)
+
+
+def _branch(
+    walked: Walk, resources: tuple[Resource, ...], robot: RobotProfile, speed: float, seed: int
+) -> BranchEstimate:
+    metres = draw_costs(walked.legs_m, robot.leg_cost.alpha, np.random.default_rng(seed))
+    work_s, work_j = walked.work
+    seconds = metres / speed + work_s
+    percent = robot.percent(1.0, 0.0) * metres + robot.percent(0.0, 1.0) * seconds + robot.percent(0.0, 0.0, work_j)
+    amount = {"distance_m": metres, "duration_s": seconds, "energy_percent": percent, "reserve": percent}
+    lists = [s for s in walked.steps if isinstance(s.node, ForEach) and s.node.optional and s.kind == "visit-list"]
+    return BranchEstimate(
+        decisions=walked.decisions,
+        metres=_figure(metres),
+        seconds=_figure(seconds),
+        percent=_figure(percent),
+        chances=tuple(
+            Chance(
+                kind=r.kind,
+                limit=r.limit,
+                accepted=r.failure_probability,
+                chance=float((amount[r.kind] > r.limit * (1 + 1e-9)).mean()),
+            )
+            for r in resources
+        ),
+        captures=sum(s.captures for s in walked.steps),
+        visits=sum(len(s.places) for s in lists),
+        shed=tuple(p for s in lists for p in s.shed),
+        walk=walked,
+    )
+
+
+def _figure(draws: Floats) -> Figure:
+    return Figure(mean=float(draws.mean()), p90=float(np.quantile(draws, 0.9)))
+
+
+def _problems(
+    task: Task, site: Site, drives: Drives, resources: tuple[Resource, ...], worst: BranchEstimate
+) -> tuple[str, ...]:
+    """Sentences about limits that the mission will not keep."""
+    found = []
+    home = site.home(task.composition.nominal, site.start)
+    alone = 0.0 if home.xy == site.start.xy else drives.between(site.start, home).length_m
+    for resource, chance in zip(resources, worst.chances, strict=True):
+        name, unit = _WORDS[resource.kind]
+        need = alone * resource.per_metre
+        if need > resource.limit * (1 + 1e-9):
+            found.append(
+                f"{name} of {resource.limit:.0f} {unit} is too small: driving home from the start alone takes "
+                f"{need:.0f} {unit} on average"
+            )
+        elif chance.exceeded and not worst.visits:
+            used = {"distance_m": worst.metres, "duration_s": worst.seconds}.get(resource.kind, worst.percent)
+            found.append(
+                f"{name} of {resource.limit:.0f} {unit} does not last for what must be done: it takes "
+                f"{used.mean:.0f} {unit} on average, {chance.chance:.0%} chance of running short where "
+                f"{resource.failure_probability:.0%} is accepted"
+            )
+    return tuple(found)
+
+
+_WORDS: dict[ResourceKind, tuple[str, str]] = {
+    "distance_m": ("the distance budget", "m"),
+    "duration_s": ("the time budget", "s"),
+    "energy_percent": ("the energy budget", "% of the battery"),
+    "reserve": ("the charge above the reserve", "% of the battery"),
+}

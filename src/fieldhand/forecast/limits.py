@@ -1,0 +1,135 @@
+"""What a mission may use: its budgets and the battery's reserve, all in metres of driving.
+
+A leg's random cost counts as that many metres driven; from it follow its time (at the robot's speed) and its energy.
+So every resource is the one random number of metres times a factor of its own, plus what work takes; dividing by the
+factor makes them limits of one orienteering problem.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.forecast.state import Spent
+from fieldhand.orienteering.problem import Limit
+from fieldhand.robot.model import RobotProfile
+from fieldhand.task.frames import Budget, BudgetKind, Constraints
+
+ResourceKind = BudgetKind | Literal["reserve"]
+Floats = NDArray[np.float64]
+
+_LEAST_PER_METRE = 1e-9
+
+
+@dataclass(frozen=True, kw_only=True)
+class Resource:
+    """Something of which a mission may use ``limit``.
+
+    Attributes:
+        kind: Which budget, or ``reserve``: the charge above what must be left at the end.
+        limit: Metres, seconds, or percent of a full battery, for the whole mission.
+        failure_probability: Accepted chance of using more.
+        per_metre: What a metre of driving uses.
+    """
+
+    kind: ResourceKind
+    limit: float
+    failure_probability: float
+    per_metre: float
+
+    def of_work(self, robot: RobotProfile, seconds: float, joules: float) -> float:
+        """What work at a place uses: its seconds, and the joules of its actions."""
+        match self.kind:
+            case "distance_m":
+                return 0.0
+            case "duration_s":
+                return seconds
+            case _:
+                return robot.percent(0.0, seconds, joules)
+
+    def used(self, spent: Spent) -> float:
+        """What has been used of it."""
+        match self.kind:
+            case "distance_m":
+                return spent.metres
+            case "duration_s":
+                return spent.seconds
+            case _:
+                return spent.percent
+
+    def metres_left(self, spent: Spent) -> float:
+        """How far the robot could drive on what is left, did it do nothing else; negative if it is overspent."""
+        return (self.limit - self.used(spent)) / self.per_metre
+
+
+def speed_of(constraints: Constraints, robot: RobotProfile) -> float:
+    """Metres per second: the robot's own, or the Task's where that is slower."""
+    return robot.speed_m_s if constraints.speed_m_s is None else min(constraints.speed_m_s, robot.speed_m_s)
+
+
+def reserve_percent(constraints: Constraints, robot: RobotProfile) -> float:
+    """Charge in percent that must be left at the end."""
+    return robot.energy.reserve_percent if constraints.reserve_percent is None else constraints.reserve_percent
+
+
+def resources_of(constraints: Constraints, robot: RobotProfile, charge_percent: float = 100.0) -> tuple[Resource, ...]:
+    """Every limit of a mission: its budgets in their order, then the battery's reserve, which is always one.
+
+    Args:
+        constraints: The Task's.
+        robot: The robot.
+        charge_percent: Charge at the beginning.
+    """
+    speed = speed_of(constraints, robot)
+    per_metre: dict[ResourceKind, float] = {
+        "distance_m": 1.0,
+        "duration_s": 1.0 / speed,
+        "energy_percent": robot.percent(1.0, 1.0 / speed),
+    }
+    accepted = min((b.failure_probability for b in constraints.budgets), default=Budget.failure_probability)
+    budgets = tuple(
+        Resource(
+            kind=b.kind,
+            limit=b.limit,
+            failure_probability=b.failure_probability,
+            per_metre=max(per_metre[b.kind], _LEAST_PER_METRE),
+        )
+        for b in constraints.budgets
+    )
+    reserve = Resource(
+        kind="reserve",
+        limit=charge_percent - reserve_percent(constraints, robot),
+        failure_probability=accepted,
+        per_metre=max(per_metre["energy_percent"], _LEAST_PER_METRE),
+    )
+    return (*budgets, reserve)
+
+
+def limits_of(
+    resources: Sequence[Resource],
+    robot: RobotProfile,
+    spent: Spent,
+    service: Sequence[tuple[float, float]],
+    later: tuple[float, float] = (0.0, 0.0),
+) -> tuple[Limit, ...]:
+    """The limits of an orienteering problem, in metres.
+
+    Args:
+        resources: What may be used.
+        robot: For the energy of work.
+        spent: What has been used.
+        service: Seconds and joules of work at each vertex.
+        later: Seconds and joules of work that follows whatever the route is.
+    """
+    return tuple(
+        Limit(
+            budget=r.metres_left(spent) - r.of_work(robot, *later) / r.per_metre,
+            failure_probability=r.failure_probability,
+            service=np.array([r.of_work(robot, *work) / r.per_metre for work in service], dtype=np.float64),
+        )
+        for r in resources
+    )

@@ -1,0 +1,176 @@
+"""In which order places are visited. The preview and the robot both ask here, so the path drawn is the path driven."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from fieldhand.errors import PlaceError
+from fieldhand.orienteering.order import shortest_order
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.context import Context
+from fieldhand.site.model import Place, Site
+from fieldhand.task import plan
+from fieldhand.task.frames import Task
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, Node, Repeat
+
+if TYPE_CHECKING:
+    from fieldhand.site.drives import Drives
+
+
+def drives_for(site: Site, robot: RobotProfile) -> Drives:
+    """How this robot drives on this site: half its width stays clear of what it must keep out of."""
+    from fieldhand.site.drives import Drives
+
+    return Drives(site, robot.width_m / 2)
+
+
+def order_visits(drives: Drives, here: Place, places: Sequence[Place], home: Place | None) -> tuple[int, ...]:
+    """The order of ``places`` that drives least from ``here``, and then to ``home`` where that is given.
+
+    Args:
+        drives: The ways of the site.
+        here: Where the robot is.
+        places: Where it has to go, in any order.
+        home: Where it goes afterwards; None where that is not known or something else comes first.
+
+    Returns:
+        Positions in ``places``, each once.
+
+    Raises:
+        DriveFault: A place that cannot be reached.
+    """
+    if not places:
+        return ()
+    if len(places) == 1:
+        return (0,)
+    around = [here, *places] if home is None else [here, *places, home]
+    lengths = np.asarray(drives.lengths(around))
+    order = shortest_order(lengths, 0, None if home is None else len(around) - 1)
+    return tuple(v - 1 for v in order if 1 <= v <= len(places))
+
+
+def visits_in_order(
+    node: ForEach, drives: Drives, here: Place, places: Sequence[Place], home: Place | None
+) -> tuple[Place, ...]:
+    """The places that a for-each will drive to, in their order.
+
+    ``at_most`` keeps the first of a given order; where the order is free, the nearest and from there the nearest again.
+    """
+    kept = list(places)
+    if node.at_most is not None and node.at_most < len(kept):
+        if node.order == "best" and not node.optional:
+            chain = _chain(np.asarray(drives.lengths([here, *kept])), node.at_most)
+            kept = [kept[i] for i in chain]
+        elif not node.optional:
+            kept = kept[: node.at_most]
+    if node.order == "given":
+        return tuple(kept)
+    return tuple(kept[i] for i in order_visits(drives, here, kept, home))
+
+
+def steps_in_order(node: AnyOrder, site: Site, drives: Drives, context: Context, home: Place | None) -> tuple[int, ...]:
+    """The order of an any-order set's steps that drives least between the places where they begin.
+
+    Where a step ends does not count; a step with several places begins at the nearest of them; steps without a place of
+    their own come last, as they stand.
+
+    Raises:
+        PlaceError: A step's place cannot be resolved.
+        DriveFault: A place that cannot be reached.
+    """
+    begins: dict[int, Place] = {}
+    for index, step in enumerate(node.steps):
+        places = first_places(step, site, context)
+        if places:
+            begins[index] = min(places, key=lambda p: (p.x - context.here.x) ** 2 + (p.y - context.here.y) ** 2)
+    placed = list(begins)
+    order = order_visits(drives, context.here, [begins[i] for i in placed], home)
+    return (*(placed[i] for i in order), *(i for i in range(len(node.steps)) if i not in begins))
+
+
+def first_places(node: Node, site: Site, context: Context) -> tuple[Place, ...]:
+    """The places that a node begins with: those of its first selector; none where it stays at the place in hand."""
+    from fieldhand.site.places import resolve
+
+    for inner in plan.walk(node):
+        selector = plan.selector_of(inner)
+        if selector is None:
+            continue
+        try:
+            return resolve(selector, site, context)
+        except PlaceError as error:
+            raise at_node(error, inner) from error
+    return ()
+
+
+def at_node(error: PlaceError, node: Node) -> PlaceError:
+    """The error with the plan node in which the place is named."""
+    if error.where == node.id or error.where.startswith(f"{node.id}, "):
+        return error
+    where = f"{node.id}, {error.where}" if error.where else node.id
+    return PlaceError(error.what, where=where, advice=error.advice)
+
+
+def ends_plan(root: Node, node_id: str) -> bool:
+    """Whether nothing follows a node: no later step of a sequence around it, no next round of a loop around it."""
+    way = way_to(root, node_id)
+    if not way:
+        return False
+    for outer, inner in itertools.pairwise(way):
+        match outer:
+            case plan.Sequence(steps=steps):
+                if steps[-1] is not inner:
+                    return False
+            case AnyOrder(steps=steps):
+                if len(steps) > 1:
+                    return False
+            case ForEach():
+                return False
+            case Repeat(times=times):
+                if times > 1:
+                    return False
+            case _:
+                pass
+    return True
+
+
+def way_to(root: Node, node_id: str) -> tuple[Node, ...]:
+    """The nodes from the root of a plan to the one with this id, both included; empty if there is none."""
+    if root.id == node_id:
+        return (root,)
+    for child in plan.children(root):
+        way = way_to(child, node_id)
+        if way:
+            return (root, *way)
+    return ()
+
+
+def home_if_last(task: Task, site: Site, node_id: str, here: Place) -> Place | None:
+    """Where the robot goes right after a node: home if the node ends the plan and the mission does not end on the spot.
+
+    The rule for :func:`order_visits`: home is given to it only when the node ends the plan.
+    """
+    if task.composition.nominal == "stay" or not ends_plan(task.composition.plan, node_id):
+        return None
+    return site.home(task.composition.nominal, here)
+
+
+def drives_first(node: Node) -> bool:
+    """Whether the node itself names a place that it drives to."""
+    return isinstance(node, GoTo) or (isinstance(node, Act) and node.at is not None)
+
+
+def _chain(lengths: np.ndarray[tuple[int, ...], np.dtype[np.float64]], count: int) -> list[int]:
+    """Positions (counted without the first row) of the nearest from the first row, then the nearest from there."""
+    far = lengths.copy()
+    far[:, 0] = np.inf
+    at, chain = 0, []
+    for _ in range(count):
+        at = int(far[at].argmin())
+        far[:, at] = np.inf
+        chain.append(at - 1)
+    return chain

@@ -1,0 +1,88 @@
+"""What a walk through a Task consists of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+from fieldhand.site.context import Context
+from fieldhand.site.model import Place
+from fieldhand.task.plan import Node
+
+if TYPE_CHECKING:
+    from fieldhand.site.drives import Drive
+
+StepKind = Literal["drive", "act", "visit-list", "decide", "exit"]
+
+#: Answers a question about a node by its id: does its condition hold, does its action fail.
+Answer = Callable[[str], bool]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Decision:
+    """One answer along a walk.
+
+    Attributes:
+        node: Whose condition (``If``, or ``until`` of a loop), or whose action inside a ``Try``.
+        kind: ``holds`` for a condition, ``fails`` for an action.
+    """
+
+    node: str
+    kind: Literal["holds", "fails"]
+    answer: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class Step:
+    """One thing that happens.
+
+    Attributes:
+        node: The plan node that it belongs to; for the exit, the ``Stop`` that takes it or the root of the plan.
+        kind: ``visit-list`` where a for-each has found its places, ``exit`` for the way home, else what it says.
+        context: Where the robot is and has been before it.
+        places: Of a drive or an exit, where to; of an act, where; of a visit list, the places in their order.
+        shed: Of a visit list, places for which the budget does not last.
+        drive: The way, of a drive, and of an exit that goes anywhere.
+        captures: Of an act.
+        seconds, joules: What it takes as legs cost on average; idle power is not counted in the joules.
+        answer: Of a decision.
+    """
+
+    node: Node
+    kind: StepKind
+    context: Context
+    places: tuple[Place, ...] = ()
+    shed: tuple[Place, ...] = ()
+    drive: Drive | None = None
+    captures: int = 0
+    seconds: float = 0.0
+    joules: float = 0.0
+    answer: bool | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Walk:
+    """A Task along one branch.
+
+    Attributes:
+        end: Where the robot is at last.
+        exit: Which exit was taken.
+        decisions: In the order in which they came up; they tell one walk from another.
+    """
+
+    steps: tuple[Step, ...]
+    end: Place
+    exit: Literal["nominal", "faulted"]
+    decisions: tuple[Decision, ...] = ()
+
+    @property
+    def legs_m(self) -> tuple[float, ...]:
+        """Length of each leg in metres, the way home included."""
+        return tuple(s.drive.length_m for s in self.steps if s.drive is not None)
+
+    @property
+    def work(self) -> tuple[float, float]:
+        """Seconds and joules of all actions."""
+        acts = [s for s in self.steps if s.kind == "act"]
+        return (sum(s.seconds for s in acts), sum(s.joules for s in acts))

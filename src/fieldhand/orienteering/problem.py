@@ -1,0 +1,156 @@
+"""What an orienteering problem is: vertices with rewards, random leg costs, limits that may rarely be exceeded."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.errors import ProblemError
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Limit:
+    """A resource in units of leg cost: legs and service together may exceed ``budget`` with a small chance only.
+
+    A resource that is not distance (seconds, percent of a battery) is brought to these units by dividing it by what
+    one unit of leg cost takes of it; so any number of resources share the legs' one random cost.
+
+    Attributes:
+        budget: What may be used.
+        failure_probability: Accepted chance of using more (Pf), above 0 and below 1.
+        service: What a visit to each vertex uses, shape (n,); the start's is not counted. None: nothing.
+    """
+
+    budget: float
+    failure_probability: float = 0.1
+    service: Floats | None = None
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Problem:
+    """Go from ``start`` to ``end`` and collect reward; no limit may be exceeded more often than it accepts.
+
+    A leg of length ``d`` costs ``d * (alpha + X)`` where X is exponential with mean ``1 - alpha``: its mean is ``d``,
+    its variance ``(d * (1 - alpha))**2``, and it is known only when it has been driven.
+
+    Attributes:
+        distances: Symmetric, shape (n, n), in any unit; ``inf`` where there is no way.
+        rewards: What visiting each vertex is worth, shape (n,); the start's and the end's do not count.
+        limits: At least one.
+        alpha: The certain part of a leg's cost, 0 to 1; 1 is a deterministic problem.
+        after: Lengths of legs that will be driven from the end on, whatever the route is; they count for every limit.
+
+    Raises:
+        ProblemError: Numbers that are negative, NaN or of the wrong shape; a vertex that does not exist; an end that
+            cannot be reached; a budget below the direct way from start to end.
+    """
+
+    distances: Floats
+    rewards: Floats
+    start: int
+    end: int
+    limits: tuple[Limit, ...]
+    alpha: float = 0.5
+    after: tuple[float, ...] = field(default=())
+
+    def __post_init__(self) -> None:
+        _check_graph(self)
+        for limit in self.limits:
+            _check_limit(limit, self.size)
+        _check_direct(self)
+
+    @property
+    def size(self) -> int:
+        """Number of vertices."""
+        return len(self.rewards)
+
+
+def under_way(
+    *,
+    distances: Floats,
+    rewards: Floats,
+    start: int,
+    end: int,
+    limits: tuple[Limit, ...],
+    alpha: float,
+    after: tuple[float, ...] = (),
+) -> Problem:
+    """A problem whose mission has begun: nothing is checked, since what is left may be too small for the way home."""
+    problem = object.__new__(Problem)
+    for name, value in {
+        "distances": distances,
+        "rewards": rewards,
+        "start": start,
+        "end": end,
+        "limits": limits,
+        "alpha": alpha,
+        "after": after,
+    }.items():
+        object.__setattr__(problem, name, value)
+    return problem
+
+
+def _check_graph(problem: Problem) -> None:
+    d, rewards = problem.distances, problem.rewards
+    n = len(rewards)
+    if n < 2:
+        raise ProblemError(f"{n} vertices are no problem", advice="give a start and an end at least")
+    if d.shape != (n, n):
+        raise ProblemError(f"distances of shape {d.shape} do not fit {n} rewards", advice=f"give {n} by {n} distances")
+    if np.isnan(d).any() or (d < 0).any():
+        row, column = np.argwhere(np.isnan(d) | (d < 0))[0]
+        raise ProblemError(f"a distance is {d[row, column]:g}", where=f"vertices {row} and {column}")
+    if not np.allclose(d, d.T, rtol=1e-6, atol=1e-9):
+        row, column = np.argwhere(~np.isclose(d, d.T, rtol=1e-6, atol=1e-9))[0]
+        there, back = d[row, column], d[column, row]
+        raise ProblemError(
+            f"the way there is {there:g} and the way back {back:g}",
+            where=f"vertices {row} and {column}",
+            advice="distances must be symmetric",
+        )
+    if not np.isfinite(rewards).all() or (rewards < 0).any():
+        vertex = int(np.argwhere(~np.isfinite(rewards) | (rewards < 0))[0, 0])
+        raise ProblemError(f"its reward is {rewards[vertex]:g}", where=f"vertex {vertex}", advice="give 0 or more")
+    for name, vertex in (("start", problem.start), ("end", problem.end)):
+        if not 0 <= vertex < n:
+            raise ProblemError(f"the {name} is vertex {vertex}, which is none of 0 to {n - 1}")
+    if not 0.0 <= problem.alpha <= 1.0:
+        raise ProblemError(f"alpha is {problem.alpha:g}", advice="give a number from 0 to 1")
+    if not problem.limits:
+        raise ProblemError("there is no limit", advice="give a budget")
+    if not all(np.isfinite(leg) and leg >= 0 for leg in problem.after):
+        raise ProblemError("a leg after the end is negative or not a number")
+
+
+def _check_limit(limit: Limit, n: int) -> None:
+    if not np.isfinite(limit.budget) or limit.budget < 0:
+        raise ProblemError(f"a budget is {limit.budget:g}", advice="give 0 or more")
+    if not 0.0 < limit.failure_probability < 1.0:
+        raise ProblemError(
+            f"a failure probability is {limit.failure_probability:g}", advice="give a number above 0 and below 1"
+        )
+    if limit.service is None:
+        return
+    if limit.service.shape != (n,):
+        raise ProblemError(f"service of shape {limit.service.shape} does not fit {n} vertices")
+    if not np.isfinite(limit.service).all() or (limit.service < 0).any():
+        vertex = int(np.argwhere(~np.isfinite(limit.service) | (limit.service < 0))[0, 0])
+        raise ProblemError(f"its service cost is {limit.service[vertex]:g}", where=f"vertex {vertex}")
+
+
+def _check_direct(problem: Problem) -> None:
+    direct = float(problem.distances[problem.start, problem.end])
+    if problem.start != problem.end and not np.isfinite(direct):
+        raise ProblemError("there is no way from the start to the end", where=f"vertex {problem.end}")
+    way = (0.0 if problem.start == problem.end else direct) + sum(problem.after)
+    for limit in problem.limits:
+        need = way + (0.0 if limit.service is None or problem.start == problem.end else limit.service[problem.end])
+        if need > limit.budget * (1 + 1e-9):
+            raise ProblemError(
+                f"the direct way to the end takes {need:g} and the budget is {limit.budget:g}",
+                advice="raise the budget",
+            )

@@ -1,0 +1,78 @@
+"""Missions driven on paper: a guard decides, legs cost what is drawn, nothing else is simulated."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from fieldhand.evaluation.guard import BudgetGuard
+from fieldhand.forecast.optional import reward_of
+from fieldhand.forecast.routes import drives_for
+from fieldhand.forecast.service import service_of
+from fieldhand.forecast.state import Choice, MissionState, Spent, Verdict, Visit
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.context import Context
+from fieldhand.site.drives import Drives
+from fieldhand.site.model import Place, Site
+from fieldhand.task.frames import Task
+from fieldhand.task.plan import ForEach, Node
+
+
+class Paper:
+    """One mission on paper.
+
+    Args:
+        seed: Of the legs' cost and of the guard.
+    """
+
+    def __init__(self, task: Task, site: Site, robot: RobotProfile, seed: int, drives: Drives | None = None) -> None:
+        self.task, self.site, self.robot = task, site, robot
+        self.drives = drives or drives_for(site, robot)
+        self.guard = BudgetGuard(task, site, robot, self.drives, seed)
+        self.rng = np.random.default_rng([seed, 9])
+        self.spent = Spent()
+        self.here: Place = site.start
+        self.visited: tuple[str, ...] = ()
+
+    def state(self, node: str) -> MissionState:
+        context = Context(here=self.here, visited=self.visited)
+        return MissionState(node=node, context=context, spent=self.spent, charge_percent=100.0 - self.spent.percent)
+
+    def visit(self, place: Place, work: Node) -> Visit:
+        seconds, joules = service_of(work, self.robot)
+        reward = reward_of(work, place, self.site) if isinstance(work, ForEach) else 1.0
+        return Visit(place=place, reward=reward, service_s=seconds, service_j=joules)
+
+    def go(self, place: Place, work: tuple[float, float] = (0.0, 0.0)) -> None:
+        """Drive to a place and work there, at a cost that is drawn."""
+        alpha = self.robot.leg_cost.alpha
+        metres = self.drives.between(self.here, place).length_m * (alpha + self.rng.exponential(1.0 - alpha))
+        seconds = metres / self.robot.speed_m_s + work[0]
+        self.spent += Spent(metres=metres, seconds=seconds, percent=self.robot.percent(metres, seconds, work[1]))
+        self.here = place
+        if place.kind == "tree" and place.id not in self.visited:
+            self.visited = (*self.visited, place.id)
+
+    def optional(self, node: ForEach, places: Sequence[Place]) -> Choice | None:
+        """The visits of an optional for-each; the last answer of the guard."""
+        left, choice = list(places), None
+        while left:
+            choice = self.guard.choose(self.state(node.id), [self.visit(p, node) for p in left])
+            if choice.index is None:
+                return choice
+            place = left[choice.index]
+            left = [p for i, p in enumerate(left) if i != choice.index and i not in choice.shed]
+            self.go(place, service_of(node.body, self.robot))
+        return choice
+
+    def mandatory(self, node: Node, place: Place, later: Sequence[Visit] = ()) -> Verdict:
+        """Ask for a mandatory visit, and make it if the guard agrees."""
+        verdict = self.guard.admit(self.state(node.id), self.visit(place, node), later)
+        if verdict.go:
+            self.go(place, service_of(node, self.robot))
+        return verdict
+
+    def home(self) -> None:
+        """Drive home."""
+        self.go(self.site.home("return_to_end", self.here))
