@@ -78,6 +78,7 @@ class Site:
         name: The file's name without its ending, or the collection's own ``name``.
         sha256: Of the bytes it was read from.
         source: Where it was read from, for messages.
+        notes: What the reader left out of the file or took otherwise than it stands there, a sentence each.
     """
 
     name: str
@@ -87,6 +88,7 @@ class Site:
     projection: Projection
     sha256: str
     source: str = ""
+    notes: tuple[str, ...] = ()
 
     @cached_property
     def xy(self) -> NDArray[np.float64]:
@@ -106,7 +108,8 @@ class Site:
         if len(self.trees) < 2:
             return 5.0
         nearest = np.asarray(cKDTree(self.xy).query(self.xy, k=[2])[0])
-        return float(np.median(nearest))
+        apart = nearest[nearest > 0.01]  # trees entered twice have no spacing
+        return float(np.median(apart)) if apart.size else 5.0
 
     @cached_property
     def attributes(self) -> Mapping[str, tuple[Value, ...]]:

@@ -1,0 +1,134 @@
+"""What a feature of a site file is, from its properties: a tree, a marker, a landmark, a kind of area.
+
+Programs name the property in their own way (``marker-symbol``, ``kind``, ``type``), so names are compared without
+regard to case, hyphens, underscores and spaces. A point is a tree unless its kind says that it is something else.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Mapping
+from typing import Literal
+
+from fieldhand.site.model import ZoneKind
+from fieldhand.task.selectors import Value
+
+PointKind = Literal["tree", "start", "end", "charger", "landmark"]
+
+KIND_KEYS = ("marker symbol", "kind", "type", "symbol", "class", "feature type", "category")
+NAME_KEYS = ("name", "title", "label")
+ROW_KEYS = ("row", "row id", "row number", "row no", "row num", "row name")
+
+MARKERS: Mapping[str, PointKind] = {
+    **dict.fromkeys(
+        ("start", "start point", "starting point", "start marker", "begin", "home", "depot", "base"), "start"
+    ),
+    **dict.fromkeys(("end", "end point", "ending point", "end marker", "finish", "finish point", "goal"), "end"),
+    **dict.fromkeys(
+        (
+            *("charger", "charge", "charging", "charging station", "charging point", "charge point", "charge station"),
+            *("dock", "dock station", "docking station", "charger marker"),
+        ),
+        "charger",
+    ),
+}
+
+# fmt: off
+#: A kind that has one of these words is a plant, whatever else it says ("pole bean plant", "tree by the gate").
+PLANTS = frozenset({
+    "tree", "trees", "vine", "vines", "plant", "plants", "bush", "shrub", "palm", "seedling", "sapling",
+})
+
+#: A kind that ends in one of these words is something that stands there and is no tree.
+LANDMARKS = frozenset({
+    "gate", "entrance", "door", "well", "borehole", "pole", "post", "pylon", "pump", "valve", "hydrant", "tap",
+    "outlet", "sprinkler", "sensor", "station", "probe", "camera", "antenna", "gateway", "trap", "sign", "barn",
+    "shed", "house", "building", "office", "silo", "tank", "hive", "hives", "rock", "boulder", "stump", "parking",
+    "crossing", "bridge", "landmark", "waypoint",
+})
+
+_KEEP_OUT = frozenset({
+    "keepout", "nogo", "obstacle", "obstacles", "obstruction", "exclusion", "excluded", "forbidden", "prohibited",
+    "restricted", "hazard", "danger", "pond", "lake", "water", "reservoir", "basin", "ditch", "canal", "creek",
+    "stream", "river", "swamp", "building", "barn", "shed", "house", "office", "silo", "tank", "well", "rock",
+    "boulder", "pit", "hole",
+})
+# fmt: on
+_KEEP_OUT_PHRASES = frozenset({"keep out", "no go", "no drive", "no entry", "off limits"})
+_BOUNDARY = frozenset({"boundary", "boundaries", "fence", "perimeter", "geofence", "outline", "border"})
+_BOUNDARY_KINDS = _BOUNDARY | {"field", "farm", "orchard", "vineyard", "property", "parcel", "site", "plot"}
+_PLAIN_AREAS = frozenset({"zone", "area", "polygon", "region", "block", "section"})
+
+_SEPARATORS = re.compile(r"[\W_]+")
+
+
+def phrase(text: str) -> str:
+    """Lower case words with one space between: ``Keep-Out_Zone`` becomes ``keep out zone``."""
+    return _SEPARATORS.sub(" ", text).strip().lower()
+
+
+def text_of(properties: Mapping[str, Value], keys: Iterable[str]) -> str:
+    """The first of these properties that holds text (or a number), as it stands in the file; else empty."""
+    named = {phrase(key): value for key, value in properties.items()}
+    for key in keys:
+        value = named.get(key)
+        if isinstance(value, str) and value.strip():
+            return value.strip()
+        if isinstance(value, float) and not isinstance(value, bool):
+            return number_text(value)
+    return ""
+
+
+def number_text(value: float) -> str:
+    """A number as people write it: 3.0 is ``3``."""
+    return str(int(value)) if math.isfinite(value) and value == int(value) else repr(value)
+
+
+def point_kind(properties: Mapping[str, Value]) -> tuple[PointKind, str]:
+    """What a point is, and the word of the file that says so (empty where nothing does).
+
+    A point without a kind is a marker if its *name* is exactly a marker's word ("Start"), else a tree.
+    """
+    said = text_of(properties, KIND_KEYS)
+    words = phrase(said)
+    if not words:
+        name = text_of(properties, NAME_KEYS)
+        return MARKERS.get(phrase(name), "tree"), name
+    if words in MARKERS:
+        return MARKERS[words], said
+    split = words.split()
+    if PLANTS.isdisjoint(split) and split[-1] in LANDMARKS:
+        return "landmark", said
+    return "tree", said
+
+
+def area_kind(properties: Mapping[str, Value]) -> tuple[ZoneKind, str]:
+    """What an area is, and its name (its kind's word where it has no name; empty where it has neither)."""
+    said, name = text_of(properties, KIND_KEYS), text_of(properties, NAME_KEYS)
+    flagged = any(value is True and _says_keep_out(phrase(key)) for key, value in properties.items())
+    if flagged or _says_keep_out(phrase(said)):
+        return "keep_out", name or said or "keep-out"
+    words = phrase(said).split()
+    if words and (words[-1] in _BOUNDARY_KINDS or words[0] in _BOUNDARY):
+        return "boundary", name or said
+    if words and words[-1] in _PLAIN_AREAS and len(words) == 1:
+        words = []
+    if not words and _says_keep_out(phrase(name)):
+        return "keep_out", name
+    if not words and not _BOUNDARY.isdisjoint(phrase(name).split()[-1:]):
+        return "boundary", name
+    return "zone", name or said
+
+
+def row_of(properties: Mapping[str, Value]) -> str:
+    """The row that a tree says it stands in, else empty."""
+    return text_of(properties, ROW_KEYS)
+
+
+def _says_keep_out(words: str) -> bool:
+    if not words:
+        return False
+    for ending in (" zone", " area", " region"):
+        words = words.removesuffix(ending)
+    return words in _KEEP_OUT_PHRASES or words.split()[-1] in _KEEP_OUT

@@ -1,0 +1,103 @@
+"""A group of places in hand while a selector resolves: mostly trees, held as positions in the site's arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fieldhand.site.model import Place, Site
+
+Indices = NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Spots:
+    """Places in order, each once.
+
+    Attributes:
+        index: For each place its tree's index on the site, or ``-1 - k`` for place ``k`` of ``others``.
+        others: Places that are not trees of the site: markers and free points.
+    """
+
+    site: Site
+    index: Indices
+    others: tuple[Place, ...] = ()
+
+    @staticmethod
+    def all_trees(site: Site) -> Spots:
+        """Every tree, in the order of the file."""
+        return Spots(site=site, index=np.arange(len(site.trees), dtype=np.intp))
+
+    @staticmethod
+    def of(site: Site, places: Iterable[Place]) -> Spots:
+        """These places, each once, in this order."""
+        index: dict[int, None] = {}
+        others: dict[Place, int] = {}
+        for place in places:
+            tree = site.by_id.get(place.id) if place.kind == "tree" else None
+            index.setdefault(tree.index if tree else -1 - others.setdefault(place, len(others)))
+        return Spots(site=site, index=np.array(list(index), dtype=np.intp), others=tuple(others))
+
+    def __len__(self) -> int:
+        return len(self.index)
+
+    @cached_property
+    def xy(self) -> NDArray[np.float64]:
+        """Metres east and north, shape (n, 2)."""
+        if not self.others:
+            return np.asarray(self.site.xy[self.index])
+        pool = np.vstack([self.site.xy, np.array([p.xy for p in reversed(self.others)])])
+        return np.asarray(pool[self.index])
+
+    @property
+    def is_tree(self) -> NDArray[np.bool_]:
+        """Which of the places are trees of the site."""
+        return self.index >= 0
+
+    @property
+    def file_order(self) -> Indices:
+        """A number for each place that ties are broken by: trees as in the file, then the others."""
+        return np.where(self.index >= 0, self.index, len(self.site.trees) - self.index)
+
+    @property
+    def places(self) -> tuple[Place, ...]:
+        """The places themselves."""
+        trees = self.site.trees
+        return tuple(trees[k].place if k >= 0 else self.others[-1 - k] for k in self.index.tolist())
+
+    def keep(self, positions: ArrayLike) -> Spots:
+        """Those at these positions in this order, or where a mask of booleans is true."""
+        return replace(self, index=self.index[np.asarray(positions)])
+
+    def without(self, taken: Spots) -> Spots:
+        """Those that are not among ``taken``."""
+        others = set(taken.places) if taken.others and self.others else set()
+        mask = ~np.isin(self.index, taken.index[taken.index >= 0])
+        if others:
+            mask &= [k >= 0 or self.others[-1 - k] not in others for k in self.index.tolist()]
+        return self.keep(mask)
+
+    def ranked(self, key: NDArray[np.float64], count: int) -> Spots:
+        """The ``count`` with the smallest key, smallest first; equal to a tenth of a millimetre is a tie, and ties go
+        by file order."""
+        rounded = np.round(key, 4)
+        if count < len(rounded) // 4:  # order only what can come first
+            worst = np.partition(rounded, count - 1)[count - 1]
+            few = np.flatnonzero(rounded <= worst)
+        else:
+            few = np.arange(len(rounded))
+        order = np.lexsort((self.file_order[few], rounded[few]))
+        return self.keep(few[order[:count]])
+
+
+def joined(site: Site, groups: Sequence[Spots]) -> Spots:
+    """All places of the groups in their order, each once."""
+    if all(not g.others for g in groups):
+        index = np.concatenate([g.index for g in groups])
+        _, first = np.unique(index, return_index=True)
+        return Spots(site=site, index=index[np.sort(first)])
+    return Spots.of(site, (place for g in groups for place in g.places))

@@ -1,0 +1,55 @@
+"""Made orchards: the same seed gives the same one, every one can be read, and the pond is in the way."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fieldhand.site.drives import Drives
+from fieldhand.site.generate import OrchardShape, Variety, demo_orchard, generate_orchard, to_text
+from fieldhand.site.geojson import open_site, parse_site
+
+
+def test_the_same_seed_gives_the_same_orchard_and_another_seed_another():
+    assert to_text(demo_orchard(3)) == to_text(demo_orchard(3))
+    assert to_text(demo_orchard(3)) != to_text(demo_orchard(4))
+
+
+def test_the_pond_is_in_the_way_of_some_drives_and_closes_nothing_off():
+    site = open_site("demo")
+    places = [t.place for t in site.trees] + list(site.markers.values())
+    lengths = Drives(site, 0.5).lengths(places)
+    xy = np.array([p.xy for p in places])
+    straight = np.hypot(*(xy[:, None] - xy[None]).transpose(2, 0, 1))
+    assert 0.05 < (lengths > straight + 0.5).mean() < 0.5
+    assert (lengths - straight).max() > 5.0
+
+
+@settings(max_examples=15, deadline=None)
+@given(
+    st.integers(0, 2**32),
+    st.integers(2, 12),
+    st.integers(2, 12),
+    st.floats(-60, 60),
+    st.floats(-170, 170),
+    st.floats(-90, 90),
+)
+def test_every_orchard_can_be_read_back_with_its_spacing_and_rows(seed, rows, trees, latitude, longitude, turned):
+    far_pond = (500.0, 0.0, 1.0, 1.0)
+    shape = OrchardShape(rows=rows, trees_a_row=trees, turned_deg=turned, pond=far_pond, missing=0.0, jitter_m=0.02)
+    made = generate_orchard(
+        np.random.default_rng(seed),
+        name="made",
+        tree="vine",
+        latitude=latitude,
+        longitude=longitude,
+        shape=shape,
+        varieties=(Variety(name="Muscat", yield_kg=4.0, age_years=5),),
+    )
+    site = parse_site(to_text(made).encode(), name="made")
+    assert len(site.trees) == rows * trees
+    assert len({t.row for t in site.trees}) == rows
+    assert site.spacing_m == pytest.approx(5.0, abs=0.3)
+    assert min(site.attributes["yield_kg"]) > 0.0

@@ -1,0 +1,30 @@
+"""Metres of a site are those of the earth, to a millimetre within five kilometres of its middle."""
+
+from __future__ import annotations
+
+import pyproj
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fieldhand.site.projection import Projection
+
+GEOD = pyproj.Geod(ellps="WGS84")
+
+
+@settings(max_examples=40)
+@given(st.floats(-70, 70), st.floats(-179, 179), st.floats(0, 360), st.floats(0.01, 5000))
+def test_distance_and_bearing_from_the_middle_are_the_geodesics(lat, lon, bearing, metres):
+    there_lon, there_lat, _ = GEOD.fwd(lon, lat, bearing, metres)
+    x, y = Projection(lat, lon).metres(there_lat, there_lon)[0]
+    assert (x**2 + y**2) ** 0.5 == pytest.approx(metres, abs=1e-3)
+    there = Projection(lat, lon).degrees([[x, y]])[0]
+    assert there == pytest.approx([there_lat, there_lon], abs=1e-8)
+
+
+@settings(max_examples=40)
+@given(st.floats(-70, 70), *[st.floats(-2000, 2000)] * 4)
+def test_distance_between_two_places_is_the_geodesics(lat, x0, y0, x1, y1):
+    (lat0, lon0), (lat1, lon1) = Projection(lat, 10.0).degrees([[x0, y0], [x1, y1]])
+    *_, metres = GEOD.inv(lon0, lat0, lon1, lat1)
+    assert ((x1 - x0) ** 2 + (y1 - y0) ** 2) ** 0.5 == pytest.approx(metres, abs=1e-2)
