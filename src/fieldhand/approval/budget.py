@@ -1,0 +1,89 @@
+"""Whether what a mission may use lasts for what it must do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from fieldhand.approval.problem import Problem
+from fieldhand.errors import FieldhandError
+from fieldhand.forecast.estimate import BranchEstimate, Estimate
+from fieldhand.forecast.limits import Resource, resources_of
+from fieldhand.forecast.routes import drives_for
+from fieldhand.forecast.service import service_of
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.context import Context
+from fieldhand.site.model import Site
+from fieldhand.site.places import resolve
+from fieldhand.task.frames import Task
+from fieldhand.task.plan import Act, ForEach, walk
+from fieldhand.task.words import say_duration, say_number
+
+#: A mission that is more likely than not to run short is not approved; one that may is, with a warning.
+_HOPELESS = 0.5
+
+
+def budget_problems(task: Task, site: Site, robot: RobotProfile, forecast: Estimate) -> Iterator[Problem]:
+    """What stands between a mission and its budgets, with the numbers."""
+    nothing = list(_nothing_fits(task, site, robot)) if _does_nothing(task, forecast.branches) else []
+    if nothing:
+        yield from nothing
+        return
+    worst = forecast.worst
+    hopeless = any(c.exceeded and c.chance > _HOPELESS for c in worst.chances)
+    for sentence in forecast.problems:
+        yield Problem(
+            where="budget",
+            what=sentence,
+            advice="allow more, or ask for less",
+            severity="error" if hopeless else "warning",
+        )
+
+
+def _does_nothing(task: Task, branches: tuple[BranchEstimate, ...]) -> bool:
+    """Whether no branch makes a single capture although the plan has actions that the budget decides on."""
+    acts = any(isinstance(n, Act) for n in walk(task.composition.plan))
+    return acts and any(b.shed for b in branches) and all(b.captures == 0 for b in branches)
+
+
+def _nothing_fits(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
+    """The cheapest single visit against each limit."""
+    drives = drives_for(site, robot)
+    home = site.home(task.composition.nominal, site.start)
+    for node in walk(task.composition.plan):
+        if not (isinstance(node, ForEach) and node.optional):
+            continue
+        try:
+            places = resolve(node.select, site, Context(here=site.start))
+            metres = min(drives.between(site.start, p).length_m + drives.between(p, home).length_m for p in places)
+        except (FieldhandError, ValueError):
+            continue  # where its places hang on the way there, no single visit can be costed
+        seconds, joules = service_of(node.body, robot)
+        for resource in resources_of(task.constraints, robot):
+            need = metres * resource.per_metre + resource.of_work(robot, seconds, joules)
+            amount, limit = _amount(resource, need), _amount(resource, resource.limit)
+            sentence = Problem(
+                node=node.id,
+                where="budget",
+                what=f"{limit} is too small for a single visit: the nearest takes about {amount} with the way home",
+                advice="allow more",
+            )
+            if need > resource.limit:
+                yield sentence
+            elif resource.kind != "reserve":
+                safe = say_number(100 * (1 - resource.failure_probability))
+                yield replace(
+                    sentence, what=f"{limit} does not last for a single visit with {safe} % certainty: {amount}"
+                )
+
+
+def _amount(resource: Resource, value: float) -> str:
+    match resource.kind:
+        case "distance_m":
+            return f"{value:.0f} m"
+        case "duration_s":
+            return say_duration(max(0.0, value))
+        case "energy_percent":
+            return f"{value:.1f} % of the battery"
+        case "reserve":
+            return f"{value:.1f} % of the battery above the reserve"

@@ -1,0 +1,181 @@
+"""Every check on a Task before a person may approve it for a site and a robot.
+
+First the document (schema, references, for whom it was planned), then each selector by itself, then the whole mission
+on every branch: that it can be driven, that no drive crosses a keep-out or leaves the boundary, that the budget lasts.
+What comes later is only looked at when what comes before is sound, so that one fault is named once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from fieldhand.approval.budget import budget_problems
+from fieldhand.approval.legs import driven_through
+from fieldhand.approval.problem import Problem
+from fieldhand.errors import DriveFault, FieldhandError, PlaceError, TaskError
+from fieldhand.forecast.estimate import Estimate, estimate
+from fieldhand.forecast.routes import drives_for
+from fieldhand.robot.capabilities import capabilities_of
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.context import Context
+from fieldhand.site.model import Place, Site
+from fieldhand.site.places import resolve, resolve_one
+from fieldhand.task.codec import encode
+from fieldhand.task.frames import Task
+from fieldhand.task.plan import ForEach, Node, selector_of, walk
+from fieldhand.task.references import references
+from fieldhand.task.schema import validate
+from fieldhand.task.selectors import Selector, is_relative
+
+__all__ = ["Examination", "Problem", "check", "examine"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Examination:
+    """What the checks found, and the estimate that they needed (None where the mission cannot be walked through)."""
+
+    problems: tuple[Problem, ...]
+    estimate: Estimate | None
+
+    @property
+    def errors(self) -> tuple[Problem, ...]:
+        """The problems that forbid approval."""
+        return tuple(p for p in self.problems if p.severity == "error")
+
+
+def check(task: Task, site: Site, robot: RobotProfile, document: bytes | None = None) -> tuple[Problem, ...]:
+    """Every problem of a Task on this site with this robot, errors first; empty if there is none.
+
+    Args:
+        task: The Task.
+        site, robot: Where and with what it is to be carried out.
+        document: The bytes that the Task was read from, if there are; else they are encoded anew.
+    """
+    return examine(task, site, robot, document=document).problems
+
+
+def examine(
+    task: Task, site: Site, robot: RobotProfile, *, document: bytes | None = None, seed: int = 0
+) -> Examination:
+    """As :func:`check`, with the estimate, so that nobody has to make it twice."""
+    problems = [*_document(task, robot, document), *_references(task, robot), *_resources(task, site, robot)]
+    if not _errors(problems):
+        problems.extend(_places(task, site, robot))
+    forecast = None
+    if not _errors(problems):
+        try:
+            forecast = estimate(task, site, robot, seed=seed)
+        except (PlaceError, DriveFault) as error:
+            problems.append(_of_error(error))
+        else:
+            problems.extend(_drives(forecast, site))
+            problems.extend(budget_problems(task, site, robot, forecast))
+            problems.extend(_coverage(forecast))
+    once = dict.fromkeys(problems)
+    return Examination(problems=tuple(sorted(once, key=lambda p: p.severity != "error")), estimate=forecast)
+
+
+def _errors(problems: list[Problem]) -> bool:
+    return any(p.severity == "error" for p in problems)
+
+
+def _document(task: Task, robot: RobotProfile, document: bytes | None) -> Iterator[Problem]:
+    """The schema of this robot: actions, parameters, quantities, units and words that it knows."""
+    try:
+        data = encode(task) if document is None else document
+    except TaskError as error:
+        yield _of_error(error)
+        return
+    for found in validate(data, capabilities_of(robot)):
+        where = f"line {found.line}" + (f", <{found.element}>" if found.element else "")
+        yield Problem(where=where, what=found.message)
+
+
+def _references(task: Task, robot: RobotProfile) -> Iterator[Problem]:
+    nodes = [node.id for node in walk(task.composition.plan)]
+    for sentence in references(task, capabilities_of(robot)):
+        node = next((n for n in nodes if n and f"'{n}'" in sentence), "")
+        yield Problem(node=node, where="plan", what=sentence)
+
+
+def _resources(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
+    """A Task is for the site and the robot that it was planned with, byte by byte."""
+    here: dict[Literal["site", "robot"], tuple[str, str]] = {
+        "site": (site.name, site.sha256),
+        "robot": (robot.name, robot.sha256),
+    }
+    for kind, (name, sha256) in here.items():
+        planned = [r for r in task.resources if r.kind == kind]
+        if not planned:
+            yield Problem(
+                where="resources", what=f"the Task does not say for which {kind} it was planned", severity="warning"
+            )
+        for resource in planned:
+            if resource.sha256 == sha256:
+                continue
+            other = f"another version of {name}" if resource.name == name else f"{resource.name}, and this is {name}"
+            yield Problem(
+                where="resources",
+                what=f"planned for {other}",
+                advice=f"plan it again for this {kind}, or give that one",
+            )
+
+
+def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
+    """Each selector that resolves before the robot moves: it finds something, one where one is needed, reachable."""
+    drives = drives_for(site, robot)
+    for node in walk(task.composition.plan):
+        selector = selector_of(node)
+        if selector is None or is_relative(selector):
+            continue
+        try:
+            places = _resolved(node, selector, site)
+        except PlaceError as error:
+            yield _of_error(error, node.id)
+            continue
+        for place in places:
+            reason = drives.problem(place)
+            if reason:
+                yield Problem(
+                    node=node.id,
+                    where=site.name,
+                    what=f"{place.kind} {place.id} is {reason}",
+                    advice="leave it out, or correct the site",
+                )
+
+
+def _resolved(node: Node, selector: Selector, site: Site) -> tuple[Place, ...]:
+    context = Context(here=site.start)
+    if not isinstance(node, ForEach):
+        return (resolve_one(selector, site, context),)
+    places = tuple(resolve(selector, site, context))
+    if not places:
+        raise PlaceError("no place of this site is meant", where=site.name, advice="ask for other trees")
+    return places
+
+
+def _drives(forecast: Estimate, site: Site) -> Iterator[Problem]:
+    """Every leg of every branch, held against the zones themselves."""
+    for node, through in driven_through([b.walk for b in forecast.branches], site):
+        yield Problem(
+            node=node,
+            where=site.name,
+            what=f"the drive there goes {through}",
+            advice="choose other trees, or another way",
+        )
+
+
+def _coverage(forecast: Estimate) -> Iterator[Problem]:
+    if not forecast.complete:
+        yield Problem(
+            where="plan",
+            what=f"it has more branches than were looked at ({len(forecast.branches)})",
+            advice="nest fewer conditions, or watch the mission",
+            severity="warning",
+        )
+
+
+def _of_error(error: FieldhandError, node: str = "") -> Problem:
+    return Problem(node=node, where=error.where, what=error.what, advice=error.advice)

@@ -1,0 +1,181 @@
+"""The words beside a map: the request, the read-back's steps, what the marks mean, what it will take."""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from functools import partial
+from typing import TYPE_CHECKING
+
+from fieldhand.approval.marks import INK, LINES, WAY
+from fieldhand.approval.readback import ReadBack, say_totals
+from fieldhand.approval.sentences import Line
+from fieldhand.approval.stops import Certainty, Plan
+from fieldhand.task.frames import Task
+from fieldhand.task.words import capitalised, say_action
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+
+_LINE_WORDS: dict[Certainty, str] = {
+    "certain": "driven in any case",
+    "budget": "driven as far as the budget allows",
+    "conditional": "driven only on some readings",
+}
+_QUIET = "#6b6b6b"
+#: Letters that fit into an inch at one point of size; lines lie this many sizes apart.
+_LETTERS, _LEADING = 122.0, 1.42
+_STEP_PT, _REQUEST_PT, _SMALL_PT = 9.0, 11.5, 8.5
+_INDENT, _REQUEST_ROWS = 3, 9
+#: The words are as large as their room allows.
+_SCALES = (1.25, 1.15, 1.05, 0.95, 0.85)
+#: A number and its unit stay on one row.
+_UNIT = re.compile(r"(\d) (m|min|h|s|%|°C|ppm)(?!\w)")
+
+
+def draw_panel(ax: Axes, task: Task, plan: Plan, words: ReadBack, colours: dict[str, str]) -> None:
+    """Write the words from the top down; steps that find no room are counted, the legend and totals always stand."""
+    legend = _legend(plan, colours)
+    request = " ".join(task.command.request.split())
+    writer = next((w for w in map(partial(_Writer, ax), _SCALES) if _fits(w, request, words, len(legend))), None)
+    writer = writer or _Writer(ax, _SCALES[-1])
+    for line in writer.wrapped(f"“{request}”", _REQUEST_PT, most=_REQUEST_ROWS):
+        writer.write(line, _REQUEST_PT, style="italic")
+    writer.skip(9)
+    _write_steps(writer, words.lines, room=writer.left - _below(writer, words, len(legend)))
+    writer.skip(6)
+    box = ax.legend(
+        handles=legend,
+        loc="upper left",
+        bbox_to_anchor=(0.0, writer.share),
+        frameon=False,
+        fontsize=_SMALL_PT * writer.scale,
+        labelcolor=INK,
+        borderpad=0,
+        borderaxespad=0,
+        handlelength=2.2,
+        labelspacing=0.55,
+    )
+    box.set_gid("legend")
+    writer.skip(_legend_points(len(legend)))
+    for text in say_totals(words.totals):
+        for line in writer.wrapped(text, _SMALL_PT):
+            writer.write(line, _SMALL_PT, colour=_QUIET)
+
+
+def _legend_points(entries: int) -> float:
+    return (entries * 1.55 + 0.8) * _SMALL_PT
+
+
+def _below(writer: _Writer, words: ReadBack, entries: int) -> float:
+    """Points that legend and totals take."""
+    rows = sum(len(writer.wrapped(text, _SMALL_PT)) for text in say_totals(words.totals))
+    return (_legend_points(entries) + 6 + (rows + 0.5) * _LEADING * _SMALL_PT) * writer.scale
+
+
+def _rows(writer: _Writer, line: Line) -> list[str]:
+    """A step with its number, its second and later rows further in."""
+    number = f"{line.number}. " if line.number is not None else ""
+    margin = " " * (_INDENT * line.indent)
+    return writer.wrapped(f"{number}{line.text}", _STEP_PT, margin=margin, hang=" " * (len(number) + 1))
+
+
+def _fits(writer: _Writer, request: str, words: ReadBack, entries: int) -> bool:
+    """Whether everything has room at the writer's scale."""
+    asked = len(writer.wrapped(f"“{request}”", _REQUEST_PT))
+    head = asked * _REQUEST_PT * _LEADING + 9
+    rows = sum(len(_rows(writer, line)) for line in words.lines)
+    steps = rows * _STEP_PT * _LEADING + 1.5 * len(words.lines)
+    return asked <= _REQUEST_ROWS and (head + steps) * writer.scale + _below(writer, words, entries) < writer.left
+
+
+def _write_steps(writer: _Writer, lines: tuple[Line, ...], room: float) -> None:
+    """The steps as far as there is room; the rest stands in the read-back."""
+    bottom = writer.left - room
+    for k, line in enumerate(lines):
+        rows = _rows(writer, line)
+        needed = (len(rows) + (1 if k + 1 < len(lines) else 0)) * _STEP_PT * _LEADING * writer.scale
+        if writer.left - needed < bottom:
+            writer.write(f"… and {len(lines) - k} more lines in the read-back", _STEP_PT, colour=_QUIET)
+            return
+        for row in rows:
+            writer.write(row, _STEP_PT)
+        writer.skip(1.5)
+
+
+class _Writer:
+    """Lines of text from the top of an axes down, measured in points.
+
+    Args:
+        ax: Written on.
+        scale: All sizes and gaps are this many times as large as asked for.
+    """
+
+    def __init__(self, ax: Axes, scale: float) -> None:
+        figure = ax.get_figure(root=True)
+        width, height = figure.get_size_inches() if figure is not None else (5.0, 8.0)
+        box = ax.get_position()
+        ax.set_axis_off()
+        self._ax = ax
+        self.scale = scale
+        self._width = float(width * box.width)
+        self._height = float(height * box.height) * 72.0
+        #: Points that are left above the lower edge.
+        self.left = self._height
+
+    @property
+    def share(self) -> float:
+        """How far up the next line begins, as a share of the axes."""
+        return self.left / self._height
+
+    def wrapped(
+        self, text: str, size: float, *, margin: str = "", hang: str = "", most: int | None = None
+    ) -> list[str]:
+        """The text in rows that fit the width."""
+        return textwrap.wrap(
+            _UNIT.sub("\\1\N{NO-BREAK SPACE}\\2", text),
+            width=max(20, int(self._width * _LETTERS / (size * self.scale))),
+            initial_indent=margin,
+            subsequent_indent=margin + hang,
+            max_lines=most,
+            placeholder=" …”",
+        )
+
+    def write(self, text: str, size: float, *, colour: str = INK, style: str = "normal") -> None:
+        """One row; a dollar sign is a dollar sign and not mathematics."""
+        self._ax.text(
+            0.0,
+            self.share,
+            text,
+            fontsize=size * self.scale,
+            color=colour,
+            fontstyle=style,
+            va="top",
+            transform=self._ax.transAxes,
+            parse_math=False,
+        )
+        self.skip(size * _LEADING)
+
+    def skip(self, points: float) -> None:
+        """Leave room."""
+        self.left -= points * self.scale
+
+
+def _legend(plan: Plan, colours: dict[str, str]) -> list[Artist]:
+    from matplotlib.lines import Line2D
+
+    def disc(colour: str, edge: str, label: str) -> Artist:
+        return Line2D(
+            [], [], marker="o", linestyle="none", markersize=8, color=colour, markeredgecolor=edge, label=label
+        )
+
+    found = [disc(colour, "white", capitalised(say_action(name))) for name, colour in colours.items()]
+    if any("conditional" in stop.actions.values() for stop in plan.stops):
+        found.append(disc("white", INK, "Hollow: only if a condition holds"))
+    for certainty in LINES:
+        if any(leg.certainty == certainty for leg in plan.legs):
+            style, width, alpha = LINES[certainty]
+            label = capitalised(_LINE_WORDS[certainty])
+            found.append(Line2D([], [], color=WAY, linestyle=style, linewidth=width, alpha=alpha, label=label))
+    return found

@@ -1,0 +1,88 @@
+"""Where each node of a plan leads on this site, gathered from the walks of a forecast."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from fieldhand.forecast.walk import Walk
+from fieldhand.site.model import Place
+from fieldhand.task.frames import Task
+from fieldhand.task.plan import ForEach, GoTo, Node, children, selector_of
+from fieldhand.task.selectors import is_relative
+
+
+@dataclass(frozen=True, kw_only=True)
+class Found:
+    """What a node's selector came to.
+
+    Attributes:
+        visits: The places of each time that the node was done on the likeliest branch that has it: one for an action or
+            a drive, all in their order for a for-each.
+        shed: Places of a for-each for which the budget is not expected to last.
+        known: They are the same on every branch and whatever legs cost; else they are decided on the way.
+    """
+
+    visits: tuple[tuple[Place, ...], ...]
+    shed: tuple[Place, ...]
+    known: bool
+
+    @property
+    def places(self) -> tuple[Place, ...]:
+        """The places of the first time."""
+        return self.visits[0]
+
+    @property
+    def one(self) -> Place | None:
+        """The one place that the node always means, if there is one."""
+        places = {p.xy: p for visit in self.visits for p in visit}
+        return next(iter(places.values())) if self.known and len(places) == 1 else None
+
+
+def gather(task: Task, walks: Sequence[Walk]) -> Mapping[str, Found]:
+    """What each selector of a plan came to, by the id of its node; nodes that no walk reached are left out."""
+    doubtful = _doubtful(task.composition.plan)
+    per_walk = [_of_walk(w) for w in walks]
+    found: dict[str, Found] = {}
+    for node_id in {n: None for one in per_walk for n in one}:
+        seen = [one[node_id] for one in per_walk if node_id in one]
+        first = seen[0]
+        same = all(a[0] == b[0] for other in seen for a, b in zip(first, other, strict=False))
+        found[node_id] = Found(
+            visits=tuple(places for places, _ in first),
+            shed=first[0][1],
+            known=same and node_id not in doubtful,
+        )
+    return found
+
+
+_Visit = tuple[tuple[Place, ...], tuple[Place, ...]]
+
+
+def _of_walk(walk: Walk) -> dict[str, list[_Visit]]:
+    """The places of each node of a walk, each time that it came up."""
+    found: dict[str, list[_Visit]] = {}
+    for step in walk.steps:
+        listed = step.kind == "visit-list"
+        done = step.kind == "act" or (step.kind == "drive" and isinstance(step.node, GoTo))
+        if listed or (done and selector_of(step.node) is not None):
+            found.setdefault(step.node.id, []).append((step.places, step.shed))
+    return found
+
+
+def _doubtful(plan: Node) -> frozenset[str]:
+    """Nodes whose places hang on which optional visits the budget allows: relative ones in and after such a loop."""
+    found: set[str] = set()
+    after = False
+
+    def visit(node: Node) -> None:
+        nonlocal after
+        selector = selector_of(node)
+        if after and selector is not None and is_relative(selector):
+            found.add(node.id)
+        after = after or (isinstance(node, ForEach) and node.optional)
+        for child in children(node):
+            visit(child)
+
+    visit(plan)
+    return frozenset(found)

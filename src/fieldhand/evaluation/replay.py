@@ -1,0 +1,345 @@
+"""Follow a plan along an event log: how many captures each action was to give on the branch that was taken.
+
+A robot does one thing after another, so the events of a node stand together; the plan says what must come, the log says
+which branch, how many places, what was given up. Where the two do not fit (a log of another program, a log that was cut
+off) the rest of a node counts as not reached and the replay goes on at the next node that the log names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from enum import Enum, auto
+
+from fieldhand.evaluation.tally import Tally
+from fieldhand.task import plan as p
+from fieldhand.task.results import Acted, Arrived, Decided, Driving, Ended, Event, Exited, Faulted, Shed, Visiting
+from fieldhand.task.selectors import is_single
+
+
+class _Flow(Enum):
+    """How a node came to its end."""
+
+    DONE = auto()
+    FAILED = auto()
+    CUT = auto()
+    STOPPED = auto()
+
+
+def replay(plan: p.Node, events: Sequence[Event]) -> dict[str, Tally]:
+    """The tally of every action of a plan, by the id of its node."""
+    return _Replay(plan, events).run()
+
+
+class _Replay:
+    """The plan, the events that belong to it, and how far they are read."""
+
+    def __init__(self, plan: p.Node, events: Sequence[Event]) -> None:
+        self._plan = plan
+        self._inside = {node.id: frozenset(n.id for n in p.walk(node)) for node in p.walk(plan)}
+        own = self._inside[plan.id]
+        over = next((k for k, e in enumerate(events) if isinstance(e, Exited | Ended)), len(events))
+        self._orderly = any(isinstance(e, Ended) and e.status in ("completed", "returned") for e in events)
+        self._events = [e for e in events[:over] if e.node in own]
+        self._next = 0
+        self._tallies = {n.id: Tally() for n in p.walk(plan) if isinstance(n, p.Act)}
+
+    def run(self) -> dict[str, Tally]:
+        for event in self._events:
+            if isinstance(event, Acted) and event.node in self._tallies:
+                tally = self._tallies[event.node]
+                tally.reached = True
+                tally.done += event.count if event.status == "success" else 0
+        self._play(self._plan)
+        return self._tallies
+
+    # --- the log -----------------------------------------------------------------------------------------------
+
+    def _peek(self) -> Event | None:
+        return self._events[self._next] if self._next < len(self._events) else None
+
+    def _comes(self, nodes: Iterable[p.Node]) -> bool:
+        """Whether the next event belongs to one of these nodes."""
+        event = self._peek()
+        return event is not None and any(event.node in self._inside[node.id] for node in nodes)
+
+    def _under(self, node: p.Node) -> list[Tally]:
+        return [self._tallies[n.id] for n in p.walk(node) if isinstance(n, p.Act)]
+
+    # --- nodes -------------------------------------------------------------------------------------------------
+
+    def _play(self, node: p.Node) -> _Flow:
+        match node:
+            case p.Sequence(steps=steps):
+                return self._sequence(steps)
+            case p.AnyOrder(steps=steps):
+                return self._any_order(steps)
+            case p.ForEach():
+                return self._for_each(node)
+            case p.Repeat():
+                return self._repeat(node)
+            case p.If():
+                return self._if(node)
+            case p.Try():
+                return self._try(node)
+            case p.Act():
+                return self._act(node)
+            case p.GoTo():
+                return self._go_to(node)
+            case p.Stop():
+                return _Flow.STOPPED
+
+    def _sequence(self, steps: Sequence[p.Node]) -> _Flow:
+        for k, step in enumerate(steps):
+            flow, rest = self._play(step), steps[k + 1 :]
+            if flow is _Flow.DONE or (flow is _Flow.FAILED and self._comes(rest)):
+                continue
+            self._leave(rest, flow)
+            return flow
+        return _Flow.DONE
+
+    def _any_order(self, steps: Sequence[p.Node]) -> _Flow:
+        left = list(steps)
+        while left:
+            step = next((s for s in left if self._comes([s])), None)
+            if step is None:
+                # Nothing more of it in the log. A step without events of its own (a stop) is played at the end.
+                if all(self._silent(s) for s in left):
+                    return self._sequence(left)
+                self._leave(left, _Flow.CUT)
+                return _Flow.CUT if self._peek() is None else _Flow.DONE
+            left.remove(step)
+            flow = self._play(step)
+            if flow is not _Flow.DONE and not self._comes(left):
+                self._leave(left, flow)
+                return flow
+        return _Flow.DONE
+
+    def _for_each(self, node: p.ForEach) -> _Flow:
+        event = self._skim(node)
+        if not isinstance(event, Visiting):
+            return self._absent(node)
+        self._next += 1
+        places, visits, shed = len(event.places), 0, 0
+        most = places if node.at_most is None else min(places, node.at_most)
+        while True:
+            event = self._skim(node)
+            left = min(most, places - shed) - visits
+            if isinstance(event, Shed) and event.node == node.id:
+                shed += len(event.places)
+                self._shed(node, event)
+            elif isinstance(event, Decided) and event.node == node.id:
+                self._next += 1
+                if event.holds:
+                    return _Flow.DONE
+            elif left > 0 and self._comes([node.body]):
+                visits += 1
+                before = {n: replace(self._tallies[n]) for n in self._inside[node.body.id] & self._tallies.keys()}
+                flow = self._play(node.body)
+                event = self._peek()
+                if isinstance(event, Shed) and event.node == node.id and event.optional and flow is _Flow.FAILED:
+                    # The visit itself was given up half-way: what it lacks is left out, not failed.
+                    visits -= 1
+                    self._forgive(before)
+                elif flow is not _Flow.DONE and not self._goes_on(node):
+                    self._unmade(node, most - visits, flow)
+                    return flow
+            else:
+                break
+        if not node.optional or left > 0:
+            self._unmade(node, most - visits, _Flow.CUT)
+        if left <= 0 or self._silent(node.body):
+            return _Flow.DONE
+        return _Flow.CUT if event is None else _Flow.FAILED
+
+    def _repeat(self, node: p.Repeat) -> _Flow:
+        for k in range(node.times):
+            flow, left = self._play(node.body), node.times - k - 1
+            event = self._peek()
+            if isinstance(event, Shed) and event.node == node.id:
+                self._shed(node, event)
+                self._leave([node.body], flow, left)
+                return _Flow.FAILED
+            if isinstance(event, Decided) and event.node == node.id:
+                self._next += 1
+                if event.holds:
+                    return _Flow.DONE
+            elif event is None and node.until is not None and flow is not _Flow.STOPPED:
+                # The log stops before the test: whether there was to be another round is not known.
+                if left:
+                    self._open(node.body)
+                return flow
+            elif flow is not _Flow.DONE and not self._comes([node]):
+                if left:
+                    self._leave([node.body], flow, left)
+                return flow
+        return _Flow.DONE
+
+    def _if(self, node: p.If) -> _Flow:
+        event = self._skim(node)
+        if not isinstance(event, Decided):
+            return self._absent(node)
+        self._next += 1
+        taken, other = (node.then, node.otherwise) if event.holds else (node.otherwise, node.then)
+        for tally in self._under(other) if other is not None else ():
+            tally.skipped.append(event.why)
+        return _Flow.DONE if taken is None else self._play(taken)
+
+    def _try(self, node: p.Try) -> _Flow:
+        flow = self._play(node.body)
+        if self._comes([node.otherwise]):
+            return self._play(node.otherwise)
+        for tally in self._under(node.otherwise):
+            if flow is _Flow.DONE or flow is _Flow.STOPPED:
+                tally.skipped.append("what it stands in for went well")
+            else:
+                tally.open = tally.undecided = True
+        return flow
+
+    def _act(self, node: p.Act) -> _Flow:
+        tally = self._tallies[node.id]
+        tally.wanted += node.count
+        captures, failed_at, faulted = 0, 0, False
+        while captures < node.count:
+            event = self._peek()
+            if event is None or event.node != node.id:
+                break
+            # The same place again from the first attempt is the next visit; the last one failed for good.
+            begun = captures > 0 or failed_at > 0
+            if isinstance(event, Acted):
+                if failed_at and event.attempt <= failed_at:
+                    break
+                good = event.status == "success"
+                captures, failed_at = (captures + event.count, 0) if good else (captures, event.attempt)
+            elif isinstance(event, Faulted):
+                faulted = faulted or not event.handled
+            elif isinstance(event, Shed):
+                tally.given_up += max(1, len(event.places))
+                tally.reasons.append(event.reason)
+                faulted = True
+            elif begun:
+                break
+            self._next += 1
+        tally.seen += captures
+        if captures >= node.count:
+            return _Flow.DONE
+        tally.failed += 1 if failed_at else 0
+        return _Flow.CUT if self._peek() is None and not (failed_at or faulted) else _Flow.FAILED
+
+    def _go_to(self, node: p.GoTo) -> _Flow:
+        flow = _Flow.DONE
+        while (event := self._peek()) is not None and event.node == node.id:
+            if isinstance(event, Shed) or (isinstance(event, Faulted) and not event.handled):
+                flow = _Flow.FAILED
+            self._next += 1
+            if isinstance(event, Arrived):
+                return _Flow.DONE
+        return flow
+
+    # --- what was not reached ----------------------------------------------------------------------------------
+
+    def _skim(self, node: p.Node) -> Event | None:
+        """The next event, drives and faults of the node itself passed over."""
+        while (event := self._peek()) is not None:
+            if event.node != node.id or not isinstance(event, Driving | Arrived | Faulted):
+                return event
+            self._next += 1
+        return None
+
+    def _absent(self, node: p.Node) -> _Flow:
+        """The log never came to this node."""
+        event = self._peek()
+        if isinstance(event, Shed) and event.node == node.id:
+            self._shed(node, event)
+        flow = _Flow.CUT if self._peek() is None else _Flow.DONE
+        self._leave([node], _Flow.CUT)
+        return flow
+
+    def _goes_on(self, node: p.ForEach) -> bool:
+        """Whether the log has more of this very loop, so that a failed visit did not end it."""
+        event = self._peek()
+        return event is not None and event.node in self._inside[node.id] and not isinstance(event, Visiting)
+
+    def _unmade(self, node: p.ForEach, left: int, flow: _Flow) -> None:
+        """The visits that a loop still had before it when it ended."""
+        if left <= 0:
+            return
+        if flow is _Flow.STOPPED:
+            self._leave([node.body], flow)
+        elif node.optional:
+            # An optional loop is whole when the mission ended in order: what it left out, the budget left out.
+            if not self._orderly:
+                self._open(node.body)
+        elif node.until is not None:
+            self._open(node.body)
+        else:
+            self._leave([node.body], flow, left)
+
+    def _leave(self, nodes: Iterable[p.Node], flow: _Flow, times: int = 1) -> None:
+        """Nodes that the robot did not come to."""
+        for node in nodes:
+            if flow is _Flow.STOPPED:
+                for tally in self._under(node):
+                    tally.stopped = True
+            else:
+                self._miss(node, times)
+
+    def _miss(self, node: p.Node, times: int) -> None:
+        """Add what a node wants as far as the plan alone says it; the rest is open."""
+        match node:
+            case p.Act():
+                self._tallies[node.id].wanted += node.count * times
+            case p.ForEach() if not is_single(node.select) or node.until is not None or node.optional:
+                self._open(node.body)
+            case p.Repeat(until=None):
+                self._miss(node.body, times * node.times)
+            case p.Repeat():
+                self._open(node.body)
+            case p.If():
+                self._open(node, undecided=True)
+            case p.Try():
+                self._miss(node.body, times)
+                self._open(node.otherwise, undecided=True)
+            case _:
+                for child in p.children(node):
+                    self._miss(child, times)
+
+    def _open(self, node: p.Node, *, undecided: bool = False) -> None:
+        for inner in p.walk(node):
+            if isinstance(inner, p.If):
+                undecided_below = [inner.then] if inner.otherwise is None else [inner.then, inner.otherwise]
+                for tally in (t for branch in undecided_below for t in self._under(branch)):
+                    tally.undecided = True
+        for tally in self._under(node):
+            tally.open = True
+            tally.undecided = tally.undecided or undecided
+
+    def _forgive(self, before: dict[str, Tally]) -> None:
+        """Take back what a visit wanted beyond what it gave."""
+        for name, old in before.items():
+            tally = self._tallies[name]
+            tally.wanted = old.wanted + tally.seen - old.seen
+            tally.open, tally.undecided = old.open, old.undecided
+
+    def _shed(self, node: p.Node, event: Shed) -> None:
+        self._next += 1
+        perhaps = {n for i in p.walk(node) if isinstance(i, p.If | p.Try) for n in self._maybe(i)}
+        for name, tally in self._tallies.items():
+            if name not in self._inside[node.id] or (name in perhaps and not event.optional):
+                continue
+            if event.optional:
+                tally.left_out += len(event.places)
+            else:
+                tally.given_up += max(1, len(event.places))
+            if event.reason not in tally.reasons:
+                tally.reasons.append(event.reason)
+
+    def _maybe(self, node: p.If | p.Try) -> frozenset[str]:
+        """Nodes that are only come to on one branch."""
+        if isinstance(node, p.Try):
+            return self._inside[node.otherwise.id]
+        return self._inside[node.id] - {node.id}
+
+    def _silent(self, node: p.Node) -> bool:
+        """Whether a node holds nothing that must leave a trace in the log."""
+        return not any(isinstance(n, p.Act | p.If) for n in p.walk(node))

@@ -1,0 +1,100 @@
+"""Observations of a mission as tables for other programs: CSV (RFC 4180) and GeoJSON (RFC 7946)."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from fieldhand.task.results import Acted, Event
+
+COLUMNS = (
+    "t_s",
+    "node",
+    "kind",
+    "place",
+    "lat",
+    "lon",
+    "action",
+    "status",
+    "attempt",
+    "quantity",
+    "value",
+    "unit",
+    "charge_percent",
+    "what",
+)
+
+#: What a spreadsheet takes for the beginning of a formula.
+_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
+
+
+def observations_csv(events: Sequence[Event]) -> str:
+    """One row a reading, and one a capture that read nothing or failed; times in seconds, degrees in WGS 84.
+
+    Text that a spreadsheet would take for a formula begins with an apostrophe, so that it stays text.
+    """
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\r\n")
+    writer.writerow(COLUMNS)
+    for event in captures(events):
+        readings: list[tuple[str, float | None]] = [*sorted(event.readings.items())]
+        for quantity, value in readings or [("", None)]:
+            row = (
+                round(event.t, 3),
+                event.node,
+                event.kind,
+                event.place,
+                event.lat,
+                event.lon,
+                event.action,
+                event.status,
+                event.attempt,
+                quantity,
+                value if value is not None and math.isfinite(value) else "",
+                event.units.get(quantity, ""),
+                round(event.charge_percent, 3),
+                event.what,
+            )
+            writer.writerow([as_text(cell) if isinstance(cell, str) else cell for cell in row])
+    return out.getvalue()
+
+
+def observations_geojson(events: Sequence[Event]) -> str:
+    """One point feature a capture; readings are properties by quantity, units by ``<quantity>_unit``."""
+    features = [_feature(event) for event in captures(events)]
+    return json.dumps({"type": "FeatureCollection", "features": features}, ensure_ascii=False, indent=1) + "\n"
+
+
+def captures(events: Sequence[Event]) -> list[Acted]:
+    """The captures of a log, those that failed included."""
+    return [e for e in events if isinstance(e, Acted)]
+
+
+def as_text(cell: str) -> str:
+    """A cell that stays text in a spreadsheet."""
+    return f"'{cell}" if cell.startswith(_FORMULA) else cell
+
+
+def _feature(event: Acted) -> dict[str, Any]:
+    properties: dict[str, Any] = {
+        "t_s": round(event.t, 3),
+        "node": event.node,
+        "kind": event.kind,
+        "place": event.place,
+        "action": event.action,
+        "status": event.status,
+        "attempt": event.attempt,
+    }
+    for quantity, value in sorted(event.readings.items()):
+        properties[quantity] = value if math.isfinite(value) else None
+        if quantity in event.units:
+            properties[f"{quantity}_unit"] = event.units[quantity]
+    if event.what:
+        properties["what"] = event.what
+    known = math.isfinite(event.lat) and math.isfinite(event.lon)
+    geometry = {"type": "Point", "coordinates": [round(event.lon, 8), round(event.lat, 8)]} if known else None
+    return {"type": "Feature", "geometry": geometry, "properties": properties}

@@ -1,0 +1,67 @@
+"""Approval is a type, and this room alone makes it."""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+from pathlib import Path
+
+import pytest
+
+import fieldhand
+from fieldhand.approval.authorize import approve
+from fieldhand.errors import NotApprovedError
+from fieldhand.task.codec import encode
+from fieldhand.task.plan import Act
+from fieldhand.task.selectors import TreeIs
+from orchards import husky, orchard, task_for
+
+SITE, ROBOT = orchard(), husky()
+GOOD = task_for(SITE, Act(id="", action="read_co2", at=TreeIs(tree="1")))
+BAD = task_for(SITE, Act(id="", action="read_co2", at=TreeIs(tree="99")))
+WHEN = "2026-05-01T08:00:00+02:00"
+
+
+def test_an_approved_task_carries_who_when_and_the_hashes_of_what():
+    approved = approve(GOOD, SITE, ROBOT, by="Ada", at=WHEN, confirmed=("the gate is narrow",))
+    authorization = approved.authorization
+    assert approved.task == GOOD
+    assert (authorization.by, authorization.at, authorization.confirmed) == ("Ada", WHEN, ("the gate is narrow",))
+    assert authorization.task_sha256 == hashlib.sha256(encode(GOOD)).hexdigest()
+    assert (authorization.site_sha256, authorization.robot_sha256) == (SITE.sha256, ROBOT.sha256)
+
+
+def test_a_task_with_an_error_is_not_approved_and_says_why():
+    with pytest.raises(NotApprovedError, match="99"):
+        approve(BAD, SITE, ROBOT, by="Ada", at=WHEN)
+
+
+@pytest.mark.parametrize(("by", "at"), [("", WHEN), ("  ", WHEN), ("Ada", "yesterday"), ("Ada", "2026-05-01T08:00:00")])
+def test_nobody_and_no_moment_approve_nothing(by, at):
+    with pytest.raises(NotApprovedError):
+        approve(GOOD, SITE, ROBOT, by=by, at=at)
+
+
+def test_no_other_module_makes_an_authorized_task():
+    root = Path(fieldhand.__file__).parent
+    makers = {str(path.relative_to(root)) for path in root.rglob("*.py") if _makes(path)}
+    assert makers == {"approval/authorize.py"}
+
+
+def _makes(path: Path) -> bool:
+    """Whether a module calls the class, or passes it on under another name."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    named = {
+        alias.asname or alias.name
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom)
+        for alias in node.names
+        if alias.name == "AuthorizedTask"
+    }
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call):
+            called = node.func
+            name = called.id if isinstance(called, ast.Name) else getattr(called, "attr", "")
+            if name in named | {"AuthorizedTask"}:
+                return True
+    return False

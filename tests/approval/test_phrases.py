@@ -1,0 +1,172 @@
+"""Words for selectors, conditions and actions."""
+
+from __future__ import annotations
+
+import re
+from typing import get_args
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fieldhand.approval.clauses import say_act, say_condition
+from fieldhand.approval.phrases import say_selector
+from fieldhand.task import conditions as c
+from fieldhand.task import selectors as s
+from fieldhand.task.plan import Act
+from orchards import husky
+from strategies import ROVER, Parts
+
+PARTS = Parts(ROVER)
+YELLOW = s.Where(attribute="leaf_color", test="eq", value="yellow")
+HERE, TREE = s.Here(), s.TreeIs(tree="81")
+
+#: One of each selector class at least; the test below fails when a class is missing.
+SAID = [
+    (s.Trees(), None, "every tree"),
+    (s.Trees(), 98, "all 98 trees"),
+    (TREE, None, "tree 81"),
+    (s.Marker(name="charger"), None, "the charger"),
+    (HERE, None, "the place reached before"),
+    (s.Bound(label="a"), None, "the place called “a”"),
+    (s.First(), None, "the first tree"),
+    (s.Last(of=YELLOW), None, "the last of the yellow trees"),
+    (s.Corners(), None, "the 4 corner trees"),
+    (s.Corners(which=("nw",)), None, "the north-west corner tree"),
+    (s.Corners(which=("nw", "se"), of=YELLOW), None, "the north-west and south-east corner trees of the yellow trees"),
+    (s.Extreme(side="north"), None, "the northernmost tree"),
+    (s.Extreme(side="west", count=3, of=YELLOW), None, "the 3 westernmost of the yellow trees"),
+    (s.AmongExtreme(side="north"), None, "the northernmost trees"),
+    (s.Middle(), None, "the tree nearest to the middle of the site"),
+    (s.EdgeMiddle(side="east", count=2), None, "the 2 trees nearest to the middle of the eastern edge"),
+    (s.Half(side="north", of=YELLOW), 3, "the 3 yellow trees in the northern half"),
+    (s.Quarter(quarter="se"), 1, "the 1 tree in the south-east quarter"),
+    (s.Edge(side="south"), None, "the trees along the southern edge"),
+    (s.Nearest(to=HERE, fresh=True), None, "the tree nearest to that place and not visited yet"),
+    (s.Nearest(to=TREE, adjacent=True, of=YELLOW), None, "the yellow tree next to tree 81"),
+    (s.Farthest(origin=HERE), None, "the tree farthest from there"),
+    (s.Adjacent(near=TREE), None, "2 trees next to each other, beginning with the one nearest to tree 81"),
+    (s.Other(), None, "the trees not visited yet"),
+    (s.Excluding(places=TREE, of=YELLOW), None, "the yellow trees other than tree 81"),
+    (s.Where(attribute="age_years", test="ge", value=10.0), None, "the trees whose age is at least 10 years"),
+    (s.Top(attribute="reward", count=10), None, "the 10 trees with the highest reward"),
+    (s.InZone(zone="wet corner", outside=True), None, "the trees outside the zone “wet corner”"),
+    (s.Within(distance_m=20.0, to=TREE), None, "the trees within 20 m of tree 81"),
+    (s.Take(count=1, of=s.AmongExtreme(side="north")), None, "the nearest of the northernmost trees"),
+    (s.Take(count=1, of=s.Other()), None, "another tree, the nearest one not visited yet"),
+    (s.Union(parts=(TREE, s.TreeIs(tree="12"))), None, "trees 81 and 12"),
+    (s.Union(parts=(TREE, s.First())), None, "tree 81 and the first tree"),
+    (
+        s.Where(attribute="leaf_color", test="eq", value="yellow", of=s.Extreme(side="north", count=3)),
+        2,
+        "the 2 yellow trees among the 3 northernmost trees",
+    ),
+    (
+        s.Top(attribute="yield_kg", count=3, lowest=True, of=s.Half(side="west", of=YELLOW)),
+        None,
+        "the 3 yellow trees in the western half with the lowest yield",
+    ),
+    (
+        s.Farthest(origin=HERE, of=s.Other()),
+        None,
+        "the tree not visited yet that is farthest from there",
+    ),
+    (
+        s.Half(side="north", of=s.InZone(zone="wet")),
+        None,
+        "the trees in the northern half of the trees inside the zone “wet”",
+    ),
+]
+
+LOW = c.Level(reading="r", quantity="canopy_temperature", level="low")
+COLD = c.Compare(reading="r", quantity="canopy_temperature", test="lt", value=33.0, unit="degC")
+THERE = {"r": "there"}
+
+
+@pytest.mark.parametrize(("selector", "count", "words"), SAID)
+def test_selectors_are_said_as_people_say_them(selector, count, words):
+    assert say_selector(selector, count=count) == words
+
+
+def test_every_kind_of_selector_has_an_example():
+    assert {type(selector) for selector, _, _ in SAID} == set(get_args(s.Selector))
+
+
+@settings(max_examples=150, deadline=None)
+@given(selector=PARTS.selectors)
+def test_no_selector_shows_a_class_name(selector):
+    said = say_selector(selector)
+    assert said
+    names = "|".join(cls.__name__ for cls in get_args(s.Selector))
+    assert not re.search(rf"\b(?:{names})\(", said)
+
+
+PLAIN = st.sampled_from(("yellow", "Kerman", "old"))
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    value=PLAIN, test=st.sampled_from(get_args(s.Test)), count=st.integers(1, 9), side=st.sampled_from(get_args(s.Side))
+)
+def test_names_with_underscores_are_said_without(value, test, count, side):
+    selector = s.Top(
+        attribute="trunk_girth_cm",
+        count=count,
+        of=s.Half(side=side, of=s.Where(attribute="leaf_shape", test=test, value=value)),
+    )
+    assert "_" not in say_selector(selector)
+
+
+def test_a_label_is_called_what_the_reader_knows_it_as():
+    assert say_selector(s.Farthest(origin=s.Bound(label="a")), {"a": "tree 36"}) == "the tree farthest from tree 36"
+
+
+@pytest.mark.parametrize(
+    ("condition", "words"),
+    [
+        (COLD, "the canopy temperature there is below 33 °C"),
+        (c.Not(condition=COLD), "the canopy temperature there is not below 33 °C"),
+        (LOW, "the canopy temperature there is low (below 33 °C)"),
+        (
+            c.Between(reading="r", quantity="co2", low=380.0, high=420.5, unit="ppm"),
+            "the CO₂ there is between 380 and 420.5 ppm",
+        ),
+        (c.TreeHas(attribute="leaf_color", test="eq", value="yellow"), "the tree's leaf color is yellow"),
+        (
+            c.AllOf(conditions=(COLD, c.AnyOf(conditions=(LOW, COLD)))),
+            "the canopy temperature there is below 33 °C and (the canopy temperature there is low (below 33 °C)"
+            " or the canopy temperature there is below 33 °C)",
+        ),
+        (c.Not(condition=c.Not(condition=LOW)), "the canopy temperature there is low (below 33 °C)"),
+    ],
+)
+def test_conditions_are_said_as_clauses(condition, words):
+    assert say_condition(condition, THERE, husky()) == words
+
+
+@settings(max_examples=100, deadline=None)
+@given(condition=PARTS.conditions)
+def test_no_condition_shows_a_class_name(condition):
+    said = say_condition(condition)
+    assert said
+    names = "|".join(cls.__name__ for cls in get_args(c.Condition))
+    assert not re.search(rf"\b(?:{names})\(", said)
+
+
+@pytest.mark.parametrize(
+    ("act", "words"),
+    [
+        (Act(id="n", action="take_thermal_picture"), "take a thermal picture"),
+        (Act(id="n", action="take_thermal_picture", count=2), "take 2 thermal pictures"),
+        (Act(id="n", action="read_ambient_temperature", count=2), "read the ambient temperature twice"),
+        (Act(id="n", action="read_co2", count=3), "read CO₂ 3 times"),
+        (Act(id="n", action="sample_leaf", count=2), "sample 2 leaves"),
+        (Act(id="n", action="take_rgb_picture"), "take an RGB picture"),
+        (
+            Act(id="n", action="probe_soil", parameters=(("depth_cm", 20.0), ("mode", "fast"))),
+            "probe a soil with depth cm 20 and mode fast",
+        ),
+    ],
+)
+def test_actions_are_said_as_verb_phrases(act, words):
+    assert say_act(act, husky()) == words
