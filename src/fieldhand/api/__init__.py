@@ -1,1 +1,1 @@
-"""REST API over the mission steps."""
+"""The REST API: thin, one router a file; what is served stands in docs/api.md."""

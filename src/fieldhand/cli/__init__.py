@@ -1,1 +1,29 @@
 """The command line: thin, one command a file."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+
+
+def main(*others: Callable[..., None]) -> None:
+    """Run the command line; what went wrong is one line on standard error and the exit status of its kind.
+
+    Args:
+        others: Commands beside those of this room, made of rooms that this one does not know.
+    """
+    from fieldhand.cli.app import assemble
+    from fieldhand.errors import FieldhandError
+
+    try:
+        assemble(*others)()
+    except FieldhandError as error:
+        print(f"fieldhand: {error}", file=sys.stderr)  # noqa: T201
+        sys.exit(error.exit_status)
+    except KeyboardInterrupt:
+        print("fieldhand: interrupted", file=sys.stderr)  # noqa: T201
+        sys.exit(130)
+    except BrokenPipeError:
+        # Whoever read our output has gone (a pager, head); say nothing more, not even at exit.
+        sys.stderr.close()
+        sys.exit(0)

@@ -1,1 +1,1 @@
-"""Web pages over the API."""
+"""The web page: static files of this package, no framework, nothing loaded from elsewhere."""

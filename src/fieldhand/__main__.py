@@ -1,0 +1,5 @@
+"""``python -m fieldhand``."""
+
+from fieldhand.program import main
+
+main()

@@ -1,0 +1,42 @@
+"""What the API answers about a plan: its words, its problems, what it takes, its map."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Any
+
+from fieldhand.api.inputs import Ground
+from fieldhand.api.maps import plan_map, site_map
+from fieldhand.mission import Review
+from fieldhand.planning.planner import Clarify, Refused
+
+
+def unplanned_answer(outcome: Clarify | Refused) -> dict[str, Any]:
+    """A question or a refusal."""
+    match outcome:
+        case Clarify():
+            return {
+                "outcome": "clarify",
+                "planner": outcome.planner,
+                "question": outcome.question,
+                "choices": list(outcome.choices),
+            }
+        case Refused():
+            reasons = [{"what": r.what, "said": [list(s) for s in r.said], "advice": r.advice} for r in outcome.reasons]
+            return {"outcome": "refused", "planner": outcome.planner, "reasons": reasons}
+
+
+def review_answer(review: Review, ground: Ground) -> dict[str, Any]:
+    """A review: may it be approved, what is wrong, what will be done, what it takes, and where."""
+    estimate = review.estimate
+    return {
+        "task": review.task.id,
+        "approvable": not review.errors,
+        "problems": [
+            {"severity": p.severity, "node": p.node, "where": p.where, "what": p.what, "advice": p.advice}
+            for p in review.problems
+        ],
+        "read_back": None if review.read_back is None else asdict(review.read_back),
+        "estimate": None if estimate is None else estimate.as_record(),
+        "map": site_map(ground.site) if estimate is None else plan_map(ground.site, estimate),
+    }

@@ -1,0 +1,51 @@
+"""What is built in: sites and robots by name."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Any
+
+from fastapi import APIRouter
+
+from fieldhand.api.inputs import open_choice, open_robot
+from fieldhand.api.work import Workers
+
+
+def router(workers: Workers) -> APIRouter:
+    """``GET /sites``, ``GET /robots``, ``GET /robots/{name}``."""
+    routes = APIRouter(tags=["catalogue"])
+
+    @routes.get("/sites")
+    async def sites() -> list[dict[str, Any]]:
+        """The built-in sites."""
+        return await workers.do(_sites)
+
+    @routes.get("/robots")
+    async def robots() -> list[dict[str, Any]]:
+        """The built-in robots."""
+        return await workers.do(_robots)
+
+    @routes.get("/robots/{name}")
+    async def robot(name: str) -> dict[str, Any]:
+        """What a robot can do, measure and hold."""
+        return await workers.do(lambda: _robot(name))
+
+    return routes
+
+
+def _sites() -> list[dict[str, Any]]:
+    demo = open_choice("demo")
+    return [{"name": "demo", "title": demo.name, "trees": len(demo.trees)}]
+
+
+def _robots() -> list[dict[str, Any]]:
+    from fieldhand.robot.loader import builtin_names
+
+    profiles = [open_robot(name) for name in builtin_names()]
+    return [{"name": p.name, "description": p.description, "actions": [a.name for a in p.actions]} for p in profiles]
+
+
+def _robot(name: str) -> dict[str, Any]:
+    record = asdict(open_robot(name))
+    record.pop("source")
+    return record

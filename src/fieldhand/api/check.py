@@ -1,0 +1,31 @@
+"""Every check on a Task document."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from fastapi import APIRouter
+
+from fieldhand import mission
+from fieldhand.api.answers import review_answer
+from fieldhand.api.inputs import CheckBody, open_ground, open_task
+from fieldhand.api.work import Workers
+
+
+def router(workers: Workers) -> APIRouter:
+    """``POST /check``."""
+    routes = APIRouter(tags=["mission"])
+
+    @routes.post("/check")
+    async def check(body: CheckBody) -> dict[str, Any]:
+        """Check a Task document against a site and a robot."""
+        return await workers.do(lambda: _check(body))
+
+    return routes
+
+
+def _check(body: CheckBody) -> dict[str, Any]:
+    ground = open_ground(body)
+    task, document = open_task(body.xml, ground.robot)
+    review = mission.review(task, ground.site, ground.robot, document=document)
+    return {"outcome": "checked", "request": task.command.request, **review_answer(review, ground)}

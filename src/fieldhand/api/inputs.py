@@ -1,0 +1,178 @@
+"""What the API takes: the models of its request bodies, and how they become a site, a robot and a world.
+
+Nothing here opens a file that a caller names: a site is the built-in one or the data itself, a robot a built-in name.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import PurePath
+from typing import Annotated, Any, Literal
+
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints, model_validator
+
+from fieldhand.errors import ProfileError, SiteError
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.task.frames import Task
+
+MAX_REQUEST = 20_000
+MAX_XML = 4_000_000
+
+
+def _whole(text: str) -> str:
+    # JSON can hold half a character (a lone surrogate); no file and no answer can.
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise ValueError("this is not valid Unicode text") from None
+    return text
+
+
+Text = Annotated[str, AfterValidator(_whole)]
+Words = Annotated[Text, StringConstraints(max_length=MAX_REQUEST)]
+Xml = Annotated[Text, StringConstraints(max_length=MAX_XML)]
+Name = Annotated[Text, StringConstraints(strip_whitespace=True, min_length=1, max_length=100)]
+
+
+class Body(BaseModel):
+    """A request body: what it does not know it refuses."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class SiteText(Body):
+    """A GeoJSON file as it stands, with its name; its SHA-256 is that of the file."""
+
+    name: Name = "site.geojson"
+    text: Text
+
+
+def _not_a_path(value: object) -> object:
+    if isinstance(value, str) and value != "demo":
+        raise ValueError("a site is 'demo' or the GeoJSON itself, never the name of a file on the server")
+    return value
+
+
+SiteChoice = Annotated[Literal["demo"] | SiteText | dict[str, Any], BeforeValidator(_not_a_path)]
+
+
+class OnGround(Body):
+    """A site, and a robot by its built-in name."""
+
+    site: SiteChoice = "demo"
+    robot: Name = "husky"
+
+
+class SiteBody(Body):
+    """A site to look at."""
+
+    site: SiteChoice
+
+
+class PlanBody(OnGround):
+    """A request to plan."""
+
+    request: Words
+    planner: Literal["auto", "english", "llm"] = "auto"
+
+
+class CheckBody(OnGround):
+    """A Task document to check."""
+
+    xml: Xml
+
+
+class RunBody(OnGround):
+    """A mission to simulate: a Task document, or a request; and who approves it."""
+
+    xml: Xml | None = None
+    request: Words | None = None
+    planner: Literal["auto", "english", "llm"] = "auto"
+    approved_by: Name
+    seed: Annotated[int, Field(ge=0, lt=2**32)] | None = None
+    world: dict[str, Any] | None = None
+
+    @model_validator(mode="after")
+    def _one_of_both(self) -> RunBody:
+        if (self.xml is None) == (self.request is None):
+            raise ValueError("give either xml or request")
+        if not self.approved_by.isprintable():
+            raise ValueError("approved_by is a name")
+        return self
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ground:
+    """The site and the robot that a call is about."""
+
+    site: Site
+    robot: RobotProfile
+
+
+def open_ground(body: OnGround) -> Ground:
+    """Open both.
+
+    Raises:
+        SiteError, ProfileError: One of them cannot be used.
+    """
+    return Ground(site=open_choice(body.site), robot=open_robot(body.robot))
+
+
+def open_choice(choice: Literal["demo"] | SiteText | dict[str, Any]) -> Site:
+    """The site that was chosen or sent.
+
+    Raises:
+        SiteError: What was sent is no site.
+    """
+    from fieldhand.site.geojson import parse_site
+
+    if isinstance(choice, str):
+        return _demo()
+    if isinstance(choice, SiteText):
+        file = PurePath(choice.name)
+        return parse_site(choice.text.encode(), name=file.stem or "site", source=file.name or "site")
+    try:
+        data = json.dumps(choice).encode()
+    except RecursionError:
+        raise SiteError("the site is nested too deeply", where="site", advice="send plain GeoJSON") from None
+    return parse_site(data, name="site", source="site")
+
+
+@lru_cache(maxsize=1)
+def _demo() -> Site:
+    """The built-in orchard, read once, without the path from which it was read."""
+    from fieldhand.site.geojson import load_demo
+
+    return replace(load_demo(), source="demo")
+
+
+def open_robot(name: str) -> RobotProfile:
+    """A built-in robot.
+
+    Raises:
+        ProfileError: There is none of that name.
+    """
+    from fieldhand.robot.loader import builtin_names, load_robot
+
+    names = builtin_names()
+    if name not in names:
+        raise ProfileError("no built-in robot has that name", where="robot", advice=f"choose one of {', '.join(names)}")
+    return load_robot(name)
+
+
+def open_task(xml: str, robot: RobotProfile) -> tuple[Task, bytes]:
+    """A Task document that was sent, valid against the robot's schema, with its bytes.
+
+    Raises:
+        TaskError: It is not well-formed or fails the schema.
+    """
+    from fieldhand.robot.capabilities import capabilities_of
+    from fieldhand.task.codec import decode
+    from fieldhand.task.schema import require_valid
+
+    document = xml.encode()
+    require_valid(document, capabilities_of(robot), source="xml")
+    return decode(document, source="xml"), document

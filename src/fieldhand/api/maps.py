@@ -1,0 +1,163 @@
+"""Sites, plans and driven paths as GeoJSON, in degrees WGS 84, each feature with a ``role``.
+
+``tree``, ``marker``, ``zone``: the site. ``path``, ``stop``: a plan, the legs with the node that drives them, the stops
+with their number and the nodes that go or act there. ``leg``, ``capture``, ``end``: what was driven, with times in
+seconds since the mission began.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from fieldhand.site.model import Place, Site
+from fieldhand.site.projection import Projection
+from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event
+
+if TYPE_CHECKING:
+    from fieldhand.forecast.estimate import Estimate
+    from fieldhand.forecast.walk import Walk
+
+Feature = dict[str, Any]
+#: Decimals of a degree: a centimetre.
+_DECIMALS = 7
+
+
+def site_map(site: Site) -> Feature:
+    """A site: zones, then trees, then markers."""
+    zones = [
+        _feature("Polygon", _rings(zone.polygon, site.projection), role="zone", name=zone.name, kind=zone.kind)
+        for zone in site.zones
+    ]
+    trees = [
+        _at(tree.place, role="tree", id=tree.place.id, row=tree.row, attributes=dict(tree.properties))
+        for tree in site.trees
+    ]
+    markers = [_at(place, role="marker", name=name) for name, place in site.markers.items()]
+    return _collection([*zones, *trees, *markers])
+
+
+def plan_map(site: Site, estimate: Estimate) -> Feature:
+    """A plan on its site: the legs of every branch, each once, and the stops in the order in which they are reached.
+
+    The first branch is the one on which every condition holds; ``branch`` is true for what lies on others alone.
+    """
+    legs: dict[tuple[Any, ...], Feature] = {}
+    stops: dict[tuple[str, str], Feature] = {}
+    for number, branch in enumerate(estimate.branches):
+        _add_legs(legs, branch.walk, site.projection, other=number > 0)
+        _add_stops(stops, branch.walk, other=number > 0)
+    return _collection([*site_map(site)["features"], *legs.values(), *stops.values()])
+
+
+def driven_map(events: Iterable[Event]) -> Feature:
+    """What was driven and captured: legs with the time they began and ended, captures with their readings."""
+    features: list[Feature] = []
+    driving: Driving | None = None
+    for event in events:
+        match event:
+            case Driving():
+                driving = event
+            case Arrived() if driving is not None:
+                features.append(_leg(driving, event.t, to=event.place))
+                driving = None
+            case Acted():
+                features.append(
+                    _feature(
+                        "Point",
+                        _position(event.lat, event.lon),
+                        role="capture",
+                        t=event.t,
+                        node=event.node,
+                        action=event.action,
+                        status=event.status,
+                        place=event.place,
+                        readings=dict(event.readings),
+                        units=dict(event.units),
+                    )
+                )
+            case Ended():
+                if driving is not None:
+                    # The last drive was cut off: how far it came, no event but this one tells.
+                    driven = _driven(driving.path, (event.lat, event.lon))
+                    features.append(_leg(driving, event.t, to="", path=driven))
+                features.append(_feature("Point", _position(event.lat, event.lon), role="end", t=event.t))
+            case _:
+                pass
+    return _collection(features)
+
+
+def _add_legs(legs: dict[tuple[Any, ...], Feature], walk: Walk, projection: Projection, *, other: bool) -> None:
+    for step in walk.steps:
+        if step.drive is None:
+            continue
+        legs.setdefault(
+            (step.node.id, step.drive.points),
+            _feature(
+                "LineString",
+                _degrees(step.drive.points, projection),
+                role="path",
+                node=step.node.id,
+                home=step.kind == "exit",
+                length_m=round(step.drive.length_m, 2),
+                branch=other,
+            ),
+        )
+
+
+def _add_stops(stops: dict[tuple[str, str], Feature], walk: Walk, *, other: bool) -> None:
+    """A stop for each place that a node drives to or acts at; the way home is no stop."""
+    for step in walk.steps:
+        if step.kind not in ("drive", "act"):
+            continue
+        place = step.places[0]
+        stop = stops.setdefault(
+            (place.kind, place.id),
+            _at(place, role="stop", number=len(stops) + 1, place=place.id, kind=place.kind, nodes=[], branch=other),
+        )
+        if step.node.id not in stop["properties"]["nodes"]:
+            stop["properties"]["nodes"].append(step.node.id)
+
+
+def _leg(driving: Driving, until: float, *, to: str, path: Sequence[tuple[float, float]] | None = None) -> Feature:
+    line = [_position(lat, lon) for lat, lon in (driving.path if path is None else path)]
+    return _feature("LineString", line, role="leg", node=driving.node, t=driving.t, until=until, to=to)
+
+
+def _driven(path: Sequence[tuple[float, float]], end: tuple[float, float]) -> list[tuple[float, float]]:
+    """The corners of a way that were passed before the robot stood still at ``end``, and then ``end``."""
+    here = np.asarray(end)
+    corners = np.asarray(path)
+    # A degree of longitude is shorter than one of latitude.
+    scale = np.array([1.0, np.cos(np.radians(end[0]))])
+    a, way = corners[:-1] * scale, np.diff(corners, axis=0) * scale
+    along = np.clip(((here * scale - a) * way).sum(axis=1) / np.maximum((way**2).sum(axis=1), 1e-30), 0.0, 1.0)
+    off = np.hypot(*(a + along[:, None] * way - here * scale).T)
+    return [*path[: int(off.argmin()) + 1], end]
+
+
+def _at(at: Place, /, **properties: Any) -> Feature:
+    return _feature("Point", _position(at.lat, at.lon), **properties)
+
+
+def _feature(geometry: str, coordinates: Any, /, **properties: Any) -> Feature:
+    return {"type": "Feature", "geometry": {"type": geometry, "coordinates": coordinates}, "properties": properties}
+
+
+def _collection(features: list[Feature]) -> Feature:
+    return {"type": "FeatureCollection", "features": features}
+
+
+def _position(lat: float, lon: float) -> list[float]:
+    return [round(lon, _DECIMALS), round(lat, _DECIMALS)]
+
+
+def _degrees(points: Iterable[tuple[float, float]], projection: Projection) -> list[list[float]]:
+    degrees = projection.degrees(np.asarray(list(points), dtype=np.float64))
+    return [_position(lat, lon) for lat, lon in degrees.tolist()]
+
+
+def _rings(polygon: Any, projection: Projection) -> list[list[list[float]]]:
+    return [_degrees(ring.coords, projection) for ring in (polygon.exterior, *polygon.interiors)]

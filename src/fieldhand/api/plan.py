@@ -1,0 +1,47 @@
+"""A request becomes a Task, a question, or a refusal."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from fastapi import APIRouter
+
+from fieldhand import mission
+from fieldhand.api.answers import review_answer, unplanned_answer
+from fieldhand.api.inputs import PlanBody, open_ground
+from fieldhand.api.work import Workers
+from fieldhand.planning.planner import Planned, Planner
+
+#: Gives the planner of a name: auto, english or llm.
+Planners = Callable[[str], Planner]
+
+
+def router(workers: Workers, planners: Planners) -> APIRouter:
+    """``POST /plan``."""
+    routes = APIRouter(tags=["mission"])
+
+    @routes.post("/plan")
+    async def plan(body: PlanBody) -> dict[str, Any]:
+        """Plan a request: what was understood, where, and what it will take."""
+        return await workers.do(lambda: _plan(body, planners))
+
+    return routes
+
+
+def _plan(body: PlanBody, planners: Planners) -> dict[str, Any]:
+    from fieldhand.task.codec import encode
+
+    ground = open_ground(body)
+    outcome = mission.plan(body.request, ground.site, ground.robot, planners(body.planner))
+    if not isinstance(outcome, Planned):
+        return unplanned_answer(outcome)
+    document = encode(outcome.task)
+    review = mission.review(outcome.task, ground.site, ground.robot, document=document)
+    return {
+        "outcome": "planned",
+        "planner": outcome.planner,
+        "warnings": list(outcome.warnings),
+        "xml": document.decode(),
+        **review_answer(review, ground),
+    }

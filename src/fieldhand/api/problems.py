@@ -1,0 +1,110 @@
+"""What goes wrong, as JSON: ``{"status", "what", "where", "advice"}``, never a traceback.
+
+400  what was given cannot be used (every InputError)
+403  a page of another site tries to use this one, or calls it by another name
+404, 405  no such address, no such method
+413  the body is too big
+422  the shape of the body is wrong; a mission is not approved; the robot could not do it
+500  a fault of the program; the log of the server says more
+503  too much work at once
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from http import HTTPStatus
+from typing import Any
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from starlette.exceptions import HTTPException
+from starlette.responses import Response
+
+from fieldhand.errors import FieldhandError, InputError
+
+MEDIA_TYPE = "application/problem+json"
+
+#: Parts of a pydantic location that say which kind of a choice was tried, not where the fault is.
+_CHOICES = ("SiteText", "dict[str,any]", "literal['demo']")
+
+
+class Turned(Exception):
+    """A request that the server turns away before any room has seen it.
+
+    Args:
+        status: HTTP status.
+        what: What is wrong, in words, without a full stop.
+        advice: What to do.
+    """
+
+    def __init__(self, status: int, what: str, advice: str = "") -> None:
+        self.status = status
+        self.what = what
+        self.advice = advice
+        super().__init__(what)
+
+
+def problem(status: int, what: str, where: str = "", advice: str = "") -> Response:
+    """A problem as a response."""
+    body = json.dumps({"status": status, "what": what, "where": where, "advice": advice})
+    return Response(body, status_code=status, media_type=MEDIA_TYPE)
+
+
+def too_big() -> Response:
+    """The problem of a body that is larger than the server takes."""
+    return problem(413, "the body is too large", "body", "send a smaller site or a shorter request")
+
+
+def answer_problems(app: FastAPI) -> None:
+    """Have the application answer every failure with a problem."""
+
+    @app.exception_handler(FieldhandError)
+    async def _known(_: Request, error: FieldhandError) -> Response:
+        return problem(400 if isinstance(error, InputError) else 422, error.what, error.where, error.advice)
+
+    @app.exception_handler(Turned)
+    async def _turned(_: Request, error: Turned) -> Response:
+        return problem(error.status, error.what, advice=error.advice)
+
+    @app.exception_handler(RequestValidationError)
+    async def _shape(_: Request, error: RequestValidationError) -> Response:
+        first = error.errors()[0]
+        return problem(422, _said(first), _place(first["loc"]), "see docs/api.md for what this address takes")
+
+    @app.exception_handler(HTTPException)
+    async def _http(request: Request, error: HTTPException) -> Response:
+        if error.status_code in (404, 405):
+            what = "there is nothing here" if error.status_code == 404 else f"{request.method} is not for this address"
+            response = problem(error.status_code, what, advice="docs/api.md lists every address")
+            response.headers.update(error.headers or {})
+            return response
+        if error.status_code == 400:
+            return problem(400, "the body cannot be read as JSON", "body", "send one JSON object in UTF-8")
+        if error.status_code == 413:
+            return too_big()
+        return problem(error.status_code, HTTPStatus(error.status_code).phrase.lower())
+
+
+def _said(error: dict[str, Any]) -> str:
+    """What pydantic found, without what was sent and without a full stop."""
+    match error["type"]:
+        case "missing":
+            return "this is missing"
+        case "extra_forbidden":
+            return "this is not known here"
+        case "json_invalid":
+            return f"the body is not JSON: {error['ctx']['error']}"
+        case "value_error":
+            return str(error["ctx"]["error"])
+        case "string_unicode":
+            return "this is not valid Unicode text"
+        case _:
+            message = str(error["msg"])
+            return message[:1].lower() + message[1:]
+
+
+def _place(location: Sequence[str | int]) -> str:
+    """Where in the body, as ``site.text``."""
+    parts = [str(part) for part in location if part not in _CHOICES]
+    return ".".join(parts[1:] if len(parts) > 1 and parts[0] == "body" else parts)

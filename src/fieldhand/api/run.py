@@ -1,0 +1,98 @@
+"""A mission approved by somebody, carried out in simulation and judged."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+from datetime import UTC, datetime
+from typing import Any
+
+from fastapi import APIRouter
+
+from fieldhand import mission
+from fieldhand.api.answers import unplanned_answer
+from fieldhand.api.inputs import Ground, RunBody, open_ground, open_task
+from fieldhand.api.maps import driven_map
+from fieldhand.api.plan import Planners
+from fieldhand.api.words import Words
+from fieldhand.api.work import Limits, Workers
+from fieldhand.planning.planner import Planned
+from fieldhand.task.authorization import AuthorizedTask
+from fieldhand.task.frames import Task
+from fieldhand.task.results import Ended, Event, to_json
+
+
+def router(workers: Workers, planners: Planners, words: Words, limits: Limits) -> APIRouter:
+    """``POST /run``."""
+    routes = APIRouter(tags=["mission"])
+
+    @routes.post("/run")
+    async def run(body: RunBody) -> dict[str, Any]:
+        """Approve a mission in somebody's name, simulate it and judge it; what is not understood is not run."""
+        return await workers.do(lambda: _run(body, planners, words, limits))
+
+    return routes
+
+
+def _run(body: RunBody, planners: Planners, words: Words, limits: Limits) -> dict[str, Any]:
+    from fieldhand.execution.world import World, parse_world
+
+    ground = open_ground(body)
+    world = World() if body.world is None else parse_world(body.world, source="world")
+    if body.request is not None:
+        outcome = mission.plan(body.request, ground.site, ground.robot, planners(body.planner))
+        if not isinstance(outcome, Planned):
+            return unplanned_answer(outcome)
+        task = outcome.task
+    else:
+        task, _ = open_task(body.xml or "", ground.robot)
+    authorized = mission.authorize(task, ground.site, ground.robot, by=body.approved_by, at=datetime.now(UTC))
+    events: list[Event] = []
+    mission.carry_out(
+        authorized,
+        ground.site,
+        ground.robot,
+        world=world,
+        seed=world.seed if body.seed is None else body.seed,
+        speed=None,
+        emit=events.append,
+        interrupted=_deadline(limits.run_s),
+    )
+    return _answer(authorized, ground, events, words)
+
+
+def _deadline(seconds: float) -> Callable[[], str | None]:
+    """Asked at every tick: a reason to end, once so many seconds of the real clock have passed."""
+    until = time.monotonic() + seconds
+    return lambda: f"the simulation took longer than {seconds:g} s" if time.monotonic() > until else None
+
+
+def _answer(authorized: AuthorizedTask, ground: Ground, events: Sequence[Event], words: Words) -> dict[str, Any]:
+    assessment = mission.assess(authorized.task, events)
+    ended = next(event for event in reversed(events) if isinstance(event, Ended))
+    tell = words.of_event(ground.robot)
+    return {
+        "outcome": "ran",
+        "authorization": asdict(authorized.authorization),
+        "status": ended.status,
+        "reason": ended.reason,
+        "travelled_m": ended.travelled_m,
+        "seconds": ended.t,
+        "charge_percent": ended.charge_percent,
+        "success": ended.status == "completed" and assessment.success,
+        "goals": _goals(authorized.task, ground, assessment, words),
+        "events": [json.loads(to_json(event)) for event in events],
+        "told": [tell(event) or "" for event in events],
+        "map": driven_map(events),
+    }
+
+
+def _goals(task: Task, ground: Ground, assessment: mission.Assessment, words: Words) -> list[dict[str, Any]]:
+    nodes = {goal.id: goal.node for goal in task.command.goals}
+    name = words.of_goal(task, ground.robot)
+    return [
+        {**asdict(outcome), "node": nodes.get(outcome.goal, ""), "name": name(outcome.goal)}
+        for outcome in assessment.outcomes
+    ]

@@ -1,0 +1,37 @@
+"""What is understood of a site, before anything is planned on it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from fastapi import APIRouter
+
+from fieldhand.api.inputs import SiteBody, open_choice
+from fieldhand.api.maps import site_map
+from fieldhand.api.work import Workers
+
+
+def router(workers: Workers) -> APIRouter:
+    """``POST /site``."""
+    routes = APIRouter(tags=["site"])
+
+    @routes.post("/site")
+    async def site(body: SiteBody) -> dict[str, Any]:
+        """Trees, markers and zones of a site, its attributes, and what the reader left out or took otherwise."""
+        return await workers.do(lambda: _site(body))
+
+    return routes
+
+
+def _site(body: SiteBody) -> dict[str, Any]:
+    site = open_choice(body.site)
+    return {
+        "name": site.name,
+        "sha256": site.sha256,
+        "trees": len(site.trees),
+        "markers": sorted(site.markers),
+        "zones": [{"name": z.name, "kind": z.kind} for z in site.zones],
+        "attributes": sorted(site.attributes),
+        "notes": list(site.notes),
+        "map": site_map(site),
+    }

@@ -1,0 +1,48 @@
+"""Every command by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Annotated
+
+import typer
+
+from fieldhand.cli.check import check
+from fieldhand.cli.demo import demo
+from fieldhand.cli.plan import plan
+from fieldhand.cli.robot import robot
+from fieldhand.cli.run import run
+from fieldhand.cli.site import site
+
+
+def assemble(*others: Callable[..., None]) -> typer.Typer:
+    """The commands of this room, and then ``others``."""
+    app = typer.Typer(
+        name="fieldhand",
+        help="Say in plain words what a field robot should do; get a checked mission, approve it, have it carried out.",
+        no_args_is_help=True,
+        pretty_exceptions_enable=False,
+        add_completion=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+    commands: tuple[Callable[..., None], ...] = (plan, check, run, site, robot, demo, *others)
+    for command in commands:
+        app.command()(command)
+    app.callback()(_top)
+    return app
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from fieldhand import __version__
+
+        typer.echo(f"fieldhand {__version__}")
+        raise typer.Exit
+
+
+def _top(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and stop.")
+    ] = False,
+) -> None:
+    pass

@@ -1,0 +1,40 @@
+"""``fieldhand check``: every check on a Task document, each problem on its own line."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from fieldhand.cli.options import JsonOption, PictureOption, RobotOption, SiteOption
+
+
+def check(
+    task: Annotated[Path, typer.Argument(help="A Task document (XML).")],
+    site: SiteOption,
+    robot: RobotOption = "husky",
+    picture: PictureOption = None,
+    json: JsonOption = False,
+) -> None:
+    """Check a Task against a site and a robot; exit status 1 if anything forbids approval."""
+    from fieldhand import mission
+    from fieldhand.cli import show
+    from fieldhand.cli.inputs import open_ground
+
+    ground = open_ground(site, robot)
+    read, document = mission.read_task(task, ground.robot)
+    review = mission.review(read, ground.site, ground.robot, document=document)
+    if picture is not None:
+        from fieldhand.cli.pictures import draw_plan
+
+        draw_plan(picture, review, ground)
+    if json:
+        show.print_json(show.review_record(review))
+    else:
+        show.show_review(review)
+        show.out.print()
+        count = len(review.errors)
+        show.out.print("Ready for approval." if not count else f"Not ready: {count} error{'s' if count > 1 else ''}.")
+    if review.errors:
+        raise SystemExit(1)

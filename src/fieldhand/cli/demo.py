@@ -1,0 +1,46 @@
+"""``fieldhand demo``: the whole way on the built-in orchard, with no key and no network."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from fieldhand.cli.options import SeedOption
+
+REQUEST = (
+    "Take a thermal picture at the four corner trees, in any order, and where the canopy is hotter than 36 °C measure"
+    " CO2 too. Then take pictures of as many Carmel trees in the northern half as you can without driving more than"
+    " 700 meters."
+)
+
+
+def demo(
+    output: Annotated[Path, typer.Option("-o", "--out", help="Folder for what the mission leaves behind.")] = Path(
+        "out"
+    ),
+    seed: SeedOption = 7,
+) -> None:
+    """Plan, approve, drive and judge a mission on the built-in orchard."""
+    from fieldhand.cli import show
+    from fieldhand.cli.flight import Orders, fly
+    from fieldhand.cli.inputs import open_ground, plan_or_read
+    from fieldhand.execution.world import World
+
+    show.heading("The request")
+    show.out.print(f"  {REQUEST}")
+    ground = open_ground("demo", "husky")
+    task, document, planner = plan_or_read(REQUEST, ground, "english", None)
+    orders = Orders(ask=False, by="demo", world=World(), seed=seed, folder=output)
+    status = fly(ground, task, document, orders, planner=planner)
+    show.heading("Try next")
+    for line in (
+        'fieldhand plan "Take pictures of the 5 oldest trees." --site demo',
+        'fieldhand run "Measure CO2 at the middle tree. If it is low, take 2 pictures of nearby trees." --site demo',
+        "fieldhand site demo --picture orchard.png",
+        "fieldhand robot husky",
+        "fieldhand serve",
+    ):
+        show.out.print(f"  {line}")
+    raise SystemExit(status)

@@ -1,0 +1,190 @@
+"""One mission at the command line, from review to report: what ``run`` and ``demo`` share."""
+
+from __future__ import annotations
+
+import getpass
+import math
+from collections.abc import Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from fieldhand import mission
+from fieldhand.cli import show
+from fieldhand.cli.inputs import Ground, may_ask, write_file
+from fieldhand.errors import InputError, NotApprovedError
+from fieldhand.task.frames import Task
+from fieldhand.task.results import Ended, Event
+
+if TYPE_CHECKING:
+    from fieldhand.execution.world import World
+    from fieldhand.task.authorization import AuthorizedTask
+
+
+@dataclass(frozen=True, kw_only=True)
+class Orders:
+    """How to carry a mission out at the command line.
+
+    Attributes:
+        ask: Ask the operator before it starts.
+        by: Who approves; None for the user who is logged in.
+        world: What sensors read and what goes wrong.
+        speed: Simulated seconds in a second; None for as fast as it goes.
+        log: Where to write the event log beside the one in ``folder``.
+        folder: Where to leave Task, map, events and report.
+        quiet: Print one JSON object at the end and nothing else.
+    """
+
+    ask: bool
+    by: str | None
+    world: World
+    seed: int
+    speed: float | None = None
+    log: Path | None = None
+    folder: Path | None = None
+    quiet: bool = False
+
+
+def fly(ground: Ground, task: Task, document: bytes | None, orders: Orders, *, planner: str) -> int:
+    """Review, approve, carry out, judge and report one mission.
+
+    Returns:
+        The exit status: 0 if the plan was done and every goal was met, else 1.
+
+    Raises:
+        NotApprovedError: A check fails, or the operator says no.
+        OutputError: Something cannot be written.
+    """
+    review = _review(ground, task, document, orders)
+    authorized = _approve(ground, task, orders)
+    _leave_plan(ground, review, document, orders)
+    events = _carry_out(ground, authorized, orders)
+    return _conclude(ground, review, authorized, events, orders, planner)
+
+
+def parse_speed(text: str) -> float | None:
+    """``max`` is None; else simulated seconds in a second.
+
+    Raises:
+        InputError: Neither.
+    """
+    if text == "max":
+        return None
+    try:
+        speed = float(text)
+    except ValueError:
+        speed = math.nan
+    if not 0 < speed < math.inf:
+        raise InputError(
+            f"'{text}' is no speed", where="--speed", advice="give max, or a number above 0 (1 is real time)"
+        )
+    return speed
+
+
+def _review(ground: Ground, task: Task, document: bytes | None, orders: Orders) -> mission.Review:
+    review = mission.review(task, ground.site, ground.robot, document=document)
+    if not orders.quiet:
+        show.show_review(review)
+        if review.errors:
+            raise NotApprovedError("not approved: mend the errors above first")
+    elif review.errors:
+        raise NotApprovedError("; ".join(str(p) for p in review.errors))
+    return review
+
+
+def _approve(ground: Ground, task: Task, orders: Orders) -> AuthorizedTask:
+    if orders.ask:
+        if not may_ask():
+            raise NotApprovedError("nobody is here to approve", advice="give --yes if you have read the plan")
+        import typer
+
+        if not typer.confirm("\nApprove and carry out?"):
+            raise NotApprovedError("not approved, nothing was done")
+    return mission.authorize(task, ground.site, ground.robot, by=orders.by or _user(), at=datetime.now(UTC))
+
+
+def _leave_plan(ground: Ground, review: mission.Review, document: bytes | None, orders: Orders) -> None:
+    """Write Task and map before a wheel turns, so that an unwritable folder costs no mission."""
+    if orders.folder is None:
+        return
+    from fieldhand.cli.pictures import draw_plan
+    from fieldhand.task.codec import encode
+
+    write_file(orders.folder / "task.xml", document or encode(review.task))
+    draw_plan(orders.folder / "map.png", review, ground)
+
+
+def _carry_out(ground: Ground, authorized: AuthorizedTask, orders: Orders) -> tuple[Event, ...]:
+    from fieldhand.cli.telling import Teller
+    from fieldhand.execution.log import EventLog
+
+    events: list[Event] = []
+    teller = Teller(ground.robot)
+    if not orders.quiet:
+        show.heading("The mission")
+    with ExitStack() as stack:
+        paths = [orders.log, None if orders.folder is None else orders.folder / "events.jsonl"]
+        logs = [stack.enter_context(EventLog(path)) for path in paths if path is not None]
+
+        def take(event: Event) -> None:
+            events.append(event)
+            for log in logs:
+                log(event)
+            line = teller.tell(event)
+            if line and not orders.quiet:
+                show.out.print(line)
+
+        mission.carry_out(
+            authorized,
+            ground.site,
+            ground.robot,
+            world=orders.world,
+            seed=orders.seed,
+            speed=orders.speed,
+            emit=take,
+        )
+    return tuple(events)
+
+
+def _conclude(
+    ground: Ground,
+    review: mission.Review,
+    authorized: AuthorizedTask,
+    events: Sequence[Event],
+    orders: Orders,
+    planner: str,
+) -> int:
+    from fieldhand.cli.telling import goal_names
+
+    assessment = mission.assess(review.task, events)
+    ended = next((e for e in reversed(events) if isinstance(e, Ended)), None)
+    written: list[Path] = []
+    if orders.folder is not None and review.estimate is not None:
+        files = mission.report(
+            orders.folder, authorized, ground.site, ground.robot, events, assessment, review.estimate
+        )
+        written = [*(orders.folder / name for name in ("task.xml", "map.png", "events.jsonl")), *files.paths]
+    status = 0 if ended is not None and ended.status == "completed" and assessment.success else 1
+    if orders.quiet:
+        show.print_json(show.mission_record(review.task, planner, ended, assessment.outcomes, written))
+        return status
+    show.show_outcomes(assessment.outcomes, goal_names(review.task, ground.robot))
+    if ended is not None:
+        show.out.print(
+            f"\nMission {ended.status}: {ended.travelled_m:.0f} m driven in {ended.t / 60:.0f} min,"
+            f" battery at {ended.charge_percent:.0f} %{f' ({ended.reason})' if ended.reason else ''}"
+        )
+    if written:
+        show.heading("Where to look")
+        for path in written:
+            show.out.print(f"  {path}")
+    return status
+
+
+def _user() -> str:
+    try:
+        return getpass.getuser()
+    except (KeyError, OSError):
+        return "unknown"

@@ -1,0 +1,22 @@
+"""Options that several commands share, so that each means the same everywhere."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+SiteOption = Annotated[
+    str, typer.Option("--site", help="GeoJSON file of the site, or 'demo' for the built-in orchard.")
+]
+RobotOption = Annotated[str, typer.Option("--robot", help="Built-in robot (husky, amiga) or a profile file (YAML).")]
+PlannerOption = Annotated[
+    str, typer.Option("--planner", help="english (no model), llm (a language model), or auto: english, else llm.")
+]
+TranscriptOption = Annotated[
+    Path | None, typer.Option("--transcript", help="Where to keep what was said to a language model, and its answers.")
+]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object instead of text.")]
+PictureOption = Annotated[Path | None, typer.Option("--picture", help="Draw a map to this PNG file.")]
+SeedOption = Annotated[int, typer.Option("--seed", help="Same seed, same mission.")]

@@ -1,0 +1,27 @@
+"""Pictures that commands draw."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from fieldhand.errors import NotApprovedError
+from fieldhand.mission import Review
+
+if TYPE_CHECKING:
+    from fieldhand.cli.inputs import Ground
+
+
+def draw_plan(path: Path, review: Review, ground: Ground) -> None:
+    """The map of a planned mission.
+
+    Raises:
+        NotApprovedError: The Task cannot be driven, so there is nothing to draw; its problems are named.
+        OutputError: The file cannot be written.
+    """
+    if review.estimate is None:
+        problems = "; ".join(str(p) for p in review.errors)
+        raise NotApprovedError(f"there is no map of a mission that cannot be driven: {problems}", where=str(path))
+    from fieldhand.approval.preview import save_map
+
+    save_map(review.task, ground.site, ground.robot, review.estimate, path)

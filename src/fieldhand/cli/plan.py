@@ -1,0 +1,59 @@
+"""``fieldhand plan``: a request becomes a Task, in words, on a map and as XML."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from fieldhand.cli.options import JsonOption, PictureOption, PlannerOption, RobotOption, SiteOption, TranscriptOption
+
+
+def plan(
+    request: Annotated[str, typer.Argument(help="What the robot should do, in plain words.")],
+    site: SiteOption,
+    robot: RobotOption = "husky",
+    planner: PlannerOption = "auto",
+    output: Annotated[Path | None, typer.Option("-o", "--output", help="Where to write the Task (XML).")] = None,
+    picture: PictureOption = None,
+    transcript: TranscriptOption = None,
+    json: JsonOption = False,
+) -> None:
+    """Plan a request: what was understood, where, and what it will take."""
+    import os
+
+    from fieldhand import mission
+    from fieldhand.cli import show
+    from fieldhand.cli.inputs import open_ground, write_file
+    from fieldhand.planning.planner import Planned
+    from fieldhand.task.codec import encode
+
+    ground = open_ground(site, robot)
+    chosen = mission.make_planner(planner, os.environ, transcript)
+    outcome = mission.plan(request, ground.site, ground.robot, chosen)
+    if not isinstance(outcome, Planned):
+        if json:
+            show.print_json(show.outcome_record(outcome))
+            raise SystemExit(2)
+        show.fail_outcome(request, outcome)
+    review = mission.review(outcome.task, ground.site, ground.robot)
+    document = encode(outcome.task)
+    if output is not None:
+        write_file(output, document)
+    if picture is not None:
+        from fieldhand.cli.pictures import draw_plan
+
+        draw_plan(picture, review, ground)
+    if json:
+        record = show.outcome_record(outcome) | show.review_record(review) | {"xml": document.decode()}
+        show.print_json(record)
+    else:
+        for warning in outcome.warnings:
+            show.note(warning)
+        show.show_review(review)
+        for what, path in (("Task", output), ("Map", picture)):
+            if path is not None:
+                show.out.print(f"{what}: {path}")
+    if review.errors:
+        raise SystemExit(1)

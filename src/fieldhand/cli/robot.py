@@ -1,0 +1,63 @@
+"""``fieldhand robot``: what a robot can do."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from fieldhand.cli.options import JsonOption
+
+if TYPE_CHECKING:
+    from fieldhand.robot.model import RobotProfile
+
+
+def robot(
+    name: Annotated[str, typer.Argument(help="Built-in robot (husky, amiga) or a profile file (YAML).")],
+    xsd: Annotated[Path | None, typer.Option("--xsd", help="Write the schema of this robot's Tasks here.")] = None,
+    json: JsonOption = False,
+) -> None:
+    """Say what a robot can do and measure; --xsd writes the schema that its Tasks must satisfy."""
+    from dataclasses import asdict
+
+    from fieldhand.cli import show
+    from fieldhand.robot.loader import load_robot
+
+    profile = load_robot(name)
+    if xsd is not None:
+        from fieldhand.cli.inputs import write_file
+        from fieldhand.robot.capabilities import capabilities_of
+        from fieldhand.task.schema import schema_xsd
+
+        write_file(xsd, schema_xsd(capabilities_of(profile)))
+    if json:
+        show.print_json(asdict(profile))
+        return
+    for line in _lines(profile):
+        show.out.print(line)
+    if xsd is not None:
+        show.out.print(f"Schema: {xsd}")
+
+
+def _lines(profile: RobotProfile) -> list[str]:
+    energy = profile.energy
+    lines = [
+        f"{profile.name}: {profile.description}",
+        f"  drives {profile.speed_m_s:g} m/s, {profile.width_m:g} m wide; battery {energy.capacity_j / 3.6e6:.2f} kWh,"
+        f" {energy.reserve_percent:g} % kept in reserve",
+        f"  a leg of d metres costs d·({profile.leg_cost.alpha:g} + Exp({1 - profile.leg_cost.alpha:g}))",
+        "Actions",
+    ]
+    for action in profile.actions:
+        measures = ", ".join(f"{q} ({profile.quantity[q].unit})" for q in action.measures) or "nothing"
+        lines.append(f"  {action.name}: {action.duration_s:g} s, {action.energy_j:g} J; measures {measures}")
+        lines.append(f"    say: {', '.join(action.words)}")
+        for parameter in action.parameters:
+            bounds = ", ".join(parameter.choices) or f"{parameter.minimum} to {parameter.maximum} {parameter.unit}"
+            lines.append(f"    parameter {parameter.name}: {bounds.strip()}, else {parameter.default}")
+    lines.append("Words for readings")
+    for quantity in profile.quantities:
+        levels = ", ".join(f"{w} is {lv.direction} {lv.value:g} {quantity.unit}" for w, lv in quantity.levels.items())
+        lines.append(f"  {quantity.name}: {levels or 'none'}")
+    return lines

@@ -1,0 +1,51 @@
+"""``fieldhand run``: a request or a Task, planned, approved, carried out in simulation, judged."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from fieldhand.cli.options import JsonOption, PlannerOption, RobotOption, SiteOption, TranscriptOption
+
+
+def run(
+    request: Annotated[str, typer.Argument(help="What the robot should do, in plain words, or a Task (.xml).")],
+    site: SiteOption,
+    robot: RobotOption = "husky",
+    planner: PlannerOption = "auto",
+    world: Annotated[Path | None, typer.Option("--world", help="What sensors read, and what goes wrong.")] = None,
+    seed: Annotated[
+        int | None, typer.Option("--seed", help="Same seed, same mission; else the world's, else 0.")
+    ] = None,
+    events: Annotated[Path | None, typer.Option("--events", help="Write the event log (JSON lines) here.")] = None,
+    output: Annotated[Path | None, typer.Option("-o", "--out", help="Folder for Task, map, events and report.")] = None,
+    speed: Annotated[
+        str, typer.Option("--speed", help="max, or simulated seconds in a second (1 is real time).")
+    ] = "max",
+    yes: Annotated[bool, typer.Option("--yes", "-y", help="Approve without asking.")] = False,
+    by: Annotated[str | None, typer.Option("--by", help="Who approves; else the user who is logged in.")] = None,
+    transcript: TranscriptOption = None,
+    json: JsonOption = False,
+) -> None:
+    """Plan, approve and carry out a mission in simulation, then judge it."""
+    from fieldhand.cli.flight import Orders, fly, parse_speed
+    from fieldhand.cli.inputs import open_ground, plan_or_read
+    from fieldhand.execution.world import World, load_world
+
+    pace = parse_speed(speed)
+    ground = open_ground(site, robot)
+    given = World() if world is None else load_world(world)
+    task, document, planned_by = plan_or_read(request, ground, planner, transcript)
+    orders = Orders(
+        ask=not yes,
+        by=by,
+        world=given,
+        seed=given.seed if seed is None else seed,
+        speed=pace,
+        log=events,
+        folder=output,
+        quiet=json,
+    )
+    raise SystemExit(fly(ground, task, document, orders, planner=planned_by))

@@ -1,0 +1,138 @@
+"""How results look in a terminal. Text that came from outside is never read as markup."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from rich.console import Console
+from rich.text import Text
+
+from fieldhand.planning.planner import Clarify, Planned, Reason, Refused
+
+if TYPE_CHECKING:
+    from fieldhand.mission import Review
+    from fieldhand.task.frames import Task
+    from fieldhand.task.results import Ended, GoalOutcome
+
+out = Console(highlight=False, markup=False, soft_wrap=True)
+err = Console(stderr=True, highlight=False, markup=False, soft_wrap=True)
+
+MARK = {"success": ("✓", "green"), "failure": ("✗", "red"), "indeterminate": ("?", "yellow")}
+
+
+def heading(text: str) -> None:
+    """A heading with an empty line before it."""
+    out.print()
+    out.print(Text(text, style="bold"))
+
+
+def note(text: str) -> None:
+    """Something that the user should know, on standard error so that it never mixes with results."""
+    err.print(Text("note: ", style="yellow") + Text(text))
+
+
+def print_json(value: Any) -> None:
+    """One JSON object on standard output."""
+    sys.stdout.write(json.dumps(value, ensure_ascii=False, indent=2, default=str) + "\n")
+
+
+def fail_outcome(request: str, outcome: Clarify | Refused) -> NoReturn:
+    """Say what was not understood or what is asked back, and end the program with status 2."""
+    if isinstance(outcome, Clarify):
+        err.print(Text("A question first: ", style="bold") + Text(outcome.question))
+        for number, choice in enumerate(outcome.choices, start=1):
+            err.print(Text(f"  {number}. {choice}"))
+        err.print("Say it in the request, and plan again.")
+        raise SystemExit(2)
+    spans = [span for reason in outcome.reasons for span in reason.said]
+    if spans:
+        err.print(underlined(request, spans))
+    for reason in outcome.reasons:
+        err.print(Text("fieldhand: ", style="bold") + Text(sentence(reason)))
+    raise SystemExit(2)
+
+
+def sentence(reason: Reason) -> str:
+    """A reason with its advice as one line."""
+    return reason.what + (f"; {reason.advice}" if reason.advice else "")
+
+
+def underlined(request: str, spans: Sequence[tuple[int, int]]) -> Text:
+    """The request with the words in question in red and underlined."""
+    text = Text(request)
+    for start, end in spans:
+        text.stylize("bold underline red", start, end)
+    return text
+
+
+def outcome_record(outcome: Planned | Clarify | Refused) -> dict[str, Any]:
+    """A planner's answer as JSON."""
+    match outcome:
+        case Planned():
+            return {"outcome": "planned", "planner": outcome.planner, "warnings": list(outcome.warnings)}
+        case Clarify():
+            return {"outcome": "clarify", "question": outcome.question, "choices": list(outcome.choices)}
+        case Refused():
+            reasons = [{"what": r.what, "said": r.said, "advice": r.advice} for r in outcome.reasons]
+            return {"outcome": "refused", "reasons": reasons}
+
+
+def review_record(review: Review) -> dict[str, Any]:
+    """A review as JSON."""
+    return {
+        "task": review.task.id,
+        "problems": [
+            {"severity": p.severity, "node": p.node, "where": p.where, "what": p.what, "advice": p.advice}
+            for p in review.problems
+        ],
+        "read_back": [] if review.read_back is None else list(review.read_back.text_lines()),
+        "estimate": None if review.estimate is None else review.estimate.as_record(),
+    }
+
+
+def mission_record(
+    task: Task, planner: str, ended: Ended | None, outcomes: Sequence[GoalOutcome], files: Sequence[Path]
+) -> dict[str, Any]:
+    """What came of a mission as JSON."""
+    return {
+        "task": task.id,
+        "planner": planner,
+        "status": None if ended is None else ended.status,
+        "reason": "" if ended is None else ended.reason,
+        "travelled_m": None if ended is None else ended.travelled_m,
+        "seconds": None if ended is None else ended.t,
+        "charge_percent": None if ended is None else ended.charge_percent,
+        "goals": [asdict(outcome) for outcome in outcomes],
+        "files": [str(path) for path in files],
+    }
+
+
+def show_review(review: Review) -> None:
+    """The read-back, then every problem on its own line."""
+    if review.read_back is not None:
+        heading("What will be done")
+        for line in review.read_back.text_lines():
+            out.print(Text(line))
+    show_problems(review)
+
+
+def show_problems(review: Review) -> None:
+    """Every problem on its own line, errors first."""
+    if review.problems:
+        heading("Problems")
+    for problem in sorted(review.problems, key=lambda p: p.severity != "error"):
+        style = "red" if problem.severity == "error" else "yellow"
+        out.print(Text(f"{problem.severity}: ", style=style) + Text(str(problem)))
+
+
+def show_outcomes(outcomes: Sequence[GoalOutcome], name: Callable[[str], str]) -> None:
+    """What came of each goal; ``name`` says a goal's id in words."""
+    heading("What came of it")
+    for outcome in outcomes:
+        mark, style = MARK[outcome.outcome]
+        out.print(Text(f"  {mark} ", style=style) + Text(f"{name(outcome.goal)}: {outcome.why}"))

@@ -1,0 +1,231 @@
+"""The way of a mission: plan, review, authorize, carry out, assess. The command line, the API and the page call these.
+
+request ──plan──▶ Task ──review──▶ Review ──authorize──▶ AuthorizedTask ──carry_out──▶ events ──assess──▶ Assessment
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from fieldhand.errors import InputError, RequestError, TaskError
+from fieldhand.planning.planner import Outcome, Planner
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.task.authorization import AuthorizedTask
+from fieldhand.task.frames import Task
+from fieldhand.task.results import Event, GoalOutcome
+
+if TYPE_CHECKING:
+    from fieldhand.approval.checks import Problem
+    from fieldhand.approval.readback import ReadBack
+    from fieldhand.evaluation.report import ReportFiles
+    from fieldhand.execution.runtime import Result
+    from fieldhand.execution.world import World
+    from fieldhand.forecast.estimate import Estimate
+
+PLANNERS = ("auto", "english", "llm")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Review:
+    """What an operator looks at before approving: the problems found, what it will take, and the plan in words."""
+
+    task: Task
+    problems: tuple[Problem, ...]
+    estimate: Estimate | None
+    read_back: ReadBack | None
+
+    @property
+    def errors(self) -> tuple[Problem, ...]:
+        """The problems that forbid approval."""
+        return tuple(p for p in self.problems if p.severity == "error")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Assessment:
+    """What came of a mission: the outcome of each goal."""
+
+    outcomes: tuple[GoalOutcome, ...]
+
+    @property
+    def success(self) -> bool:
+        """Whether every goal was met."""
+        return all(o.outcome == "success" for o in self.outcomes)
+
+
+def make_planner(name: str, environ: Mapping[str, str], transcript: Path | None = None) -> Planner:
+    """The planner of that name, a language model configured from the environment.
+
+    Raises:
+        InputError: There is no planner of that name.
+        ModelError: ``llm`` was asked for and no model is configured.
+    """
+    if name not in PLANNERS:
+        raise InputError(f"no planner '{name}'", where="--planner", advice=f"choose one of {', '.join(PLANNERS)}")
+    from fieldhand.planning.auto import AutoPlanner
+    from fieldhand.planning.english.planner import EnglishPlanner
+
+    if name == "english":
+        return EnglishPlanner()
+    from fieldhand.planning.llm.settings import require_settings, settings_from_environment
+
+    if name == "llm":
+        from fieldhand.planning.llm.planner import LlmPlanner
+
+        return LlmPlanner(require_settings(environ), transcript)
+    settings = settings_from_environment(environ)
+    if settings is None:
+        return AutoPlanner(EnglishPlanner(), None)
+    from fieldhand.planning.llm.planner import LlmPlanner
+
+    return AutoPlanner(EnglishPlanner(), LlmPlanner(settings, transcript))
+
+
+def plan(request: str, site: Site, robot: RobotProfile, planner: Planner) -> Outcome:
+    """Turn a request into a Task, a question, or a refusal.
+
+    Raises:
+        RequestError: The request is empty or too long.
+        ModelError: A language model was needed and could not be used.
+    """
+    if not request.strip():
+        raise RequestError("the request is empty", advice="say what the robot should do, and at which trees")
+    return planner.plan(request, site, robot)
+
+
+def read_task(path: Path, robot: RobotProfile) -> tuple[Task, bytes]:
+    """A Task document from a file, valid against the robot's schema, with its bytes.
+
+    Raises:
+        TaskError: The file cannot be read, is not well-formed, or fails the schema (line and element are named).
+    """
+    try:
+        document = path.read_bytes()
+    except OSError as error:
+        raise TaskError(
+            f"cannot be read: {error.strerror}", where=str(path), advice="give a Task document that fieldhand plan wrote"
+        ) from None
+    return decode_task(document, robot, source=str(path)), document
+
+
+def decode_task(document: bytes, robot: RobotProfile, *, source: str = "") -> Task:
+    """A Task from its document, valid against the robot's schema.
+
+    Raises:
+        TaskError: Not well-formed or not valid; every problem with its line and element.
+    """
+    from fieldhand.robot.capabilities import capabilities_of
+    from fieldhand.task.codec import decode
+    from fieldhand.task.schema import require_valid
+
+    require_valid(document, capabilities_of(robot), source=source)
+    return decode(document, source=source)
+
+
+def review(task: Task, site: Site, robot: RobotProfile, *, seed: int = 0, document: bytes | None = None) -> Review:
+    """Check a Task and say in words what it will do here and what it will take."""
+    from fieldhand.approval.checks import check
+    from fieldhand.approval.readback import read_back
+    from fieldhand.errors import FieldhandError
+    from fieldhand.forecast.estimate import estimate
+
+    problems = check(task, site, robot, document=document)
+    if any(p.severity == "error" for p in problems):
+        # What cannot be driven has no forecast; its problems are the whole answer.
+        try:
+            forecast = estimate(task, site, robot, seed=seed)
+        except FieldhandError:
+            return Review(task=task, problems=problems, estimate=None, read_back=None)
+    else:
+        forecast = estimate(task, site, robot, seed=seed)
+    return Review(task=task, problems=problems, estimate=forecast, read_back=read_back(task, site, robot, forecast))
+
+
+def authorize(task: Task, site: Site, robot: RobotProfile, *, by: str, at: datetime) -> AuthorizedTask:
+    """Approve a Task for this site and this robot.
+
+    Raises:
+        NotApprovedError: A check fails.
+    """
+    from fieldhand.approval.authorize import approve
+
+    return approve(task, site, robot, by=by, at=at.isoformat(timespec="seconds"))
+
+
+def carry_out(
+    authorized: AuthorizedTask,
+    site: Site,
+    robot: RobotProfile,
+    *,
+    world: World,
+    seed: int,
+    speed: float | None,
+    emit: Callable[[Event], None],
+    interrupted: Callable[[], str | None] = lambda: None,
+) -> Result:
+    """Carry a mission out in simulation.
+
+    Args:
+        authorized: What approval gave.
+        site: The site that was approved.
+        robot: The profile that was approved.
+        world: What the sensors would read, and what goes wrong.
+        seed: Of every random thing in it.
+        speed: Simulated seconds in a second; None for as fast as it goes.
+        emit: Takes each event as it happens.
+        interrupted: Asked at every tick; a reason ends the mission in order.
+    """
+    import numpy as np
+
+    from fieldhand.clock import ScaledClock, SimulatedClock
+    from fieldhand.evaluation.guard import BudgetGuard
+    from fieldhand.execution.drivers.simulation import SimulatedDriver
+    from fieldhand.execution.runtime import run
+    from fieldhand.site.drives import Drives
+
+    clock = SimulatedClock() if speed is None else ScaledClock(speed)
+    drives = Drives(site, robot.width_m / 2)
+    driver = SimulatedDriver(site, robot, world, clock, np.random.default_rng(seed))
+    guard = BudgetGuard(authorized.task, site, robot, drives, seed, charge_percent=world.charge_percent)
+    return run(
+        authorized, site=site, robot=robot, driver=driver, guard=guard, clock=clock, emit=emit, interrupted=interrupted
+    )
+
+
+def assess(task: Task, events: Sequence[Event]) -> Assessment:
+    """Judge each goal by what happened."""
+    from fieldhand.evaluation.outcome import judge
+
+    return Assessment(outcomes=judge(task, events))
+
+
+def report(
+    folder: Path,
+    authorized: AuthorizedTask,
+    site: Site,
+    robot: RobotProfile,
+    events: Sequence[Event],
+    assessment: Assessment,
+    forecast: Estimate,
+) -> ReportFiles:
+    """Write the report of a mission: Markdown, a picture of the driven path, observations as CSV and GeoJSON.
+
+    Raises:
+        OutputError: The folder cannot be written.
+    """
+    from fieldhand.evaluation.report import write_report
+
+    return write_report(
+        folder,
+        task=authorized.task,
+        site=site,
+        robot=robot,
+        events=events,
+        outcomes=assessment.outcomes,
+        authorization=authorized.authorization,
+        estimate=forecast,
+    )

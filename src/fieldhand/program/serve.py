@@ -1,0 +1,49 @@
+"""``fieldhand serve``: the web page and the REST API."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from fastapi import FastAPI
+
+
+def serve(
+    host: Annotated[
+        str, typer.Option("--host", help="Address to listen on; this machine alone by default.")
+    ] = "127.0.0.1",
+    port: Annotated[int, typer.Option("--port", min=1, max=65535, help="Port to listen on.")] = 8000,
+) -> None:
+    """Serve the web page and the REST API."""
+    from fieldhand.api.serving import hosts_for, serve_forever
+
+    serve_forever(compose(os.environ, hosts=hosts_for(host)), host, port)
+
+
+def compose(environ: Mapping[str, str], *, hosts: frozenset[str] | None) -> FastAPI:
+    """The API with the page on top.
+
+    Args:
+        environ: Where a language model is configured.
+        hosts: Names under which a browser may call; None for any.
+
+    Raises:
+        InputError: The packages that serving needs are not installed.
+    """
+    from fieldhand.api.serving import require_extra
+
+    require_extra()
+    from fieldhand import mission
+    from fieldhand.api.app import create_app
+    from fieldhand.api.words import Words
+    from fieldhand.cli.telling import Teller, goal_names
+    from fieldhand.web.page import page_router
+
+    words = Words(of_event=lambda robot: Teller(robot).tell, of_goal=goal_names)
+    app = create_app(lambda name: mission.make_planner(name, environ), words=words, hosts=hosts)
+    app.include_router(page_router())
+    return app

@@ -1,0 +1,136 @@
+// What the planner answers: the plan in words with its stops, a question, or what was not understood.
+
+import { download, el, minutes, notice, sentence } from "./dom.js";
+
+const TITLES = { planned: "The plan", clarify: "A question first", refused: "Not understood" };
+const MANY = 8; // more stops of one line than this are counted
+
+export const title = (answer) => TITLES[answer.outcome];
+
+// The answer as elements. `map` lights up stops; `choose` takes the choice of a question.
+export function render(answer, request, map, choose) {
+  if (answer.outcome === "clarify") return question(answer, choose);
+  if (answer.outcome === "refused") return refusal(answer, request);
+  const parts = [...problems(answer), ...answer.warnings.map((w) => notice("warning", sentence(w)))];
+  if (answer.read_back) parts.push(steps(answer, map), ...rest(answer.read_back), totals(answer.read_back.totals));
+  parts.push(document_(answer));
+  return parts;
+}
+
+function question(answer, choose) {
+  const choices = answer.choices.map((choice) =>
+    el("button", { type: "button", class: "choice", onclick: () => choose(choice) }, choice),
+  );
+  const advice = choices.length ? "Choose, and it is planned again." : "Say it in the request, and plan again.";
+  return [el("p", { class: "question" }, answer.question), el("div", { class: "choices" }, choices), el("p", { class: "hint" }, advice)];
+}
+
+function refusal(answer, request) {
+  const spans = answer.reasons.flatMap((reason) => reason.said);
+  const said = spans.length ? [el("blockquote", { class: "said" }, marked(request, spans))] : [];
+  const reasons = answer.reasons.map((reason) =>
+    el("li", {}, sentence(reason.what), reason.advice ? el("span", { class: "advice" }, ` ${sentence(reason.advice)}`) : null),
+  );
+  return [...said, el("ul", { class: "reasons" }, reasons)];
+}
+
+// The request with the words in question marked. Ranges count characters, not the halves of surrogate pairs.
+export function marked(request, spans) {
+  const characters = Array.from(request);
+  const parts = [];
+  let done = 0;
+  for (const [start, end] of [...spans].sort((a, b) => a[0] - b[0])) {
+    if (end <= done) continue;
+    const from = Math.max(start, done);
+    parts.push(characters.slice(done, from).join(""), el("mark", {}, characters.slice(from, end).join("")));
+    done = end;
+  }
+  parts.push(characters.slice(done).join(""));
+  return parts;
+}
+
+function problems(answer) {
+  return answer.problems.map((problem) =>
+    notice(
+      problem.severity,
+      problem.where ? el("span", { class: "where" }, `${problem.where}: `) : null,
+      sentence(problem.what),
+      problem.advice ? el("span", { class: "advice" }, ` ${sentence(problem.advice)}`) : null,
+    ),
+  );
+}
+
+function steps(answer, map) {
+  const stops = answer.map.features.filter((f) => f.properties.role === "stop").map((f) => f.properties);
+  const list = el("ol", { class: "steps" }, answer.read_back.lines.map((line) => step(line, stops, map)));
+  map.onstop = (nodes) => {
+    for (const item of list.children) {
+      item.classList.toggle("lit", nodes.some((node) => item.dataset.nodes.split(" ").includes(node)));
+    }
+  };
+  return list;
+}
+
+function step(line, stops, map) {
+  const nodes = [line.node, ...line.also];
+  const here = stops.filter((stop) => stop.nodes.some((node) => nodes.includes(node)));
+  const item = el(
+    "li",
+    { class: `indent-${Math.min(line.indent, 5)}`, "data-nodes": nodes.join(" "), tabindex: here.length ? 0 : false },
+    el("span", { class: "number" }, line.number === null ? "" : String(line.number)),
+    el("span", { class: "text" }, line.text, here.length ? badges(here) : null),
+  );
+  if (here.length) {
+    for (const kind of ["pointerenter", "focus"]) item.addEventListener(kind, () => map.highlight(nodes));
+    for (const kind of ["pointerleave", "blur"]) item.addEventListener(kind, () => map.highlight([]));
+    item.addEventListener("click", () => map.reveal(nodes));
+    item.addEventListener("keydown", (event) => event.key === "Enter" && map.reveal(nodes));
+  }
+  return item;
+}
+
+function badges(stops) {
+  const words = stops.length === 1 ? `Stop ${stops[0].number}` : `${stops.length} stops`;
+  const shown = stops.length > MANY ? [el("span", { class: "badge" }, `${stops.length} stops`)] : stops.map(badge);
+  return el("span", { class: "badges", role: "img", "aria-label": `On the map: ${words}` }, shown);
+}
+
+const badge = (stop) => el("span", { class: stop.branch ? "badge other" : "badge" }, String(stop.number));
+
+function rest(back) {
+  const part = (name, lines) =>
+    lines.length ? [el("h3", {}, name), el("ul", { class: "plain" }, lines.map((line) => el("li", {}, sentence(line))))] : [];
+  return [...part("Assumed", back.assumptions), ...part("Limits", back.limits), ...part("When something goes wrong", back.faults)];
+}
+
+function totals({ metres, seconds, percent, captures, branches }) {
+  const row = (name, mean, high) =>
+    el("tr", {}, el("th", { scope: "row" }, name), el("td", {}, mean), el("td", {}, high));
+  const caption = branches > 1 ? `What it takes on the most demanding of ${branches} branches` : "What it takes";
+  return el(
+    "table",
+    { class: "totals" },
+    el("caption", {}, caption),
+    el("thead", {}, el("tr", {}, el("td", {}), el("th", { scope: "col" }, "on average"), el("th", { scope: "col" }, "9 times in 10 below"))),
+    el(
+      "tbody",
+      {},
+      row("Driving", `${Math.round(metres.mean)} m`, `${Math.round(metres.p90)} m`),
+      row("Time", minutes(seconds.mean), minutes(seconds.p90)),
+      row("Battery", `${percent.mean.toFixed(0)} %`, `${percent.p90.toFixed(0)} %`),
+      row("Captures", String(captures), ""),
+    ),
+  );
+}
+
+function document_(answer) {
+  const save = () => download("task.xml", "application/xml", answer.xml);
+  return el(
+    "details",
+    { class: "more" },
+    el("summary", {}, "The Task (IEEE 1872.1, XML)"),
+    el("p", { class: "hint" }, `Planned by: ${answer.planner}`),
+    el("pre", { tabindex: 0 }, answer.xml),
+    el("button", { type: "button", onclick: save }, "Download task.xml"),
+  );
+}

@@ -1,0 +1,341 @@
+// The map: a site, a plan on it, a drive over it. Metres on an SVG whose view box is moved and zoomed.
+
+import { $, svg } from "./dom.js";
+
+const METRES_PER_DEGREE = 111_320;
+const CLOSEST_M = 8; // the view is never narrower than this
+const CLOSEST_STOPS_PX = 17;
+const MARKER = { start: "S", end: "E", charger: "C" };
+
+export class FieldMap {
+  constructor() {
+    this.root = $("map");
+    this.info = $("map-info");
+    this.layers = {};
+    for (const name of ["zones", "trees", "paths", "driven", "markers", "stops", "captures", "robot"]) {
+      this.layers[name] = svg("g", { class: `layer-${name}` });
+      this.root.append(this.layers[name]);
+    }
+    this.signs = []; // drawn at the same size whatever the zoom
+    this.onstop = () => {};
+    this.#listen();
+    new ResizeObserver(() => this.#keepShape()).observe(this.root);
+  }
+
+  clear() {
+    for (const layer of Object.values(this.layers)) layer.replaceChildren();
+    this.signs = [];
+    this.info.textContent = "";
+  }
+
+  // A site as GeoJSON; forgets what was drawn before.
+  showSite(features) {
+    this.clear();
+    this.#originFrom(features);
+    const trees = features.filter((f) => f.properties.role === "tree");
+    const radius = this.#treeRadius(trees);
+    for (const feature of features) {
+      const { role } = feature.properties;
+      if (role === "zone") this.#zone(feature);
+      if (role === "tree") this.#tree(feature, radius);
+      if (role === "marker") this.#marker(feature);
+    }
+    this.fit();
+  }
+
+  // Legs and numbered stops of a plan.
+  showPlan(features) {
+    this.clearPlan();
+    for (const { geometry, properties } of features) {
+      if (properties.role === "path") {
+        const kind = properties.branch ? "path other" : properties.home ? "path home" : "path";
+        this.layers.paths.append(svg("polyline", { class: kind, points: this.#points(geometry.coordinates) }));
+      }
+    }
+    const stops = features.filter((f) => f.properties.role === "stop");
+    // The first stops lie on top: where they crowd, the plan is read from its beginning.
+    for (const stop of stops.reverse()) this.#stop(stop);
+    this.closest = closest([...this.layers.stops.children].map((s) => s.at));
+    this.#crowd();
+  }
+
+  clearPlan() {
+    this.clearDrive();
+    for (const name of ["paths", "stops"]) this.layers[name].replaceChildren();
+    this.#forget(this.layers.stops);
+  }
+
+  clearDrive() {
+    for (const name of ["driven", "captures", "robot"]) this.layers[name].replaceChildren();
+    this.signs = this.signs.filter((s) => s.isConnected);
+    this.layers.stops.classList.remove("faint");
+    this.layers.paths.classList.remove("faint");
+  }
+
+  // What to draw of a drive; Flight decides when.
+  startDrive() {
+    this.clearDrive();
+    this.layers.stops.classList.add("faint");
+    this.layers.paths.classList.add("faint");
+    this.track = svg("polyline", { class: "driven" });
+    this.layers.driven.append(this.track);
+    this.robot = this.#sign(this.layers.robot, "robot", [0, 0], [svg("circle", { r: 9 }), svg("circle", { r: 3.5, class: "eye" })]);
+  }
+
+  setTrack(points, at) {
+    this.track.setAttribute("points", points.map((p) => p.join(",")).join(" "));
+    if (at) this.#place(this.robot, at);
+  }
+
+  addCapture(feature) {
+    const { status, action, place } = feature.properties;
+    const sign = this.#sign(this.layers.captures, `capture ${status}`, this.metres(feature.geometry.coordinates), [
+      svg("circle", { r: 6 }),
+      svg("title", {}, `${action.replaceAll("_", " ")} at ${place}: ${status}`),
+    ]);
+    return sign;
+  }
+
+  // Marks the stops of these nodes; none for none.
+  highlight(nodes) {
+    for (const stop of this.layers.stops.children) {
+      stop.classList.toggle("lit", nodes.some((n) => stop.dataset.nodes.split(" ").includes(n)));
+    }
+  }
+
+  // Moves the view so that the stops of these nodes can be seen.
+  reveal(nodes) {
+    const lit = [...this.layers.stops.children].filter((s) => nodes.some((n) => s.dataset.nodes.split(" ").includes(n)));
+    if (!lit.length) return;
+    const seen = lit.every(({ at: [x, y] }) => {
+      const { view } = this;
+      return x > view.x && x < view.x + view.w && y > view.y && y < view.y + view.h;
+    });
+    if (!seen) this.fit(lit.map((s) => s.at), 0.5);
+  }
+
+  metres([lon, lat]) {
+    const { lon: lon0, lat: lat0 } = this.origin;
+    return [(lon - lon0) * METRES_PER_DEGREE * Math.cos((lat0 * Math.PI) / 180), (lat0 - lat) * METRES_PER_DEGREE];
+  }
+
+  // Everything, or these points with room around them, in view.
+  fit(points = this.all, room = 0.06) {
+    const xs = points.map((p) => p[0]);
+    const ys = points.map((p) => p[1]);
+    const [left, right] = extremes(xs);
+    const [top, bottom] = extremes(ys);
+    const around = Math.max(right - left, bottom - top, 15) * room + 4;
+    this.wanted = { x: left - around, y: top - around, w: right - left + 2 * around, h: bottom - top + 2 * around };
+    this.view = this.wanted;
+    this.#keepShape();
+    if (points === this.all) this.whole = { ...this.view };
+    this.root.classList.toggle("closer", this.view.w < 0.95 * this.whole.w);
+  }
+
+  zoom(factor, at = null) {
+    const { view, whole } = this;
+    const w = Math.min(Math.max(view.w * factor, CLOSEST_M), whole.w * 1.5);
+    const real = w / view.w;
+    const [x, y] = at ?? [view.x + view.w / 2, view.y + view.h / 2];
+    this.view = { x: x - (x - view.x) * real, y: y - (y - view.y) * real, w, h: view.h * real };
+    this.wanted = this.view;
+    // Zoomed in, a finger moves the map; else it scrolls the page.
+    this.root.classList.toggle("closer", w < 0.95 * whole.w);
+    this.#draw();
+  }
+
+  pan(dx, dy) {
+    this.view = { ...this.view, x: this.view.x + dx, y: this.view.y + dy };
+    this.wanted = this.view;
+    this.#draw();
+  }
+
+  #originFrom(features) {
+    const all = features.flatMap((f) => positions(f.geometry));
+    const [west, east] = extremes(all.map((p) => p[0]));
+    const [south, north] = extremes(all.map((p) => p[1]));
+    this.origin = { lon: (west + east) / 2, lat: (south + north) / 2 };
+    this.all = all.map((p) => this.metres(p));
+  }
+
+  #treeRadius(trees) {
+    const points = trees.map((t) => this.metres(t.geometry.coordinates));
+    const [left, right] = extremes(points.map((p) => p[0]));
+    const [top, bottom] = extremes(points.map((p) => p[1]));
+    const spacing = Math.sqrt(((right - left + 5) * (bottom - top + 5)) / Math.max(points.length, 1));
+    return Math.min(Math.max(spacing * 0.24, 0.4), 3);
+  }
+
+  #zone({ geometry, properties }) {
+    const d = geometry.coordinates.map((ring) => `M${this.#points(ring)}Z`).join("");
+    const called = properties.name || properties.kind.replaceAll("_", " ");
+    this.layers.zones.append(svg("path", { d, class: `zone ${properties.kind}`, "fill-rule": "evenodd" }, svg("title", {}, called)));
+  }
+
+  #tree({ geometry, properties }, radius) {
+    const [cx, cy] = this.metres(geometry.coordinates);
+    const tree = svg("circle", { class: "tree", cx, cy, r: radius });
+    tree.words = treeWords(properties);
+    this.layers.trees.append(tree);
+  }
+
+  #marker({ geometry, properties }) {
+    this.#sign(this.layers.markers, `marker ${properties.name in MARKER ? properties.name : "point"}`, this.metres(geometry.coordinates), [
+      svg("rect", { x: -9, y: -9, width: 18, height: 18, rx: 4 }),
+      svg("text", { y: 0.5 }, MARKER[properties.name] ?? properties.name.charAt(0).toUpperCase()),
+      svg("title", {}, properties.name),
+    ]);
+  }
+
+  #stop({ geometry, properties }) {
+    const label = String(properties.number);
+    const sign = this.#sign(this.layers.stops, properties.branch ? "stop other" : "stop", this.metres(geometry.coordinates), [
+      svg("circle", { r: label.length > 2 ? 13 : 11 }),
+      svg("text", { y: 0.5 }, label),
+      svg("title", {}, `Stop ${label}: ${properties.kind} ${properties.place}`),
+    ]);
+    sign.dataset.nodes = properties.nodes.join(" ");
+    sign.words = `Stop ${label}: ${properties.kind} ${properties.place}${properties.branch ? ", only on some branches" : ""}`;
+    sign.addEventListener("pointerenter", () => this.onstop(properties.nodes));
+    sign.addEventListener("pointerleave", () => this.onstop([]));
+  }
+
+  #sign(layer, kind, at, children) {
+    const sign = svg("g", { class: kind }, children);
+    layer.append(sign);
+    this.signs.push(sign);
+    this.#place(sign, at);
+    return sign;
+  }
+
+  #place(sign, at) {
+    sign.at = at;
+    sign.setAttribute("transform", `translate(${at[0]} ${at[1]}) scale(${this.perPixel ?? 1})`);
+  }
+
+  #forget(layer) {
+    this.signs = this.signs.filter((s) => s.isConnected && s.parentNode !== layer);
+  }
+
+  #points(coordinates) {
+    return coordinates.map((p) => this.metres(p).map((v) => v.toFixed(2)).join(",")).join(" ");
+  }
+
+  // The view box takes the shape of the element, so that a metre is as long both ways. It is taken from what was wanted,
+  // not from the last shape, or every turn of a phone would make it wider.
+  #keepShape() {
+    const { clientWidth: width, clientHeight: height } = this.root;
+    if (!this.wanted || !width || !height) return;
+    const { x, y, w, h } = this.wanted;
+    const perPixel = Math.max(w / width, h / height);
+    this.view = { x: x + (w - perPixel * width) / 2, y: y + (h - perPixel * height) / 2, w: perPixel * width, h: perPixel * height };
+    this.#draw();
+  }
+
+  #draw() {
+    const { x, y, w, h } = this.view;
+    this.root.setAttribute("viewBox", `${x} ${y} ${w} ${h}`);
+    this.perPixel = w / (this.root.clientWidth || 600);
+    for (const sign of this.signs) this.#place(sign, sign.at);
+    this.#crowd();
+  }
+
+  // Numbers that would cover each other give way to dots until the map is zoomed in.
+  #crowd() {
+    this.layers.stops.classList.toggle("crowded", (this.closest ?? Infinity) / this.perPixel < CLOSEST_STOPS_PX);
+  }
+
+  #at(event) {
+    const box = this.root.getBoundingClientRect();
+    return [
+      this.view.x + ((event.clientX - box.left) / box.width) * this.view.w,
+      this.view.y + ((event.clientY - box.top) / box.height) * this.view.h,
+    ];
+  }
+
+  #listen() {
+    $("zoom-in").addEventListener("click", () => this.zoom(0.6));
+    $("zoom-out").addEventListener("click", () => this.zoom(1 / 0.6));
+    $("zoom-fit").addEventListener("click", () => this.fit());
+    this.root.addEventListener("keydown", (event) => this.#key(event));
+    this.root.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
+    this.root.addEventListener("pointerover", (event) => this.#tell(event.target));
+    this.root.addEventListener("pointerdown", (event) => this.#tell(event.target));
+    this.#listenToFingers();
+  }
+
+  #tell(target) {
+    const words = target.words ?? target.parentNode?.words;
+    if (words) this.info.textContent = words;
+  }
+
+  #key(event) {
+    const step = this.view.w * 0.15;
+    const moves = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] };
+    if (event.key in moves) this.pan(...moves[event.key]);
+    else if (event.key === "+" || event.key === "=") this.zoom(0.75);
+    else if (event.key === "-") this.zoom(1 / 0.75);
+    else if (event.key === "0") this.fit();
+    else return;
+    event.preventDefault();
+  }
+
+  // Where the map stands in the way of the page, the wheel belongs to the page.
+  #wheel(event) {
+    if (!event.ctrlKey && !matchMedia("(min-width: 900px)").matches) return;
+    event.preventDefault();
+    this.zoom(Math.exp(Math.min(Math.max(event.deltaY, -80), 80) * 0.004), this.#at(event));
+  }
+
+  #listenToFingers() {
+    const fingers = new Map();
+    this.root.addEventListener("pointerdown", (event) => {
+      fingers.set(event.pointerId, this.#at(event));
+    });
+    this.root.addEventListener("pointermove", (event) => {
+      const from = fingers.get(event.pointerId);
+      if (!from) return;
+      if (!this.root.hasPointerCapture(event.pointerId)) this.root.setPointerCapture(event.pointerId);
+      const to = this.#at(event);
+      const other = [...fingers.entries()].find(([id]) => id !== event.pointerId)?.[1];
+      if (other) {
+        this.zoom(Math.min(Math.max(distance(from, other) / Math.max(distance(to, other), 0.01), 0.5), 2), other);
+        fingers.set(event.pointerId, this.#at(event));
+      } else this.pan(from[0] - to[0], from[1] - to[1]);
+    });
+    for (const kind of ["pointerup", "pointercancel"]) {
+      this.root.addEventListener(kind, (event) => fingers.delete(event.pointerId));
+    }
+  }
+}
+
+function treeWords({ id, row, attributes }) {
+  const rest = Object.entries(attributes)
+    .filter(([name]) => !["id", "row", "marker-symbol", "kind"].includes(name))
+    .map(([name, value]) => `${name.replaceAll("_", " ")} ${value}`);
+  return [`Tree ${id}`, row ? `row ${row}` : "", ...rest].filter(Boolean).join(", ");
+}
+
+function positions({ type, coordinates }) {
+  if (type === "Point") return [coordinates];
+  return type === "Polygon" ? coordinates.flat() : coordinates;
+}
+
+// The distance that all but a few of the points keep from their nearest neighbour.
+function closest(points) {
+  const nearest = points.map((p, i) => Math.min(...points.map((q, k) => (k === i ? Infinity : distance(p, q)))));
+  return nearest.sort((a, b) => a - b)[Math.floor(nearest.length / 4)];
+}
+
+function extremes(values) {
+  let low = Infinity;
+  let high = -Infinity;
+  for (const value of values) {
+    if (value < low) low = value;
+    if (value > high) high = value;
+  }
+  return low <= high ? [low, high] : [0, 0];
+}
+
+const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);

@@ -1,0 +1,155 @@
+"""A plan says what the approver has to know, and its words, its map and its document speak of the same nodes."""
+
+from __future__ import annotations
+
+import json
+from itertools import pairwise
+from typing import Any
+
+import pytest
+
+from browser import Says, browser, corner_xml, task_of
+from fieldhand.planning.planner import Clarify, Planned, Reason, Refused
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.geojson import load_demo
+from fieldhand.site.model import Site
+from fieldhand.task.codec import decode
+from fieldhand.task.plan import Act, walk
+from fieldhand.task.selectors import TreeIs
+
+
+@pytest.fixture(scope="module")
+def planned() -> dict[str, Any]:
+    answer: dict[str, Any] = browser().post("/api/plan", {"request": "corners"}).json()
+    assert answer["outcome"] == "planned"
+    return answer
+
+
+def of_role(answer: dict[str, Any], role: str) -> list[dict[str, Any]]:
+    return [f for f in answer["map"]["features"] if f["properties"]["role"] == role]
+
+
+def test_the_document_is_the_task_of_which_the_words_speak(planned: dict[str, Any]) -> None:
+    task = decode(planned["xml"].encode())
+    ids = {node.id for node in walk(task.composition.plan)}
+    assert task.id == planned["task"]
+    assert {line["node"] for line in planned["read_back"]["lines"]} <= ids
+    assert {node for stop in of_role(planned, "stop") for node in stop["properties"]["nodes"]} <= ids
+    assert {leg["properties"]["node"] for leg in of_role(planned, "path")} <= ids
+
+
+def test_the_legs_where_every_condition_holds_are_one_way_from_the_start_to_the_end(planned: dict[str, Any]) -> None:
+    site = load_demo()
+    legs = [f["geometry"]["coordinates"] for f in of_role(planned, "path") if not f["properties"]["branch"]]
+    assert all(one[-1] == other[0] for one, other in pairwise(legs))
+    ends = (site.markers["start"], site.markers["end"])
+    for (lon, lat), place in zip((legs[0][0], legs[-1][-1]), ends, strict=True):
+        assert (lon, lat) == pytest.approx((place.lon, place.lat), abs=2e-7)
+
+
+def test_stops_are_numbered_in_order_and_stand_at_their_trees(planned: dict[str, Any]) -> None:
+    site = load_demo()
+    stops = of_role(planned, "stop")
+    assert [s["properties"]["number"] for s in stops] == list(range(1, len(stops) + 1))
+    for stop in stops:
+        place = site.by_id[stop["properties"]["place"]].place
+        assert stop["geometry"]["coordinates"] == pytest.approx([place.lon, place.lat], abs=1e-7)
+
+
+def test_what_happens_on_some_branches_alone_is_marked() -> None:
+    request = "corners"
+    answer = browser().post("/api/plan", {"request": request}).json()
+    # On the first branch the reading is hot at every corner; without the neighbours the way is another one.
+    assert any(leg["properties"]["branch"] for leg in of_role(answer, "path"))
+    assert not any(stop["properties"]["branch"] for stop in of_role(answer, "stop")[:4])
+
+
+def test_a_plan_that_cannot_be_approved_says_why_and_still_shows_the_site() -> None:
+    def unknown_tree(request: str, site: Site, robot: RobotProfile) -> Planned:
+        act = Act(id="", action=robot.actions[0].name, at=TreeIs(tree="no such tree"))
+        return Planned(task=task_of(act, request, site, robot), planner="hand")
+
+    answer = browser(Says(outcome=unknown_tree)).post("/api/plan", {"request": "corners"}).json()
+    assert not answer["approvable"]
+    assert any("no such tree" in p["what"] for p in answer["problems"]), answer["problems"]
+    assert len(of_role(answer, "tree")) == len(load_demo().trees)
+    assert not of_role(answer, "stop")
+
+
+def test_a_question_is_passed_on_with_its_choices() -> None:
+    asks = Says(outcome=lambda r, s, p: Clarify(question="Which end?", choices=("the north end", "the south end")))
+    answer = browser(asks).post("/api/plan", {"request": "the end"}).json()
+    assert answer["outcome"] == "clarify"
+    assert (answer["question"], answer["choices"]) == ("Which end?", ["the north end", "the south end"])
+
+
+def test_a_refusal_says_which_words_and_does_not_read_them_as_markup() -> None:
+    request = "<img src=x onerror=alert(1)> dance"
+    reason = Reason(what=f"'{request}' was not understood", said=((29, 34),), advice="say what to measure")
+    refuses = Says(outcome=lambda r, s, p: Refused(reasons=(reason,), planner="english"))
+    answer = browser(refuses).post("/api/plan", {"request": request})
+    assert answer.headers["content-type"] == "application/json"
+    (said,) = answer.json()["reasons"]
+    assert [request[a:b] for a, b in said["said"]] == ["dance"]
+    assert said["what"] == reason.what
+
+
+def test_the_english_planner_plans_without_any_model() -> None:
+    from fieldhand.planning.english.planner import EnglishPlanner
+
+    answer = (
+        browser(EnglishPlanner()).post("/api/plan", {"request": "Take pictures of the 3 northernmost trees."}).json()
+    )
+    assert answer["outcome"] == "planned"
+    assert len(of_role(answer, "stop")) == 3
+
+
+def test_the_english_planner_points_at_what_it_did_not_understand() -> None:
+    from fieldhand.planning.english.planner import EnglishPlanner
+
+    request = "Take a picture of the northernmost tree and sing loudly."
+    answer = browser(EnglishPlanner()).post("/api/plan", {"request": request}).json()
+    assert answer["outcome"] == "refused"
+    assert any("sing" in request[a:b] for reason in answer["reasons"] for a, b in reason["said"])
+
+
+@pytest.mark.parametrize(
+    ("body", "where"),
+    [
+        ({}, "request"),
+        ({"request": 7}, "request"),
+        ({"request": "x", "planner": "oracle"}, "planner"),
+        ({"request": "x", "robot": ["husky"]}, "robot"),
+        ({"request": "x" * 20_001}, "request"),
+        ({"request": "x", "transcript": "/tmp/x"}, "transcript"),
+        ({"request": "\ud800"}, "request"),
+    ],
+)
+def test_a_fault_of_shape_names_its_place(body: dict[str, Any], where: str) -> None:
+    answer = browser().call("POST", "/api/plan", content=json.dumps(body), headers={"content-type": "application/json"})
+    assert answer.status_code == 422
+    assert answer.json()["where"] == where
+
+
+def test_an_empty_request_is_a_problem() -> None:
+    answer = browser().post("/api/plan", {"request": "  "})
+    assert answer.status_code == 400
+    assert "empty" in answer.json()["what"]
+
+
+def test_a_checked_document_is_reviewed_as_it_was_planned(planned: dict[str, Any]) -> None:
+    checked = browser().post("/api/check", {"xml": planned["xml"]}).json()
+    assert checked["outcome"] == "checked"
+    for part in ("task", "approvable", "problems", "read_back", "estimate", "map"):
+        assert checked[part] == planned[part]
+
+
+BOMB = '<!DOCTYPE t [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;">]><task>&b;</task>'
+OUTSIDE = '<!DOCTYPE t [<!ENTITY a SYSTEM "file:///etc/hostname">]><task>&a;</task>'
+
+
+@pytest.mark.parametrize("xml", ["", "<task", "<task/>", BOMB, OUTSIDE, corner_xml().replace("take_thermal", "take_x")])
+def test_a_document_that_is_no_task_of_this_robot_is_a_problem(xml: str) -> None:
+    answer = browser().post("/api/check", {"xml": xml})
+    assert answer.status_code == 400
+    assert answer.json()["where"].startswith("xml")

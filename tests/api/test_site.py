@@ -1,0 +1,104 @@
+"""A site is the built-in one or the data itself; its map holds what the site holds, where it is."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from browser import browser
+from fieldhand.site.geojson import demo_path, load_demo
+
+
+def point(lon: float, lat: float, **properties: object) -> dict[str, Any]:
+    return {"type": "Feature", "geometry": {"type": "Point", "coordinates": [lon, lat]}, "properties": properties}
+
+
+ORCHARD = {
+    "type": "FeatureCollection",
+    "features": [point(-120.0 + i * 1e-4, 37.0, variety="Kerman") for i in range(4)],
+}
+
+
+def test_the_map_holds_every_tree_marker_and_zone_where_it_is() -> None:
+    site = load_demo()
+    features = browser().post("/api/site", {"site": "demo"}).json()["map"]["features"]
+    places = {
+        f["properties"]["id"]: f["geometry"]["coordinates"] for f in features if f["properties"]["role"] == "tree"
+    }
+    assert places.keys() == site.by_id.keys()
+    for name, (lon, lat) in places.items():
+        place = site.by_id[name].place
+        assert (lon, lat) == pytest.approx((place.lon, place.lat), abs=1e-7)
+    assert {f["properties"]["name"] for f in features if f["properties"]["role"] == "marker"} == set(site.markers)
+    zones = [f for f in features if f["properties"]["role"] == "zone"]
+    assert [z["properties"]["kind"] for z in zones] == [z.kind for z in site.zones]
+    for feature, zone in zip(zones, site.zones, strict=True):
+        lon, lat = feature["geometry"]["coordinates"][0][0]
+        assert site.projection.metres(lat, lon)[0] == pytest.approx(zone.polygon.exterior.coords[0], abs=0.02)
+
+
+def test_a_file_sent_as_text_keeps_its_hash() -> None:
+    data = demo_path().read_bytes()
+    sent = browser().post("/api/site", {"site": {"name": "my field.geojson", "text": data.decode()}}).json()
+    assert sent["sha256"] == hashlib.sha256(data).hexdigest()
+
+
+def test_a_site_sent_as_an_object_is_read() -> None:
+    known = browser().post("/api/site", {"site": ORCHARD}).json()
+    assert (known["trees"], known["attributes"]) == (4, ["variety"])
+
+
+def test_a_path_is_no_site_even_where_the_file_is_good(tmp_path: Path) -> None:
+    path = tmp_path / "site.geojson"
+    path.write_text(json.dumps(ORCHARD))
+    for given in (str(path), f"file://{path}", str(demo_path()), "./demo", ""):
+        answer = browser().post("/api/site", {"site": given})
+        assert answer.status_code == 422
+        assert answer.json()["where"] == "site"
+        assert "never the name of a file" in answer.json()["what"]
+
+
+@pytest.mark.parametrize(
+    ("site", "word"),
+    [
+        ({"trees": 3}, "FeatureCollection"),
+        ({"type": "FeatureCollection", "features": []}, "tree"),
+        ({"type": "FeatureCollection", "features": [point(37.0, -120.0), point(37.0, -120.1)]}, "swapped"),
+        ({"text": "{not json"}, "JSON"),
+        ({"text": ""}, "empty"),
+        ({"text": 7}, "FeatureCollection"),
+        ({"name": "a" * 1000, "text": "{}"}, "FeatureCollection"),
+    ],
+)
+def test_what_is_no_site_is_said_in_words(site: dict[str, Any], word: str) -> None:
+    answer = browser().post("/api/site", {"site": site})
+    assert answer.status_code == 400
+    assert word in answer.json()["what"] + answer.json()["advice"]
+
+
+@pytest.mark.parametrize("site", [7, None, [], True])
+def test_what_is_not_even_an_object_is_a_fault_of_shape(site: object) -> None:
+    answer = browser().post("/api/site", {"site": site})
+    assert answer.status_code == 422
+    assert answer.json()["where"] == "site"
+
+
+def test_numbers_that_are_none_and_texts_that_are_none_are_refused() -> None:
+    headers = {"content-type": "application/json"}
+    for body in (
+        '{"site": {"type": "FeatureCollection", "features": [{"type": "Feature", "geometry":'
+        ' {"type": "Point", "coordinates": [NaN, 37]}, "properties": {}}]}}',
+        '{"site": {"text": "\\ud800"}}',
+        '{"site": ' + "[" * 100_000 + "]" * 100_000 + "}",
+        '{"site": {"a": ' + '{"a":' * 900 + "1" + "}" * 902,
+        "[1, 2",
+        "",
+        b"\xff\xfe",
+    ):
+        answer = browser().call("POST", "/api/site", content=body, headers=headers)
+        assert answer.status_code in (400, 422), body[:80]
+        assert answer.json()["what"]

@@ -1,0 +1,156 @@
+"""Each kind of bad input gets one clear line (what, where, what to do), exit status 2, and never a traceback."""
+
+from __future__ import annotations
+
+import json
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+from command import Run, fieldhand
+
+
+def is_one_clear_line(run: Run, *words: str) -> bool:
+    """One line for the user, holding these words; no traceback."""
+    assert run.status == 2, (run.status, run.out, run.err)
+    assert "Traceback" not in run.err
+    said = [line for line in run.err.splitlines() if line.startswith("fieldhand: ")]
+    assert len(said) == 1, run.err
+    for word in words:
+        assert word.lower() in said[0].lower(), said[0]
+    return True
+
+
+def point(lon: object, lat: object, **properties: object) -> dict[str, object]:
+    return {"type": "Feature", "geometry": {"type": "Point", "coordinates": [lon, lat]}, "properties": properties}
+
+
+def collection(*features: dict[str, object]) -> str:
+    return json.dumps({"type": "FeatureCollection", "features": list(features)})
+
+
+SITES = {
+    "empty": ("", "empty"),
+    "not JSON": ("{trees: 3", "JSON"),
+    "JSON but not GeoJSON": ('{"trees": 3}', "FeatureCollection"),
+    "no points": (collection(), "tree"),
+    "out of range": (collection(point(-120.0, 137.0), point(-120.0, 37.0)), "feature 1"),
+    "swapped": (collection(point(37.2, -120.4), point(37.2, -120.41)), "swapped"),
+    "NaN": (collection(point(float("nan"), 37.0)), "feature 1"),
+}
+
+
+@pytest.mark.parametrize("kind", SITES)
+def test_a_site_that_cannot_be_used(kind: str, tmp_path: Path) -> None:
+    text, word = SITES[kind]
+    path = tmp_path / "site.geojson"
+    path.write_text(text)
+    assert is_one_clear_line(fieldhand("site", str(path)), "site.geojson", word)
+
+
+def test_a_site_that_is_not_there(tmp_path: Path) -> None:
+    assert is_one_clear_line(fieldhand("site", str(tmp_path / "none.geojson")), "none.geojson")
+
+
+def test_an_unknown_robot_names_those_there_are() -> None:
+    assert is_one_clear_line(fieldhand("robot", "husqvarna"), "husqvarna", "husky", "amiga")
+
+
+HUSKY_KEY = "speed_m_s"
+
+
+@pytest.mark.parametrize("mend", ["missing", "misspelt"])
+def test_a_profile_with_a_key_missing_or_misspelt_names_it(mend: str, tmp_path: Path) -> None:
+    from importlib.resources import files
+
+    text = (files("fieldhand.robot") / "profiles" / "husky.yaml").read_text()
+    assert HUSKY_KEY in text
+    lines = text.splitlines()
+    at = next(i for i, line in enumerate(lines) if line.startswith(HUSKY_KEY))
+    lines[at] = "" if mend == "missing" else lines[at].replace(HUSKY_KEY, "sped_m_s")
+    path = tmp_path / "mine.yaml"
+    path.write_text("\n".join(lines))
+    assert is_one_clear_line(fieldhand("robot", str(path)), "mine.yaml", HUSKY_KEY)
+
+
+ENTITY = '<?xml version="1.0"?><!DOCTYPE t [<!ENTITY e SYSTEM "file:///etc/hostname">]>'
+LEVELS = "abcdefghi"
+BOMB = (
+    '<?xml version="1.0"?><!DOCTYPE t [<!ENTITY a "aaaaaaaaaa">'
+    + "".join(f'<!ENTITY {outer} "{f"&{inner};" * 10}">' for inner, outer in pairwise(LEVELS))
+    + "]>"
+)
+DOCUMENTS = {
+    "empty": ("", "empty"),
+    "malformed": ("<task><plan></task>", "line 1"),
+    "an external entity": (ENTITY + "<task>&e;</task>", "entit"),
+    "an entity bomb": (BOMB + "<task>&i;</task>", "entit"),
+}
+
+
+@pytest.mark.parametrize("kind", DOCUMENTS)
+def test_a_document_that_cannot_be_used(kind: str, tmp_path: Path) -> None:
+    text, word = DOCUMENTS[kind]
+    path = tmp_path / "task.xml"
+    path.write_text(text)
+    for command in ("check", "run"):
+        assert is_one_clear_line(fieldhand(command, str(path), "--site", "demo"), "task.xml", word)
+
+
+def test_a_document_with_an_action_that_the_robot_lacks_names_it(tmp_path: Path) -> None:
+    path = tmp_path / "task.xml"
+    made = fieldhand("plan", "Take a picture of the first tree.", "--site", "demo", "-o", str(path))
+    assert made.status == 0, made.err
+    path.write_text(path.read_text().replace("take_thermal_picture", "take_x_ray"))
+    assert is_one_clear_line(fieldhand("check", str(path), "--site", "demo"), "take_x_ray", "line")
+
+
+@pytest.mark.parametrize(
+    ("request_", "words"),
+    [
+        ("", ["empty"]),
+        ("   \n\t ", ["empty"]),
+        ("Colorless green ideas sleep furiously", ["colorless"]),
+        ("word " * 20_000, ["100,000", "characters"]),
+        ("Take pictures of trees older than 900 years.", ["900"]),
+        ("Take a picture of tree 99999.", ["99999"]),
+    ],
+    ids=["empty", "blank", "nothing understood", "100,000 characters", "selector finds nothing", "no such tree"],
+)
+def test_a_request_that_cannot_be_used(request_: str, words: list[str]) -> None:
+    run = fieldhand("plan", request_, "--site", "demo", "--planner", "english")
+    assert is_one_clear_line(run, *words)
+
+
+def test_a_budget_too_small_to_do_anything_is_not_approved() -> None:
+    run = fieldhand(
+        "run", "Take pictures of as many trees as you can without driving more than 1 meter.", "--site", "demo", "--yes"
+    )
+    assert "Traceback" not in run.err
+    assert run.status in (1, 2)
+    assert "1 m" in run.out + run.err
+
+
+def test_a_folder_that_cannot_be_written(tmp_path: Path) -> None:
+    blocked = tmp_path / "file"
+    blocked.write_text("not a folder")
+    run = fieldhand("demo", "--out", str(blocked / "out"))
+    assert is_one_clear_line(run, "cannot", "file")
+    run = fieldhand(
+        "run", "Take a picture of the first tree.", "--site", "demo", "--yes", "--events", str(blocked / "e.jsonl")
+    )
+    assert is_one_clear_line(run, "cannot", "e.jsonl")
+
+
+@pytest.mark.parametrize("speed", ["0", "-1", "nan", "fast"])
+def test_a_speed_that_is_none(speed: str) -> None:
+    run = fieldhand("run", "Take a picture of the first tree.", "--site", "demo", "--yes", "--speed", speed)
+    assert is_one_clear_line(run, "--speed")
+
+
+def test_nobody_there_to_approve_is_no_approval() -> None:
+    run = fieldhand("run", "Take a picture of the first tree.", "--site", "demo")
+    assert run.status == 1
+    assert "--yes" in run.err
+    assert "Traceback" not in run.err
