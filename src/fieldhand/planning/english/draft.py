@@ -1,0 +1,215 @@
+"""The plan while it is being made: blocks of steps that can still be moved, wrapped and copied."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import Literal
+
+from fieldhand.task import conditions as c
+from fieldhand.task import plan as p
+from fieldhand.task import selectors as s
+from fieldhand.task.plan import Span
+
+
+@dataclass(eq=False)
+class Block:
+    """Steps one after the other."""
+
+    steps: list[Step] = field(default_factory=list)
+    parent: Block | None = None
+
+    def add(self, step: Step) -> None:
+        """Append a step, and make its blocks know where they stand."""
+        self.steps.append(step)
+        for inner in blocks_of(step):
+            inner.parent = self
+
+
+@dataclass(eq=False)
+class Go:
+    """Drive to a place."""
+
+    place: s.Selector
+    said: tuple[Span, ...] = ()
+
+
+@dataclass(eq=False)
+class Capture:
+    """An action at a place, or at the place in hand."""
+
+    action: str
+    at: s.Selector | None = None
+    count: int = 1
+    reading: str = ""
+    said: tuple[Span, ...] = ()
+
+
+@dataclass(eq=False)
+class Loop:
+    """A block at each of several places."""
+
+    select: s.Selector
+    body: Block
+    order: Literal["best", "given"] = "best"
+    optional: bool = False
+    at_most: int | None = None
+    reward: str = ""
+    said: tuple[Span, ...] = ()
+
+
+@dataclass(eq=False)
+class Times:
+    """A block a number of times."""
+
+    times: int
+    body: Block
+    said: tuple[Span, ...] = ()
+
+
+@dataclass(eq=False)
+class Choice:
+    """A block where a condition holds, and another where it does not."""
+
+    condition: c.Condition
+    then: Block
+    otherwise: Block | None = None
+    said: tuple[Span, ...] = ()
+
+
+@dataclass(eq=False)
+class Attempt:
+    """A block, and another if it fails."""
+
+    body: Block
+    fallback: Block
+    said: tuple[Span, ...] = ()
+
+
+@dataclass(eq=False)
+class Halt:
+    """The end of the mission."""
+
+    said: tuple[Span, ...] = ()
+
+
+Step = Go | Capture | Loop | Times | Choice | Attempt | Halt
+
+
+def blocks_of(step: Step) -> list[Block]:
+    """The blocks inside a step."""
+    match step:
+        case Loop(body=body) | Times(body=body):
+            return [body]
+        case Choice(then=then, otherwise=otherwise):
+            return [then] if otherwise is None else [then, otherwise]
+        case Attempt(body=body, fallback=fallback):
+            return [body, fallback]
+        case _:
+            return []
+
+
+def walk(block: Block) -> Iterator[tuple[Step, Block]]:
+    """Every step below a block, in the order of the text, with the block that holds it."""
+    for step in block.steps:
+        yield step, block
+        for inner in blocks_of(step):
+            yield from walk(inner)
+
+
+def copy_block(block: Block, keep: Callable[[Step], bool], renamed: dict[str, str], fresh: Callable[[], str]) -> Block:
+    """A copy with readings of its own. Steps that ``keep`` refuses are left out, and choices that hold nothing then."""
+    made = Block()
+    for step in block.steps:
+        if not keep(step):
+            continue
+        match step:
+            case Go():
+                made.add(Go(place=step.place, said=step.said))
+            case Capture():
+                reading = ""
+                if step.reading:
+                    reading = renamed[step.reading] = fresh()
+                made.add(Capture(action=step.action, at=step.at, count=step.count, reading=reading, said=step.said))
+            case Loop():
+                body = copy_block(step.body, keep, renamed, fresh)
+                made.add(
+                    Loop(
+                        select=step.select,
+                        body=body,
+                        order=step.order,
+                        optional=step.optional,
+                        at_most=step.at_most,
+                        reward=step.reward,
+                        said=step.said,
+                    )
+                )
+            case Times():
+                made.add(Times(times=step.times, body=copy_block(step.body, keep, renamed, fresh), said=step.said))
+            case Choice():
+                condition = rename(step.condition, renamed)
+                then = copy_block(step.then, keep, renamed, fresh)
+                other = None if step.otherwise is None else copy_block(step.otherwise, keep, renamed, fresh)
+                if then.steps or (other is not None and other.steps):
+                    made.add(Choice(condition=condition, then=then, otherwise=other, said=step.said))
+            case Attempt():
+                body = copy_block(step.body, keep, renamed, fresh)
+                made.add(Attempt(body=body, fallback=copy_block(step.fallback, keep, renamed, fresh), said=step.said))
+            case Halt():
+                made.add(Halt(said=step.said))
+    return made
+
+
+def rename(condition: c.Condition, renamed: dict[str, str]) -> c.Condition:
+    """A condition on the readings of a copy."""
+    from dataclasses import replace
+
+    match condition:
+        case c.Compare() | c.Between() | c.Level():
+            return replace(condition, reading=renamed.get(condition.reading, condition.reading))
+        case c.AllOf() | c.AnyOf():
+            return replace(condition, conditions=tuple(rename(i, renamed) for i in condition.conditions))
+        case c.Not():
+            return replace(condition, condition=rename(condition.condition, renamed))
+        case _:
+            return condition
+
+
+def node_of(block: Block) -> p.Node:
+    """A block as a plan node; one step alone needs no sequence around it."""
+    nodes = tuple(_node(step) for step in block.steps)
+    return nodes[0] if len(nodes) == 1 else p.Sequence(id="", steps=nodes)
+
+
+def _node(step: Step) -> p.Node:
+    match step:
+        case Go():
+            return p.GoTo(id="", place=step.place, said=step.said)
+        case Capture():
+            return p.Act(id="", action=step.action, at=step.at, count=step.count, reading=step.reading, said=step.said)
+        case Loop():
+            body = node_of(step.body) if step.body.steps else p.GoTo(id="", place=s.Here(), said=step.said)
+            return p.ForEach(
+                id="",
+                select=step.select,
+                body=body,
+                order=step.order,
+                optional=step.optional,
+                at_most=step.at_most,
+                reward=step.reward,
+                said=step.said,
+            )
+        case Times():
+            return p.Repeat(id="", times=step.times, body=node_of(step.body), said=step.said)
+        case Choice():
+            if not step.then.steps:
+                assert step.otherwise is not None
+                return p.If(
+                    id="", condition=c.Not(condition=step.condition), then=node_of(step.otherwise), said=step.said
+                )
+            other = node_of(step.otherwise) if step.otherwise is not None and step.otherwise.steps else None
+            return p.If(id="", condition=step.condition, then=node_of(step.then), otherwise=other, said=step.said)
+        case Attempt():
+            return p.Try(id="", body=node_of(step.body), otherwise=node_of(step.fallback), said=step.said)
+        case Halt():
+            return p.Stop(id="", said=step.said)

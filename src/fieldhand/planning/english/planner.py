@@ -1,0 +1,192 @@
+"""The English planner: words, terms, parts, plan. No model, no network; what it does not understand it says."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from fieldhand.errors import PlaceError, RequestError, TaskError
+from fieldhand.planning.english.arrange import Arranged, Limit, arrange
+from fieldhand.planning.english.discourse import Discourse, Told, settle_exits
+from fieldhand.planning.english.draft import node_of
+from fieldhand.planning.english.lexicon import Lexicon, lexicon_for
+from fieldhand.planning.english.places import Question, Unclear
+from fieldhand.planning.english.syntax import NotParsed, parse
+from fieldhand.planning.english.tokens import Term, words_of
+from fieldhand.planning.planner import Clarify, Outcome, Planned, Reason, Refused
+from fieldhand.robot.capabilities import measures_of
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.context import Context
+from fieldhand.site.model import Site
+from fieldhand.site.places import resolve
+from fieldhand.task import plan as p
+from fieldhand.task.build import make_task
+from fieldhand.task.codec_text import unwritable_character
+from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource, Then
+from fieldhand.task.selectors import Marker, is_relative, walk
+
+NAME = "english"
+#: A request longer than this is no request. Nothing but reading it takes time, and that grows with its length.
+LONGEST_REQUEST = 8_000
+KINDS: dict[str, BudgetKind] = {"metres": "distance_m", "seconds": "duration_s", "percent": "energy_percent"}
+
+
+class EnglishPlanner:
+    """A planner with a grammar and a lexicon.
+
+    Every word of a request is used, is known to mean nothing to a plan, or is reported: nothing is dropped in silence.
+    """
+
+    def plan(self, request: str, site: Site, robot: RobotProfile) -> Outcome:
+        """Plan a request.
+
+        Raises:
+            RequestError: The request is empty, too long, or holds characters that no document can hold.
+        """
+        _check_text(request)
+        lexicon = lexicon_for(robot, site)
+        terms = lexicon.terms(words_of(request))
+        unknown = _unknown(terms, lexicon)
+        if unknown:
+            return Refused(reasons=unknown, planner=NAME)
+        arranged = arrange(terms, request)
+        try:
+            told = _told(arranged, request, robot, site)
+        except Unclear as unclear:
+            return Refused(reasons=(unclear.reason,), planner=NAME)
+        except Question as question:
+            return Clarify(question=question.question, choices=question.choices, planner=NAME)
+        return _planned(request, told, arranged, site, robot)
+
+
+def _check_text(request: str) -> None:
+    if not request.strip():
+        raise RequestError("the request is empty", advice="say what the robot should do, and at which trees")
+    if len(request) > LONGEST_REQUEST:
+        raise RequestError(
+            f"the request has {len(request):,} characters, at most {LONGEST_REQUEST:,} are read",
+            advice="say it shorter, or split it into missions",
+        )
+    odd = unwritable_character(request)
+    if odd is not None:
+        raise RequestError(
+            f"the request holds the character {odd!r}, which no document can hold", advice="leave it out"
+        )
+
+
+def _unknown(terms: Sequence[Term], lexicon: Lexicon) -> tuple[Reason, ...]:
+    """A reason for each word that is not known, and for what is known but cannot be done yet."""
+    reasons: list[Reason] = []
+    for term in terms:
+        if term.kind == "NOTYET":
+            reasons.append(Reason(what=f"'{term.text}': {term.value}", said=(term.span,)))
+    strange = [t for t in terms if t.kind == "UNKNOWN"]
+    if strange:
+        words = ", ".join(f"'{t.text}'" for t in strange[:12])
+        more = f" and {len(strange) - 12} more" if len(strange) > 12 else ""
+        near = [f"'{n[0]}' for '{t.text}'" for t in strange[:12] if (n := lexicon.nearest(t.text))]
+        advice = f"did you mean {', '.join(near)}?" if near else "say it in other words"
+        reasons.append(
+            Reason(what=f"not understood: {words}{more}", said=tuple(t.span for t in strange), advice=advice)
+        )
+    return tuple(reasons)
+
+
+def _told(arranged: Arranged, request: str, robot: RobotProfile, site: Site) -> Told:
+    discourse = Discourse(robot, site)
+    for sentence in arranged.sentences:
+        parts = parse(sentence)
+        if isinstance(parts, NotParsed):
+            raise Unclear(_misfit(parts, request))
+        discourse.read(parts)
+    settle_exits(discourse.told)
+    for reason in arranged.reasons:
+        discourse.told.assumptions.append(f"'{reason}' is taken as a reason, not as something to do.")
+    return discourse.told
+
+
+def _misfit(wrong: NotParsed, request: str) -> Reason:
+    start, end = wrong.said
+    sentence = request[start:end]
+    short = sentence if len(sentence) <= 120 else sentence[:117] + "..."
+    return Reason(
+        what=f"'{wrong.term.text}' does not fit where it stands in '{short}'",
+        said=(wrong.term.span,),
+        advice="say it in shorter sentences, one thing after the other",
+    )
+
+
+def _planned(request: str, told: Told, arranged: Arranged, site: Site, robot: RobotProfile) -> Outcome:
+    del arranged
+    if not told.root.steps:
+        reason = Reason(
+            what="the request asks for nothing to be done", advice="say what to take or measure, and at which trees"
+        )
+        return Refused(reasons=(reason,), planner=NAME)
+    nominal, assumptions = _exit(told, site)
+    task = make_task(
+        request=request,
+        plan=node_of(told.root),
+        measures=measures_of(robot),
+        resources=(
+            Resource(kind="robot", name=robot.name, sha256=robot.sha256),
+            Resource(kind="site", name=site.name, sha256=site.sha256),
+        ),
+        constraints=_constraints(told.limits),
+        nominal=nominal,
+        assumptions=tuple(dict.fromkeys([*told.assumptions, *assumptions])),
+    )
+    problems = tuple(_impossible(task.composition.plan, site))
+    if problems:
+        return Refused(reasons=problems, planner=NAME)
+    return Planned(task=task, planner=NAME)
+
+
+def _exit(told: Told, site: Site) -> tuple[Then, list[str]]:
+    if told.nominal is not None:
+        return told.nominal, []
+    if "end" in site.markers:
+        return "return_to_end", ["When all is done the robot drives to the end marker."]
+    if "start" in site.markers:
+        return "return_to_start", ["When all is done the robot drives back to the start marker."]
+    return "stay", ["The site has no start or end marker: the robot stays where it is when all is done."]
+
+
+def _constraints(limits: Iterable[Limit]) -> Constraints:
+    budgets: dict[BudgetKind, float] = {}
+    reserve: float | None = None
+    for limit in limits:
+        if limit.keep:
+            reserve = max(limit.amount, reserve or 0.0)
+        else:
+            kind = KINDS[limit.unit]
+            budgets[kind] = min(limit.amount, budgets.get(kind, limit.amount))
+    return Constraints(
+        budgets=tuple(Budget(kind=kind, limit=amount) for kind, amount in budgets.items()), reserve_percent=reserve
+    )
+
+
+def _impossible(plan: p.Node, site: Site) -> Iterable[Reason]:
+    """Places that this site does not have, as far as it can be told before the robot drives."""
+    for node in p.walk(plan):
+        selector = p.selector_of(node)
+        if selector is None or (is_relative(selector) and not _only_takes(selector)):
+            continue
+        if (
+            any(isinstance(part, Marker) for part in walk(selector))
+            and isinstance(selector, Marker)
+            and selector.name != "charger"
+        ):
+            continue
+        try:
+            resolve(selector, site, Context(here=site.start))
+        except (PlaceError, TaskError) as error:
+            yield Reason(what=error.what, said=node.said, advice=error.advice)
+
+
+def _only_takes(selector: object) -> bool:
+    from fieldhand.task.selectors import Bound, Here, Nearest, Other, Selector
+
+    assert isinstance(selector, Selector)
+    return not any(
+        isinstance(part, Here | Bound | Other) or (isinstance(part, Nearest) and part.fresh) for part in walk(selector)
+    )

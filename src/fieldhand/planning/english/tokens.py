@@ -1,0 +1,74 @@
+"""Words of a request with where they stand, and the terms that the lexicon makes of them."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from dataclasses import dataclass
+from typing import Any
+
+from fieldhand.task.plan import Span
+
+_TOKEN = re.compile(
+    r"(?P<number>\d{1,3}(?:,\d{3})+(?![\d])|\d+(?:\.\d+)?)"
+    r"|(?P<word>[^\W\d_][\w₀-₉]*(?:['’][^\W\d_]+)?)"
+    r"|(?P<unit>%|°\s?[cCfF]\b|°)"
+    r"|(?P<stop>[.;!?\n]+)"
+    r"|(?P<comma>[,:()]|\s[-–—]+\s)"
+    r"|(?P<dash>[-–])"
+    r"|(?P<sign>[&+])"
+    r"|(?P<space>[\s\"'“”‘’*_`]+)"
+    r"|(?P<other>.)",
+    re.DOTALL,
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Word:
+    """One word, number or sign of the request.
+
+    Attributes:
+        kind: ``word``, ``number``, ``unit``, ``stop``, ``comma``, ``dash``, ``sign`` or ``other``.
+        norm: As the lexicon knows it: lower case, compatibility forms folded, straight apostrophes.
+    """
+
+    kind: str
+    text: str
+    norm: str
+    start: int
+    end: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class Term:
+    """One or more words with what they mean to the grammar.
+
+    Attributes:
+        kind: Name of the grammar's terminal.
+        value: What the lexicon knows of it.
+        plural: A noun in the plural.
+    """
+
+    kind: str
+    text: str
+    start: int
+    end: int
+    value: Any = None
+    plural: bool = False
+
+    @property
+    def span(self) -> Span:
+        """Where it stands in the request."""
+        return (self.start, self.end)
+
+
+def words_of(request: str) -> list[Word]:
+    """The words of a request, in order. Nothing is left out but white space and quotation marks."""
+    found: list[Word] = []
+    for match in _TOKEN.finditer(request):
+        kind = match.lastgroup or "other"
+        if kind == "space":
+            continue
+        norm = unicodedata.normalize("NFKC", match.group()).lower().replace("’", "'").strip()
+        found.append(Word(kind=kind, text=match.group(), norm=norm, start=match.start(), end=match.end()))
+    return found
