@@ -11,9 +11,7 @@ import httpx
 from fastapi import FastAPI
 
 from fieldhand.api.app import create_app
-from fieldhand.api.words import Words
 from fieldhand.api.work import Limits
-from fieldhand.cli.telling import Teller, goal_names
 from fieldhand.planning.planner import Outcome, Planned, Planner
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
@@ -27,7 +25,6 @@ from fieldhand.task.plan import Act, ForEach, If, Node, Sequence
 from fieldhand.task.selectors import Corners, Here, Nearest, Quarter, Where
 
 LOCAL = frozenset({"localhost", "127.0.0.1", "::1"})
-WORDS = Words(of_event=lambda robot: Teller(robot).tell, of_goal=goal_names)
 
 
 class Browser:
@@ -64,7 +61,7 @@ class Says:
 def browser(planner: Planner | None = None, *, limits: Limits | None = None) -> Browser:
     """The API with one planner for every name."""
     plans = planner or Says(outcome=lambda r, s, p: Planned(task=corner_task(r, s, p), planner="hand"))
-    return Browser(create_app(lambda name: plans, words=WORDS, hosts=LOCAL, limits=limits))
+    return Browser(create_app(lambda name: plans, hosts=LOCAL, limits=limits))
 
 
 def corner_task(request: str, site: Site, robot: RobotProfile) -> Task:

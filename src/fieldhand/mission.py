@@ -107,7 +107,9 @@ def read_task(path: Path, robot: RobotProfile) -> tuple[Task, bytes]:
         document = path.read_bytes()
     except OSError as error:
         raise TaskError(
-            f"cannot be read: {error.strerror}", where=str(path), advice="give a Task document that fieldhand plan wrote"
+            f"cannot be read: {error.strerror}",
+            where=str(path),
+            advice="give a Task document that fieldhand plan wrote",
         ) from None
     return decode_task(document, robot, source=str(path)), document
 
@@ -128,21 +130,12 @@ def decode_task(document: bytes, robot: RobotProfile, *, source: str = "") -> Ta
 
 def review(task: Task, site: Site, robot: RobotProfile, *, seed: int = 0, document: bytes | None = None) -> Review:
     """Check a Task and say in words what it will do here and what it will take."""
-    from fieldhand.approval.checks import check
+    from fieldhand.approval.checks import examine
     from fieldhand.approval.readback import read_back
-    from fieldhand.errors import FieldhandError
-    from fieldhand.forecast.estimate import estimate
 
-    problems = check(task, site, robot, document=document)
-    if any(p.severity == "error" for p in problems):
-        # What cannot be driven has no forecast; its problems are the whole answer.
-        try:
-            forecast = estimate(task, site, robot, seed=seed)
-        except FieldhandError:
-            return Review(task=task, problems=problems, estimate=None, read_back=None)
-    else:
-        forecast = estimate(task, site, robot, seed=seed)
-    return Review(task=task, problems=problems, estimate=forecast, read_back=read_back(task, site, robot, forecast))
+    found = examine(task, site, robot, document=document, seed=seed)
+    words = None if found.estimate is None else read_back(task, site, robot, found.estimate)
+    return Review(task=task, problems=found.problems, estimate=found.estimate, read_back=words)
 
 
 def authorize(task: Task, site: Site, robot: RobotProfile, *, by: str, at: datetime) -> AuthorizedTask:

@@ -111,7 +111,7 @@ def test_a_document_with_an_action_that_the_robot_lacks_names_it(tmp_path: Path)
     [
         ("", ["empty"]),
         ("   \n\t ", ["empty"]),
-        ("Colorless green ideas sleep furiously", ["colorless"]),
+        ("Colorless ideas dream furiously", ["colorless"]),
         ("word " * 20_000, ["100,000", "characters"]),
         ("Take pictures of trees older than 900 years.", ["900"]),
         ("Take a picture of tree 99999.", ["99999"]),

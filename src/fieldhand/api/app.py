@@ -9,18 +9,14 @@ from fieldhand.api import catalogue, check, plan, run, site
 from fieldhand.api.gates import BodyGate, CallerGate, LastResort, SecurityHeaders
 from fieldhand.api.plan import Planners
 from fieldhand.api.problems import answer_problems
-from fieldhand.api.words import Words
 from fieldhand.api.work import Limits, Workers
 
 
-def create_app(
-    planners: Planners, *, words: Words, hosts: frozenset[str] | None, limits: Limits | None = None
-) -> FastAPI:
+def create_app(planners: Planners, *, hosts: frozenset[str] | None, limits: Limits | None = None) -> FastAPI:
     """The REST API as an ASGI application.
 
     Args:
         planners: Gives the planner of a name.
-        words: How events and goals are said.
         hosts: Names under which a browser may call; None for any.
         limits: What the server takes on; see :class:`Limits`.
     """
@@ -40,7 +36,7 @@ def create_app(
         site.router(workers),
         plan.router(workers, planners),
         check.router(workers),
-        run.router(workers, planners, words, limits),
+        run.router(workers, planners, limits),
     ):
         app.include_router(router, prefix="/api")
     # The last that is added is the first that a request passes.

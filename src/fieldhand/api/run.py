@@ -16,27 +16,27 @@ from fieldhand.api.answers import unplanned_answer
 from fieldhand.api.inputs import Ground, RunBody, open_ground, open_task
 from fieldhand.api.maps import driven_map
 from fieldhand.api.plan import Planners
-from fieldhand.api.words import Words
 from fieldhand.api.work import Limits, Workers
+from fieldhand.evaluation.telling import Teller, goal_names
 from fieldhand.planning.planner import Planned
 from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.frames import Task
 from fieldhand.task.results import Ended, Event, to_json
 
 
-def router(workers: Workers, planners: Planners, words: Words, limits: Limits) -> APIRouter:
+def router(workers: Workers, planners: Planners, limits: Limits) -> APIRouter:
     """``POST /run``."""
     routes = APIRouter(tags=["mission"])
 
     @routes.post("/run")
     async def run(body: RunBody) -> dict[str, Any]:
         """Approve a mission in somebody's name, simulate it and judge it; what is not understood is not run."""
-        return await workers.do(lambda: _run(body, planners, words, limits))
+        return await workers.do(lambda: _run(body, planners, limits))
 
     return routes
 
 
-def _run(body: RunBody, planners: Planners, words: Words, limits: Limits) -> dict[str, Any]:
+def _run(body: RunBody, planners: Planners, limits: Limits) -> dict[str, Any]:
     from fieldhand.execution.world import World, parse_world
 
     ground = open_ground(body)
@@ -60,7 +60,7 @@ def _run(body: RunBody, planners: Planners, words: Words, limits: Limits) -> dic
         emit=events.append,
         interrupted=_deadline(limits.run_s),
     )
-    return _answer(authorized, ground, events, words)
+    return _answer(authorized, ground, events)
 
 
 def _deadline(seconds: float) -> Callable[[], str | None]:
@@ -69,10 +69,10 @@ def _deadline(seconds: float) -> Callable[[], str | None]:
     return lambda: f"the simulation took longer than {seconds:g} s" if time.monotonic() > until else None
 
 
-def _answer(authorized: AuthorizedTask, ground: Ground, events: Sequence[Event], words: Words) -> dict[str, Any]:
+def _answer(authorized: AuthorizedTask, ground: Ground, events: Sequence[Event]) -> dict[str, Any]:
     assessment = mission.assess(authorized.task, events)
     ended = next(event for event in reversed(events) if isinstance(event, Ended))
-    tell = words.of_event(ground.robot)
+    tell = Teller(ground.robot).tell
     return {
         "outcome": "ran",
         "authorization": asdict(authorized.authorization),
@@ -82,16 +82,16 @@ def _answer(authorized: AuthorizedTask, ground: Ground, events: Sequence[Event],
         "seconds": ended.t,
         "charge_percent": ended.charge_percent,
         "success": ended.status == "completed" and assessment.success,
-        "goals": _goals(authorized.task, ground, assessment, words),
+        "goals": _goals(authorized.task, ground, assessment),
         "events": [json.loads(to_json(event)) for event in events],
         "told": [tell(event) or "" for event in events],
         "map": driven_map(events),
     }
 
 
-def _goals(task: Task, ground: Ground, assessment: mission.Assessment, words: Words) -> list[dict[str, Any]]:
+def _goals(task: Task, ground: Ground, assessment: mission.Assessment) -> list[dict[str, Any]]:
     nodes = {goal.id: goal.node for goal in task.command.goals}
-    name = words.of_goal(task, ground.robot)
+    name = goal_names(task, ground.robot)
     return [
         {**asdict(outcome), "node": nodes.get(outcome.goal, ""), "name": name(outcome.goal)}
         for outcome in assessment.outcomes

@@ -10,9 +10,9 @@ import typer
 from fieldhand.cli.options import SeedOption
 
 REQUEST = (
-    "Take a thermal picture at the four corner trees, in any order, and where the canopy is hotter than 36 °C measure"
+    "Take a thermal picture at the four corner trees, in any order, and where the canopy is hotter than 34 °C measure"
     " CO2 too. Then take pictures of as many Carmel trees in the northern half as you can without driving more than"
-    " 700 meters."
+    " 450 meters."
 )
 
 

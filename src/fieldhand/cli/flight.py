@@ -117,7 +117,7 @@ def _leave_plan(ground: Ground, review: mission.Review, document: bytes | None, 
 
 
 def _carry_out(ground: Ground, authorized: AuthorizedTask, orders: Orders) -> tuple[Event, ...]:
-    from fieldhand.cli.telling import Teller
+    from fieldhand.evaluation.telling import Teller
     from fieldhand.execution.log import EventLog
 
     events: list[Event] = []
@@ -156,7 +156,7 @@ def _conclude(
     orders: Orders,
     planner: str,
 ) -> int:
-    from fieldhand.cli.telling import goal_names
+    from fieldhand.evaluation.telling import goal_names
 
     assessment = mission.assess(review.task, events)
     ended = next((e for e in reversed(events) if isinstance(e, Ended)), None)

@@ -18,7 +18,7 @@ from fieldhand.site.model import Place, Site
 from fieldhand.site.places import resolve
 from fieldhand.task.conditions import AllOf, AnyOf, Between, Compare, Condition, Level, Not, TreeHas
 from fieldhand.task.selectors import Test, TreeIs, Where
-from fieldhand.task.words import TESTS, listed, say_name, say_number, say_value
+from fieldhand.task.words import TESTS, listed, say_name, say_number, say_unit, say_value
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -142,5 +142,5 @@ def _joined(found: Sequence[Finding], *, decisive: bool) -> Finding:
 
 
 def _amount(value: float, unit: str) -> str:
-    """A value with the unit as the profile names it ("31.2 degC"), as event logs have it."""
-    return f"{say_number(value)} {unit}".rstrip()
+    """A value as people read it: "31.2 °C". The log's readings hold every digit."""
+    return f"{say_number(value, 4)} {say_unit(unit)}".rstrip()

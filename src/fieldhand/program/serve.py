@@ -39,11 +39,8 @@ def compose(environ: Mapping[str, str], *, hosts: frozenset[str] | None) -> Fast
     require_extra()
     from fieldhand import mission
     from fieldhand.api.app import create_app
-    from fieldhand.api.words import Words
-    from fieldhand.cli.telling import Teller, goal_names
     from fieldhand.web.page import page_router
 
-    words = Words(of_event=lambda robot: Teller(robot).tell, of_goal=goal_names)
-    app = create_app(lambda name: mission.make_planner(name, environ), words=words, hosts=hosts)
+    app = create_app(lambda name: mission.make_planner(name, environ), hosts=hosts)
     app.include_router(page_router())
     return app

@@ -1,9 +1,10 @@
-"""Events in words, one line each, as they happen."""
+"""Events in words, one line each, as they happen: what a terminal and a web page show of a mission under way."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
+from fieldhand.evaluation.report_text import clock_time
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.frames import Task
 from fieldhand.task.results import (
@@ -18,6 +19,7 @@ from fieldhand.task.results import (
     Started,
     Visiting,
 )
+from fieldhand.task.words import capitalised, say_count, say_name, say_number, say_unit
 
 #: A list of places longer than this is counted, not named.
 NAMED = 8
@@ -32,31 +34,31 @@ class Teller:
     def tell(self, event: Event) -> str | None:
         """The event as a line, or None where it is not worth one."""
         words = self._words(event)
-        return None if words is None else f"  {_time(event.t)}  {words}"
+        return None if words is None else f"{clock_time(event.t):>8}  {words}"
 
     def _words(self, event: Event) -> str | None:
         match event:
             case Started():
                 return f"{event.robot} starts on {event.site}, battery at {event.charge_percent:.0f} %"
             case Visiting():
-                return f"{len(event.places)} place{'s' * (len(event.places) != 1)} to visit: {_names(event.places)}"
-            case Arrived(kind="tree"):
-                return f"at tree {event.place} ({event.travelled_m:.0f} m, battery {event.charge_percent:.0f} %)"
+                return f"{say_count(len(event.places), 'place')} to visit: {_names(event.places)}"
             case Arrived():
-                return f"at the {event.place} ({event.travelled_m:.0f} m, battery {event.charge_percent:.0f} %)"
+                place = f"tree {event.place}" if event.kind == "tree" else f"the {event.place}"
+                return f"at {place} ({event.travelled_m:.0f} m, battery at {event.charge_percent:.0f} %)"
             case Acted(status="success"):
                 readings = ", ".join(
-                    f"{q.replace('_', ' ')} {value:.4g} {pretty(event.units.get(q, ''))}"
+                    f"{say_name(q)} {say_number(value, 3)} {say_unit(event.units.get(q, ''))}".rstrip()
                     for q, value in event.readings.items()
                 )
                 return f"   {noun(self._robot, event.action)}{': ' + readings if readings else ''}"
             case Acted():
                 return f"   {noun(self._robot, event.action)} failed (attempt {event.attempt}): {event.what}"
             case Decided():
-                return f"   {event.why}"
+                return f"   {capitalised(event.why)}."
+            case Shed(optional=True):
+                return f"   left out: {_names(event.places)} ({event.reason})"
             case Shed():
-                work = "optional" if event.optional else "MANDATORY"
-                return f"given up ({work}): {_names(event.places)}: {event.reason}"
+                return f"GIVEN UP: {_names(event.places) or event.node}: {event.reason}"
             case Faulted():
                 return f"fault: {event.what}{' (handled)' if event.handled else ''}"
             case Exited():
@@ -81,19 +83,9 @@ def goal_names(task: Task, robot: RobotProfile) -> Callable[[str], str]:
 def noun(robot: RobotProfile, action: str) -> str:
     """What an action yields, as people say it."""
     known = robot.action.get(action)
-    return known.words[0] if known and known.words else action.replace("_", " ")
-
-
-def pretty(unit: str) -> str:
-    """A unit as people write it."""
-    return {"degC": "°C", "percent": "%"}.get(unit, unit)
+    return known.words[0] if known and known.words else say_name(action)
 
 
 def _names(places: tuple[str, ...]) -> str:
     shown = ", ".join(places[:NAMED])
     return shown if len(places) <= NAMED else f"{shown} and {len(places) - NAMED} more"
-
-
-def _time(seconds: float) -> str:
-    minutes, rest = divmod(int(seconds), 60)
-    return f"{minutes:3d}:{rest:02d}"
