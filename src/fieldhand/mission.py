@@ -60,9 +60,14 @@ class Assessment:
 def make_planner(name: str, environ: Mapping[str, str], transcript: Path | None = None) -> Planner:
     """The planner of that name, a language model configured from the environment.
 
+    Args:
+        name: ``auto``, ``english`` or ``llm``.
+        environ: Where the language model is configured.
+        transcript: Where to keep what is said to a language model and its answers; else :func:`transcript_path`.
+
     Raises:
         InputError: There is no planner of that name.
-        ModelError: ``llm`` was asked for and no model is configured.
+        ModelError: ``llm`` was asked for and no model is configured, or one is configured wrongly.
     """
     if name not in PLANNERS:
         raise InputError(f"no planner '{name}'", where="--planner", advice=f"choose one of {', '.join(PLANNERS)}")
@@ -73,16 +78,19 @@ def make_planner(name: str, environ: Mapping[str, str], transcript: Path | None 
         return EnglishPlanner()
     from fieldhand.planning.llm.settings import require_settings, settings_from_environment
 
-    if name == "llm":
-        from fieldhand.planning.llm.planner import LlmPlanner
-
-        return LlmPlanner(require_settings(environ), transcript)
-    settings = settings_from_environment(environ)
+    settings = require_settings(environ) if name == "llm" else settings_from_environment(environ)
     if settings is None:
         return AutoPlanner(EnglishPlanner(), None)
     from fieldhand.planning.llm.planner import LlmPlanner
 
-    return AutoPlanner(EnglishPlanner(), LlmPlanner(settings, transcript))
+    model = LlmPlanner(settings, transcript or transcript_path(environ))
+    return model if name == "llm" else AutoPlanner(EnglishPlanner(), model)
+
+
+def transcript_path(environ: Mapping[str, str]) -> Path:
+    """Where transcripts are kept unless the user says otherwise: in the user's state folder, added to."""
+    state = environ.get("XDG_STATE_HOME") or str(Path(environ.get("HOME") or "~").expanduser() / ".local" / "state")
+    return Path(state) / "fieldhand" / "transcripts.jsonl"
 
 
 def plan(request: str, site: Site, robot: RobotProfile, planner: Planner) -> Outcome:

@@ -15,7 +15,11 @@ PlannerOption = Annotated[
     str, typer.Option("--planner", help="english (no model), llm (a language model), or auto: english, else llm.")
 ]
 TranscriptOption = Annotated[
-    Path | None, typer.Option("--transcript", help="Where to keep what was said to a language model, and its answers.")
+    Path | None,
+    typer.Option(
+        "--transcript",
+        help="Where to keep what was said to a language model and its answers; else in the user's state folder.",
+    ),
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object instead of text.")]
 PictureOption = Annotated[Path | None, typer.Option("--picture", help="Draw a map to this PNG file.")]

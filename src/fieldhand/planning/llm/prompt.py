@@ -24,6 +24,8 @@ from fieldhand.task.codec_shapes import NAMESPACE
 #: Most characters of the summary of a site, of the summary of a robot, and of one line of either.
 MOST_DATA = 4_000
 LONGEST_LINE = 400
+#: Words that are shown for one action or quantity.
+SAID_WORDS = 10
 
 
 @cache
@@ -89,7 +91,7 @@ def _action(action: Action) -> str:
     parts = [f"- {action.name}: {action.description}".rstrip(": ")]
     if action.measures:
         parts.append(f"measures {', '.join(action.measures)}")
-    said = [*action.words[:4], *action.verbs[:3]]
+    said = _plainest([*action.words, *action.verbs])
     if said:
         parts.append(f"people say: {', '.join(said)}")
     parts += [_parameter(parameter) for parameter in action.parameters]
@@ -107,9 +109,15 @@ def _bound(value: float | None) -> str:
     return "any" if value is None else f"{value:g}"
 
 
+def _plainest(words: Sequence[str]) -> list[str]:
+    """The shortest words, which are those that people use most, in the order of the profile."""
+    kept = set(sorted(words, key=lambda word: (len(word.split()), len(word)))[:SAID_WORDS])
+    return [word for word in words if word in kept]
+
+
 def _quantity(quantity: Quantity) -> str:
     levels = [f"{word} is {level.direction} {level.value:g}" for word, level in quantity.levels.items()]
-    said = f"people say: {', '.join(quantity.words[:4])}" if quantity.words else ""
+    said = f"people say: {', '.join(_plainest(quantity.words))}" if quantity.words else ""
     return "; ".join(part for part in (f"- {quantity.name} in {quantity.unit}", *levels, said) if part)
 
 
