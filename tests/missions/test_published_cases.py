@@ -1,7 +1,7 @@
 """The published requests end as they were meant, judged by a referee that knows nothing of this package.
 
 The cases and the referee stand beside the project, not in it; without them there is nothing to judge by. The same
-requests are flown as the English planner plans them, and as a language model once planned them (``tests/data/transcripts``).
+requests are flown as the English planner plans them, and as a language model once did (``tests/data/transcripts``).
 """
 
 from __future__ import annotations

@@ -23,6 +23,8 @@ def demo(
     seed: SeedOption = 7,
 ) -> None:
     """Plan, approve, drive and judge a mission on the built-in orchard."""
+    import shutil
+
     from fieldhand.cli import show
     from fieldhand.cli.flight import Orders, fly
     from fieldhand.cli.inputs import open_ground, plan_or_read
@@ -35,6 +37,8 @@ def demo(
     orders = Orders(ask=False, by="demo", world=World(), seed=seed, folder=output)
     status = fly(ground, task, document, orders, planner=planner)
     show.heading("Try next")
+    if shutil.which("fieldhand") is None:
+        show.out.print("  . .venv/bin/activate")
     for line in (
         'fieldhand plan "Take pictures of the 5 oldest trees." --site demo',
         'fieldhand run "Measure CO2 at the middle tree. If it is low, take 2 pictures of nearby trees." --site demo',

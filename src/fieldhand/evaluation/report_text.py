@@ -175,7 +175,7 @@ def _decisions(events: Sequence[Event]) -> Iterable[str]:
     if not decided:
         return
     yield "## Conditions"
-    rows = "\n".join(f"- {escape(e.why)}: {'yes' if e.holds else 'no'}" for e in decided[:_MOST_ROWS])
+    rows = "\n".join(f"- at {clock_time(e.t)}: {escape(e.why)}" for e in decided[:_MOST_ROWS])
     more = len(decided) - _MOST_ROWS
     yield rows + (f"\n- and {more} more in the event log" if more > 0 else "")
 
