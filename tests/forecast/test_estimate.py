@@ -177,3 +177,22 @@ def test_the_rest_is_that_of_the_branch_that_takes_most_and_home_where_nothing_f
     )  # fmt: skip
     # It stands there already, and will have to come back.
     assert back.first == SITE.start
+
+
+def test_what_must_be_done_is_judged_without_what_may_be_left_out() -> None:
+    """A mandatory drive beyond the budget is a problem, even where an optional visit lies on its way for nothing."""
+    from fieldhand.planning.english.planner import EnglishPlanner
+    from fieldhand.planning.planner import Planned
+    from fieldhand.robot.loader import load_robot
+    from fieldhand.site.geojson import open_site
+
+    site, robot = open_site("demo"), load_robot("husky")
+
+    def problems(request: str) -> tuple[str, ...]:
+        outcome = EnglishPlanner().plan(request, site, robot)
+        assert isinstance(outcome, Planned)
+        return estimate(outcome.task, site, robot).problems
+
+    far = "Go to tree 100. Then take pictures of as many trees as you can without driving more than {} m."
+    assert any("what must be done" in sentence for sentence in problems(far.format(150)))
+    assert problems(far.format(400)) == ()

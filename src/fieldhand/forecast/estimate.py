@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +15,7 @@ from fieldhand.forecast.steps import Decision, Walk
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import ForEach
+from fieldhand.task.plan import AnyOrder, ForEach, If, Node, Repeat, Sequence, Try
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -141,12 +141,36 @@ def estimate(
     speed = speed_of(task.constraints, robot)
     estimates = tuple(_branch(w, resources, robot, speed, seed) for w in found.walks)
     worst = max(estimates, key=lambda b: (max(c.chance - c.accepted for c in b.chances), b.seconds.mean))
-    return Estimate(
-        branches=estimates,
-        worst=worst,
-        complete=found.complete,
-        problems=_problems(task, site, ways, resources, worst),
-    )
+    if worst.visits and any(c.exceeded for c in worst.chances):
+        # Optional visits can be left out, so what counts is whether the rest lasts without them.
+        problems = estimate(
+            mandatory_part(task), site, robot, seed, drives=ways, charge_percent=charge_percent
+        ).problems
+    else:
+        problems = _problems(task, site, ways, resources, worst)
+    return Estimate(branches=estimates, worst=worst, complete=found.complete, problems=problems)
+
+
+def mandatory_part(task: Task) -> Task:
+    """The Task without its optional visits."""
+    return replace(task, composition=replace(task.composition, plan=_without_optional(task.composition.plan)))
+
+
+def _without_optional(node: Node) -> Node:
+    match node:
+        case ForEach(optional=True):
+            return Sequence(id=node.id, steps=())
+        case Sequence() | AnyOrder():
+            return replace(node, steps=tuple(_without_optional(step) for step in node.steps))
+        case ForEach() | Repeat():
+            return replace(node, body=_without_optional(node.body))
+        case If():
+            other = None if node.otherwise is None else _without_optional(node.otherwise)
+            return replace(node, then=_without_optional(node.then), otherwise=other)
+        case Try():
+            return replace(node, body=_without_optional(node.body), otherwise=_without_optional(node.otherwise))
+        case _:
+            return node
 
 
 def draw_costs(legs_m: tuple[float, ...], alpha: float, rng: np.random.Generator, draws: int = DRAWS) -> Floats:
