@@ -3,7 +3,7 @@
 The rules, each of which the documentation shows with an example:
 
 * A command belongs to the "if" of its own sentence; a new sentence without an "if" goes back to the plan's own level.
-* An "if" stands behind the capture whose reading it tests: so an "if" on a reading that was itself conditional is nested.
+* An "if" stands behind the capture whose reading it tests: an "if" on a reading that was itself conditional is nested.
 * An "if" with no command behind it in its sentence holds the command before it ("measure CO2 if it is low").
 * A command without a place is done where the command before it was; at several places, at each of them.
 * "The same" is what was done at the last place: with its conditions, without the "if" that asks for the repetition.
@@ -11,38 +11,20 @@ The rules, each of which the documentation shows with an example:
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 from fieldhand.planning.english import draft as d
-from fieldhand.planning.english.arrange import Limit
-from fieldhand.planning.english.lexicon import Naming
-from fieldhand.planning.english.places import Found, Question, Unclear, find
-from fieldhand.planning.english.syntax import Object, Part
-from fieldhand.planning.english.tested import read_condition
+from fieldhand.planning.english import repeating
+from fieldhand.planning.english.cases import Cases
+from fieldhand.planning.english.counting import Wanted, counts_each
+from fieldhand.planning.english.faults import Question, spans_of, text_of, unclear
+from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.places import find
+from fieldhand.planning.english.syntax import Part
 from fieldhand.planning.english.tokens import Term
-from fieldhand.planning.planner import Reason
-from fieldhand.robot.model import RobotProfile
-from fieldhand.site.model import Site
+from fieldhand.planning.english.told import Homeward
 from fieldhand.task import selectors as s
 from fieldhand.task.frames import Then
-
-
-@dataclass
-class Told:
-    """What a request says, as far as it has been read.
-
-    Attributes:
-        root: The plan's own level.
-        limits: Budgets and reserves.
-        nominal: Where the robot is to end, if the request says it.
-        assumptions: What was assumed, as sentences.
-    """
-
-    root: d.Block = field(default_factory=d.Block)
-    limits: list[Limit] = field(default_factory=list)
-    nominal: Then | None = None
-    assumptions: list[str] = field(default_factory=list)
-
 
 COMMANDS = (
     "act_on_objects",
@@ -58,21 +40,16 @@ COMMANDS = (
     "more_places",
 )
 
+_ACTS = ("act_on_objects", "act_on_places", "act_bare", "more_objects", "more_places")
 
-class Discourse:
+
+def _waits(following: tuple[Part, ...]) -> bool:
+    """Whether what follows a place is done there: it has none of its own."""
+    return bool(following) and following[0].kind in _ACTS and following[0].places is None
+
+
+class Discourse(Cases):
     """Reads the parts of a request in order. One instance reads one request."""
-
-    def __init__(self, robot: RobotProfile, site: Site) -> None:
-        self.told = Told()
-        self._robot, self._site = robot, site
-        self._readings = 0
-        self._objects: tuple[tuple[str, int], ...] = ()  # actions and counts of the last command, for "another"
-        self._last_verb = ""
-        self._choice: d.Choice | None = None
-        self._loop: d.Loop | None = None  # the places that "each of them" and "there" may mean
-        self._sentence_steps: list[d.Step] = []
-        self._last_steps: list[d.Step] = []
-        self._scope = self.told.root
 
     def read(self, parts: tuple[Part, ...]) -> None:
         """Read one sentence.
@@ -80,32 +57,55 @@ class Discourse:
         Raises:
             Unclear, Question: Something in it means nothing here, or several things.
         """
-        if not (parts and parts[0].kind in ("otherwise", "failing")):
+        if parts[0].kind not in ("otherwise", "failing", "so"):
             self._scope = self.told.root
         self._sentence_steps = []
+        self._sentence_acts = False
+        if parts[0].kind != "otherwise":
+            self._sentence_choices = []
         for index, part in enumerate(parts):
             following = parts[index + 1 :]
             match part.kind:
+                case "act_bare" if len(part.terms) == 1 and following and following[0].kind == "question":
+                    continue  # "check | whether ..."
                 case "condition":
                     before = [p for p in parts[:index] if p.kind in COMMANDS and p.kind != "lead"]
                     ahead = next((p.kind for p in following if p.kind not in ("budget", "order")), "")
-                    self._condition(part, trailing=bool(before) and ahead in ("", "otherwise"))
+                    outer, trailing = self._scope, bool(before) and (ahead in ("", "otherwise") or part.bare)
+                    self._condition(part, trailing=trailing)
+                    if trailing and ahead not in ("", "otherwise"):
+                        self._scope = outer  # "take a picture if it is low and then return": the return is for all
+                case "question":
+                    self._condition(part, trailing=False)
+                    self._scope = self.told.root
+                case "so":
+                    self._so(part)
                 case "otherwise":
                     self._otherwise(part)
                 case "failing":
                     self._failing(part)
                 case "budget":
                     self.told.limits.extend(t.value for t in part.terms)
+                case "distinct":
+                    self._distinct(part)
                 case "order":
                     self._order(part)
+                case "lead" if self._sentence_acts and not _waits(following):
+                    self._read_command(replace(part, kind="more_places"))
+                case "lead" if not any(p.kind in (*COMMANDS, "condition", "question") for p in following) or (
+                    following[0].kind == "lead"
+                ):
+                    raise unclear(part.terms, "it does not say what to do there")
                 case _:
-                    steps_before = {id(step) for step, _ in d.walk(self.told.root)}
-                    self._command(part)
-                    new = [st for st, _ in d.walk(self.told.root) if id(st) not in steps_before]
-                    self._last_steps = new or self._last_steps
-                    self._sentence_steps += new
+                    self._read_command(part)
 
-    # Commands
+    def _read_command(self, part: Part) -> None:
+        before = {id(step) for step, _ in d.walk(self.told.root)}
+        self._command(part)
+        new = [step for step, _ in d.walk(self.told.root) if id(step) not in before]
+        self._last_steps = new or self._last_steps
+        self._sentence_steps += new
+        self._sentence_acts = self._sentence_acts or part.kind in _ACTS
 
     def _command(self, part: Part) -> None:
         match part.kind:
@@ -135,23 +135,32 @@ class Discourse:
         if part.objects:
             self._act(part, self._wanted(part.objects, part))
             return
-        assert part.places is not None
-        found = find(part.places, self._site)
-        objects = self._wanted((), part)
-        if found.object_only:
-            objects = tuple((action, found.counted or count) for action, count in objects[:1])
-            first = part.places.chains[0]
-            where = replace(part, places=None, relation=None)
-            if len(first.phrases) > 1:
-                rest = replace(first, phrases=first.phrases[1:], relations=first.relations[1:])
-                where = replace(
-                    part,
-                    places=replace(part.places, chains=(rest, *part.places.chains[1:])),
-                    relation=first.relations[0],
-                )
-            self._act(where, objects)
+        elided = self._elided(part)
+        if elided is not None:
+            self._act(elided[0], elided[1])
             return
-        self._act(part, objects)
+        self._act(part, self._wanted((), part))
+
+    def _elided(self, part: Part) -> tuple[Part, Wanted] | None:
+        """ "Another", "two in the western half": of what, the command before says. None if the part names trees."""
+        if part.places is None or not find(part.places, self._site).object_only:
+            return None
+        if any(t.kind == "THERE" for t in part.tails):
+            raise unclear(part.terms, "which of them is not clear", "say how many trees in one sentence")
+        found = find(part.places, self._site)
+        if len(part.places.chains) > 1:
+            raise unclear(part.terms, "of what is not clear", "say each in a sentence of its own")
+        if len({action for action, _ in self._objects}) > 1:
+            names = tuple(action.replace("_", " ") for action, _ in self._objects)
+            raise Question(f"'{text_of(part.terms)}': another of which?", names)
+        wanted = self._wanted((), part)
+        objects = tuple((action, found.counted or count) for action, count in wanted[:1])
+        first = part.places.chains[0]
+        if len(first.phrases) == 1:
+            return replace(part, places=None, relation=None), objects
+        rest = replace(first, phrases=first.phrases[1:], relations=first.relations[1:])
+        places = replace(part.places, chains=(rest,))
+        return replace(part, places=places, relation=first.relations[0]), objects
 
     def _more_places(self, part: Part) -> None:
         """ "..., then the north-east corner": what was done before, there."""
@@ -159,139 +168,41 @@ class Discourse:
             self._go(part)
             return
         if not self._objects:
-            raise self._unclear(part, "it does not say what to do there")
+            raise unclear(part.terms, "it does not say what to do there")
+        elided = None if part.relation is not None else self._elided(part)
+        if elided is not None:
+            self._act(elided[0], elided[1])
+            return
         self._act(part, self._objects)
 
-    def _act(self, part: Part, wanted: tuple[tuple[str, int | None], ...]) -> None:
+    def _act(self, part: Part, wanted: Wanted) -> None:
         """Captures at a place, at several, or where the robot is."""
         found = None if part.places is None else self._related(part)
+        if found is not None and not found.here and any(t.kind == "THERE" for t in part.tails):
+            raise unclear(part.terms, "which of them is not clear", "name the trees, or say how many in one sentence")
+        if found is not None and found.object_only:  # "at yet another one"
+            number = found.counted or 1
+            found = Found(selector=s.Take(count=number, of=s.Other()), many=number > 1, counted=number)
+        if found is None and self._loop is None and any(t.kind == "ASMANY" for o in part.objects for t in o.quantity):
+            found = Found(selector=s.Trees(), many=True)
+        if found is not None and found.all_or_these and self._loop is not None:
+            found = replace(found, here=True, these=True)
         block, at, each = self._where(found, part, wanted)
         times = next((int(t.value) for t in part.tails if t.kind == "COUNT"), 1)
+        self._commands += 1
         done: list[tuple[str, int]] = []
         for index, (action, count) in enumerate(wanted):
-            captures = (1 if each and not self._counts_each(found, part) else count or 1) * times
-            step = d.Capture(action=action, at=at if index == 0 else None, count=captures, said=part.said)
+            captures = (1 if each and not counts_each(found, part) else count or 1) * times
+            said = spans_of([t for t in part.terms if not self._of_another(t, index, part)])
+            step = d.Capture(action=action, at=at if index == 0 else None, count=captures, said=said)
+            step.command = self._commands
             block.add(step)
             done.append((action, captures))
         self._objects = tuple(done)
 
-    def _related(self, part: Part) -> Found:
-        """The places of a part, with the relation that ties them to its verb."""
-        assert part.places is not None
-        found = find(part.places, self._site)
-        self.told.assumptions += found.assumptions
-        relation = part.relation
-        if relation is None or found.here or relation.kind in ("OF", "AT", "FROM", "FOR", "WITH", "INSIDE"):
-            return found
-        plain = find(part.places, self._site).selector
-        match relation.kind:
-            case "NEXTTO":
-                return Found(selector=s.Nearest(to=plain, adjacent=True))
-            case "NEAR" if isinstance(plain, s.Middle | s.EdgeMiddle):
-                return found
-            case "NEAR":
-                return Found(selector=s.Nearest(to=plain))
-            case "WITHIN":
-                return Found(selector=s.Within(distance_m=relation.value, to=plain), many=True, region=True)
-            case "OUTSIDE" | "EXCEPT":
-                other = replace(plain, outside=True) if isinstance(plain, s.InZone) else s.Excluding(places=plain)
-                return Found(selector=other, many=True, region=True)
-            case _:
-                raise self._unclear(part, f"'{relation.text}' does not fit there")
-
-    def _counts_each(self, found: Found | None, part: Part) -> bool:
-        """Whether a count is meant at each place ("2 pictures at each corner") rather than in all."""
-        return (found is not None and found.each) or any(t.kind == "EACHTAIL" for t in part.tails)
-
-    def _where(
-        self, found: Found | None, part: Part, wanted: tuple[tuple[str, int | None], ...]
-    ) -> tuple[d.Block, s.Selector | None, bool]:
-        """The block that captures belong to, the place they name, and whether that is one of several places."""
-        there = any(t.kind == "THERE" for t in part.tails)
-        if found is None or found.here or there:
-            return self._here(part, found, there)
-        found = self._counted(found, part, wanted)
-        if not found.many:
-            self._loop = None
-            return self._scope, found.selector, False
-        loop = self._add_loop(found, part)
-        return loop.body, None, True
-
-    def _counted(self, found: Found, part: Part, wanted: tuple[tuple[str, int | None], ...]) -> Found:
-        """A number of captures and a kind of place: "2 pictures of nearby trees" are two trees."""
-        count = wanted[0][1] if wanted else None
-        plural = bool(part.objects) and part.objects[0].noun.plural
-        as_many = any(t.kind == "ASMANY" for o in part.objects for t in o.quantity)
-        if as_many:
-            return replace(found, many=True, optional=True)
-        if found.each or found.optional or found.at_most is not None or self._counts_each(found, part):
-            return found
-        if found.region:
-            if count is None and plural:
-                return found if not isinstance(found.selector, s.Trees) else self._ask_how_many(part)
-            number = count or 1
-            return Found(selector=s.Take(count=number, of=found.selector), many=number > 1, counted=number)
-        if found.many and found.counted is None and count is not None and count > 1:
-            selector = found.selector
-            if isinstance(selector, s.Nearest):
-                return replace(found, selector=replace(selector, count=count), counted=count)
-            if isinstance(selector, s.Corners | s.Union):
-                size = len(selector.which) if isinstance(selector, s.Corners) else len(selector.parts)
-                if size == count:
-                    return found
-                raise Question(
-                    f"{count} captures at {size} places: {count} at each, or {count} in all?",
-                    (f"{count} at each", f"{count} in all"),
-                )
-            return Found(selector=s.Take(count=count, of=selector), many=True, counted=count)
-        if found.many and found.counted is not None and count is not None and count not in (1, found.counted):
-            raise Question(
-                f"{count} captures at {found.counted} trees: {count} at each of them, or {count} in all?",
-                (f"{count} at each of them", f"{count} in all"),
-            )
-        if found.many and found.counted is None and isinstance(found.selector, s.Nearest):
-            raise Question("how many trees nearby?", ("2", "3", "4"))
-        return found
-
-    def _ask_how_many(self, part: Part) -> Found:
-        raise Question(f"'{self._text(part)}': at every tree, or at how many?", ("at every tree", "at 4 trees"))
-
-    def _add_loop(self, found: Found, part: Part) -> d.Loop:
-        given = any(t.kind == "INORDER" for t in part.tails)
-        loop = d.Loop(
-            select=found.selector,
-            body=d.Block(),
-            order="given" if given else "best",
-            optional=found.optional,
-            at_most=found.at_most,
-            reward=found.reward,
-            said=part.said,
-        )
-        self._scope.add(loop)
-        self._loop = loop
-        return loop
-
-    def _here(self, part: Part, found: Found | None, there: bool) -> tuple[d.Block, s.Selector | None, bool]:
-        """Captures without a place of their own."""
-        loop = self._loop
-        if loop is None or not self._within(loop.body, self.told.root):
-            return self._scope, None, False
-        if self._within(self._scope, loop.body):
-            return self._scope, None, False
-        each = (found is not None and found.here) or there
-        if not loop.body.steps or each or (loop in self._sentence_steps and not part.then):
-            return loop.body, None, bool(found is not None and found.each)
-        raise Question(
-            f"'{self._text(part)}': at each of the places before it, or only at the last one?",
-            ("at each of them", "only at the last one"),
-        )
-
-    def _within(self, block: d.Block | None, outer: d.Block) -> bool:
-        while block is not None:
-            if block is outer:
-                return True
-            block = block.parent
-        return False
+    def _of_another(self, term: Term, index: int, part: Part) -> bool:
+        """Whether a term names another capture of the same command."""
+        return any(term in thing.terms for k, thing in enumerate(part.objects) if k != index) or term.kind == "JOIN"
 
     def _go(self, part: Part) -> None:
         if part.places is None:
@@ -324,31 +235,34 @@ class Discourse:
 
     def _lead(self, part: Part) -> None:
         """ "At each corner, ...": the place of what follows."""
-        assert part.places is not None
         if part.relation is not None and part.relation.kind == "FROM" and not self.told.root.steps:
             found = self._related(part)
             if found.selector == s.Marker(name="start"):
                 return
         if part.relation is not None and part.relation.kind == "EXCEPT":
-            raise self._unclear(part, "an exception must stand right behind what it is taken from")
+            raise unclear(part.terms, "an exception must stand right behind what it is taken from")
         found = self._related(part)
         if found.object_only:
-            raise self._unclear(part, "a place was expected")
+            raise unclear(part.terms, "a place was expected")
         self._go(replace(part, kind="visit"))
 
     def _come_back(self, part: Part) -> None:
         then, place = self._home(part)
-        if self._scope is self.told.root:
+        if self._scope is self.told.root and not self.told.root.steps and place is None:
+            self.told.nominal = then  # "come back when done: photograph tree 5"
+            self.told.first = True
+        elif self._scope is self.told.root:
             self.told.nominal = then
-            self._exit_place = place
             if place is not None:
                 self._scope.add(d.Go(place=place, said=part.said))
                 self.told.nominal = "stay"
             else:
-                self._scope.add(_Exit(said=part.said, then=then))
+                self._scope.add(Homeward(said=part.said, then=then))
         else:
             marker = place or s.Marker(name="start" if then == "return_to_start" else "end")
-            self._scope.add(d.Go(place=marker, said=part.said))
+            self.told.in_case = then if place is None else None
+            if not (self._scope.steps and isinstance(self._scope.steps[-1], d.Halt)):
+                self._scope.add(d.Go(place=marker, said=part.said))
         self._loop = None
 
     def _home(self, part: Part) -> tuple[Then, s.Selector | None]:
@@ -360,237 +274,56 @@ class Discourse:
                 return "return_to_end", None
             return "stay", selector
         if "start" in self._site.markers or "end" not in self._site.markers:
-            self.told.assumptions.append(f"'{self._text(part)}' means back to the start.")
+            self.told.assumptions.append(f"'{text_of(part.terms)}' means back to the start.")
             return "return_to_start", None
         return "return_to_end", None
 
-    # Conditions
-
-    def _condition(self, part: Part, *, trailing: bool) -> None:
-        captures = [(step, block) for step, block in d.walk(self.told.root) if isinstance(step, d.Capture)]
-        held = self._last_steps if trailing else []
-        if trailing:
-            captures = [(cap, block) for cap, block in captures if cap not in held]
-        tested = read_condition(part.terms[1:], captures, self._robot, self._site)
-        block = self._scope
-        capture = tested.capture
-        if tested.missing:
-            if trailing:
-                raise self._unclear(part, "nothing before it measures that", "measure first, then test")
-            capture = d.Capture(action=tested.missing, said=part.said)
-            block = self._here(part, None, False)[0]
-            block.add(capture)
-            self.told.assumptions.append(
-                f"'{self._text(part)}' is measured first ({tested.missing.replace('_', ' ')}), where the robot is then."
-            )
-        elif capture is not None:
-            block = next(b for cap, b in captures if cap is capture)
-        elif self._loop is not None and self._within(self._loop.body, self.told.root):
-            block = self._loop.body
-        if capture is not None and not capture.reading:
-            self._readings += 1
-            capture.reading = f"r{self._readings}"
-        choice = d.Choice(
-            condition=tested.condition(capture.reading if capture is not None else ""), then=d.Block(), said=part.said
-        )
-        block.add(choice)
-        if trailing:
-            self._move(held, choice.then)
-        self._choice = choice
-        self._scope = choice.then
-
-    def _move(self, steps: list[d.Step], into: d.Block) -> None:
-        inner = {id(st) for step in steps for b in d.blocks_of(step) for st, _ in d.walk(b)}
-        for step in steps:
-            if id(step) in inner:
-                continue
-            holder = next(b for st, b in d.walk(self.told.root) if st is step)
-            holder.steps.remove(step)
-            into.add(step)
-
-    def _otherwise(self, part: Part) -> None:
-        choice = self._choice
-        if choice is None:
-            raise self._unclear(part, "there is no 'if' before it")
-        if choice.otherwise is not None:
-            raise self._unclear(part, "the 'if' before it has an 'otherwise' already")
-        choice.otherwise = d.Block(parent=choice.then.parent)
-        self._scope = choice.otherwise
-
-    def _failing(self, part: Part) -> None:
-        steps = [st for st in self._last_steps]
-        if not steps:
-            raise self._unclear(part, "there is nothing before it that could fail")
-        holder = next(b for st, b in d.walk(self.told.root) if st is steps[0])
-        attempt = d.Attempt(body=d.Block(), fallback=d.Block(), said=part.said)
-        place = holder.steps.index(steps[0])
-        self._move(steps, attempt.body)
-        holder.steps.insert(place, attempt)
-        attempt.body.parent = attempt.fallback.parent = holder
-        self._scope = attempt.fallback
+    def _distinct(self, part: Part) -> None:
+        """ "Each at a different tree": what a number of captures in an area means anyway."""
+        select = self._loop.select if self._loop is not None else None
+        if not isinstance(select, s.Take | s.Top | s.Extreme | s.Nearest | s.Adjacent | s.Corners | s.Union):
+            raise unclear(part.terms, "it is not clear how many trees that are", "say how many trees, and where")
 
     def _order(self, part: Part) -> None:
         if self._loop is not None:
             self._loop.order = "given" if part.terms[0].kind == "INORDER" else "best"
 
-    # Repeating
-
     def _repeat(self, part: Part) -> None:
         """ "Do the same": what was done at the last place, at the place that this sentence has gone to."""
         sentence = {id(step) for step in self._sentence_steps}
         old = [st for st in self.told.root.steps if id(st) not in sentence]
+        if not old:  # "take a picture at A, then go to B and do the same": B is all that is new
+            steps = self.told.root.steps
+            split = len(steps) - 1 if steps and isinstance(steps[-1], d.Go) else len(steps)
+            old, sentence = steps[:split], {id(st) for st in steps[split:]}
+        passage = repeating.last_passage(old)
         times = next((int(t.value) for t in part.tails if t.kind == "COUNT"), None)
-        start = next((i for i in range(len(old) - 1, -1, -1) if _has_place(old[i])), 0)
-        passage = d.Block(steps=old[start:])
         if not passage.steps:
-            raise self._unclear(part, "there is nothing before it to repeat")
-        made = d.copy_block(passage, lambda st: id(st) not in sentence, {}, self._fresh)
+            raise unclear(part.terms, "there is nothing before it to repeat")
+        made = repeating.copied(passage, lambda st: id(st) not in sentence, self._fresh)
         found = None if part.places is None else self._related(part)
         if found is not None and not found.here:
-            self._without_place(made, part)
+            repeating.without_place(made, part)
             if found.many:
                 loop = self._add_loop(found, part)
-                self._append(made, loop.body)
+                repeating.append(made, loop.body)
             else:
                 self._scope.add(d.Go(place=found.selector, said=part.said))
-                self._append(made, self._scope)
+                repeating.append(made, self._scope)
             return
         new = [st for st in self._scope.steps if id(st) in sentence] or (
             [self._loop] if self._loop is not None and id(self._loop) in sentence else []
         )
         if not new:
             if times is None:
-                raise Question(f"'{self._text(part)}': where?", ("at another tree", "at the same place"))
+                raise Question(f"'{text_of(part.terms)}': where?", ("at another tree", "at the same place"))
             body = d.Block()
-            self._append(made, body)
+            repeating.append(made, body)
             self._scope.add(d.Times(times=times, body=body, said=part.said))
             return
-        self._without_place(made, part)
+        repeating.without_place(made, part)
         last = new[-1]
         if isinstance(last, d.Loop):
-            self._continue(made, last.body)
+            repeating.continue_with(made, last.body)
         else:
-            self._continue(made, self._scope)
-
-    def _continue(self, made: d.Block, scope: d.Block) -> None:
-        """Append a copied passage; its first capture may have been asked for again at the new place."""
-        first = made.steps[0]
-        last = scope.steps[-1] if scope.steps else None
-        if isinstance(first, d.Capture) and isinstance(last, d.Capture) and last.action == first.action:
-            if first.reading:
-                last.reading = last.reading or first.reading
-                names = {first.reading: last.reading}
-                for step, _ in d.walk(made):
-                    if isinstance(step, d.Choice):
-                        step.condition = d.rename(step.condition, names)
-            made.steps = made.steps[1:]
-        self._append(made, scope)
-
-    def _append(self, made: d.Block, scope: d.Block) -> None:
-        for step in made.steps:
-            scope.add(step)
-
-    def _without_place(self, made: d.Block, part: Part) -> None:
-        """A copied passage begins at the new place instead of its own."""
-        first = made.steps[0]
-        match first:
-            case d.Go():
-                made.steps = made.steps[1:]
-                if not made.steps:
-                    raise self._unclear(part, "there is nothing before it to repeat")
-            case d.Capture():
-                first.at = None
-            case d.Loop(select=s.Adjacent() as select):
-                first.select = replace(select, near=s.Here())
-            case d.Loop(select=s.Nearest() as select):
-                first.select = replace(select, to=s.Here())
-            case d.Loop(body=body):
-                made.steps = [*body.steps, *made.steps[1:]]
-            case _:
-                pass
-
-    def _fresh(self) -> str:
-        self._readings += 1
-        return f"r{self._readings}"
-
-    # Words
-
-    def _wanted(self, objects: tuple[Object, ...], part: Part) -> tuple[tuple[str, int | None], ...]:
-        """The actions that a command asks for, each with its number if one is said."""
-        if objects:
-            return tuple((self._action(o.noun, part), _count(o)) for o in objects)
-        verb = part.verb
-        if verb is not None and isinstance(verb.value, Naming):
-            return ((verb.value.actions[0], None),)
-        if self._objects:
-            return tuple((action, None) for action, _ in self._objects)
-        if len(self._robot.actions) == 1:
-            return ((self._robot.actions[0].name, None),)
-        raise Question(
-            f"'{self._text(part)}': what should be taken?", tuple(a.words[0] for a in self._robot.actions if a.words)
-        )
-
-    def _action(self, noun: Term, part: Part) -> str:
-        if noun.kind == "READING":
-            measuring = [a for a in self._robot.actions if a.measures]
-            if len(measuring) == 1:
-                return measuring[0].name
-            if self._objects:
-                return self._objects[-1][0]
-            raise Question(f"'{self._text(part)}': a reading of what?", tuple(a.words[0] for a in measuring if a.words))
-        naming: Naming = noun.value
-        if not naming.actions:
-            raise self._unclear(part, f"{self._robot.name} has no action for '{noun.text}'")
-        return naming.actions[0]
-
-    def _text(self, part: Part) -> str:
-        return " ".join(t.text for t in sorted(part.terms, key=lambda t: t.start) if t.text)
-
-    def _unclear(self, part: Part, what: str, advice: str = "say it in other words") -> Unclear:
-        return Unclear(Reason(what=f"'{self._text(part)}': {what}", said=part.said, advice=advice))
-
-
-@dataclass(eq=False)
-class _Exit(d.Halt):
-    """A return that the request asks for at the plan's own level: the nominal exit if nothing follows it, else a drive."""
-
-    then: Then = "return_to_end"
-
-
-def settle_exits(told: Told) -> None:
-    """Make the returns of the plan's own level drives, but for the last, which is the nominal exit.
-
-    Returns:
-        None; ``told`` is changed.
-    """
-    steps = told.root.steps
-    for index, step in enumerate(steps):
-        if isinstance(step, _Exit) and index < len(steps) - 1:
-            steps[index] = d.Go(
-                place=s.Marker(name="start" if step.then == "return_to_start" else "end"), said=step.said
-            )
-            told.nominal = None
-    if steps and isinstance(steps[-1], _Exit):
-        told.nominal = steps[-1].then
-        steps.pop()
-    while len(steps) > 1 and type(steps[-1]) is d.Halt:
-        steps.pop()  # a plan ends at its end
-
-
-def _has_place(step: d.Step) -> bool:
-    match step:
-        case d.Go() | d.Loop():
-            return True
-        case d.Capture(at=at):
-            return at is not None
-        case d.Attempt(body=body):
-            return bool(body.steps) and _has_place(body.steps[0])
-        case _:
-            return False
-
-
-def _count(thing: Object) -> int | None:
-    number = next((int(t.value) for t in thing.quantity if t.kind == "NUM"), None)
-    if number is None and any(t.kind in ("DET", "ANOTHER") for t in thing.quantity) and not thing.noun.plural:
-        return None
-    return number
+            repeating.continue_with(made, self._scope)

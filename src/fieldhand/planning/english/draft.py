@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from fieldhand.task import conditions as c
@@ -43,6 +43,7 @@ class Capture:
     count: int = 1
     reading: str = ""
     said: tuple[Span, ...] = ()
+    command: int = 0  # captures that one command asks for have the same number; 0: asked for by none
 
 
 @dataclass(eq=False)
@@ -54,7 +55,6 @@ class Loop:
     order: Literal["best", "given"] = "best"
     optional: bool = False
     at_most: int | None = None
-    reward: str = ""
     said: tuple[Span, ...] = ()
 
 
@@ -130,20 +130,10 @@ def copy_block(block: Block, keep: Callable[[Step], bool], renamed: dict[str, st
                 reading = ""
                 if step.reading:
                     reading = renamed[step.reading] = fresh()
-                made.add(Capture(action=step.action, at=step.at, count=step.count, reading=reading, said=step.said))
+                made.add(replace(step, reading=reading))
             case Loop():
                 body = copy_block(step.body, keep, renamed, fresh)
-                made.add(
-                    Loop(
-                        select=step.select,
-                        body=body,
-                        order=step.order,
-                        optional=step.optional,
-                        at_most=step.at_most,
-                        reward=step.reward,
-                        said=step.said,
-                    )
-                )
+                made.add(replace(step, body=body))
             case Times():
                 made.add(Times(times=step.times, body=copy_block(step.body, keep, renamed, fresh), said=step.said))
             case Choice():
@@ -162,8 +152,6 @@ def copy_block(block: Block, keep: Callable[[Step], bool], renamed: dict[str, st
 
 def rename(condition: c.Condition, renamed: dict[str, str]) -> c.Condition:
     """A condition on the readings of a copy."""
-    from dataclasses import replace
-
     match condition:
         case c.Compare() | c.Between() | c.Level():
             return replace(condition, reading=renamed.get(condition.reading, condition.reading))
@@ -196,14 +184,12 @@ def _node(step: Step) -> p.Node:
                 order=step.order,
                 optional=step.optional,
                 at_most=step.at_most,
-                reward=step.reward,
                 said=step.said,
             )
         case Times():
             return p.Repeat(id="", times=step.times, body=node_of(step.body), said=step.said)
         case Choice():
-            if not step.then.steps:
-                assert step.otherwise is not None
+            if not step.then.steps and step.otherwise is not None:
                 return p.If(
                     id="", condition=c.Not(condition=step.condition), then=node_of(step.otherwise), said=step.said
                 )

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 
 from fieldhand.errors import PlaceError, RequestError, TaskError
-from fieldhand.planning.english.arrange import Arranged, Limit, arrange
-from fieldhand.planning.english.discourse import Discourse, Told, settle_exits
-from fieldhand.planning.english.draft import node_of
+from fieldhand.planning.english.arrange import Arranged, arrange
+from fieldhand.planning.english.discourse import Discourse
+from fieldhand.planning.english.draft import Halt, node_of
+from fieldhand.planning.english.faults import Question, Unclear
 from fieldhand.planning.english.lexicon import Lexicon, lexicon_for
-from fieldhand.planning.english.places import Question, Unclear
+from fieldhand.planning.english.limits import Limit
 from fieldhand.planning.english.syntax import NotParsed, parse
-from fieldhand.planning.english.tokens import Term, words_of
+from fieldhand.planning.english.tokens import Term, Word, words_of
+from fieldhand.planning.english.told import Told, settle
 from fieldhand.planning.planner import Clarify, Outcome, Planned, Reason, Refused
 from fieldhand.robot.capabilities import measures_of
 from fieldhand.robot.model import RobotProfile
@@ -22,7 +25,7 @@ from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
 from fieldhand.task.codec_text import unwritable_character
 from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource, Then
-from fieldhand.task.selectors import Marker, is_relative, walk
+from fieldhand.task.selectors import Bound, Here, Marker, Nearest, Other, Selector, is_relative, walk
 
 NAME = "english"
 #: A request longer than this is no request. Nothing but reading it takes time, and that grows with its length.
@@ -44,18 +47,20 @@ class EnglishPlanner:
         """
         _check_text(request)
         lexicon = lexicon_for(robot, site)
-        terms = lexicon.terms(words_of(request))
+        words = words_of(request)
+        terms = lexicon.terms(words)
         unknown = _unknown(terms, lexicon)
         if unknown:
             return Refused(reasons=unknown, planner=NAME)
-        arranged = arrange(terms, request)
         try:
+            arranged = arrange(terms, request)
+            _all_accounted(words, arranged)
             told = _told(arranged, request, robot, site)
+            return _planned(request, told, site, robot)
         except Unclear as unclear:
             return Refused(reasons=(unclear.reason,), planner=NAME)
         except Question as question:
             return Clarify(question=question.question, choices=question.choices, planner=NAME)
-        return _planned(request, told, arranged, site, robot)
 
 
 def _check_text(request: str) -> None:
@@ -75,10 +80,8 @@ def _check_text(request: str) -> None:
 
 def _unknown(terms: Sequence[Term], lexicon: Lexicon) -> tuple[Reason, ...]:
     """A reason for each word that is not known, and for what is known but cannot be done yet."""
-    reasons: list[Reason] = []
-    for term in terms:
-        if term.kind == "NOTYET":
-            reasons.append(Reason(what=f"'{term.text}': {term.value}", said=(term.span,)))
+    known = [t for t in terms if t.kind == "NOTYET"]
+    reasons = [Reason(what=f"'{t.text}' is not possible yet", said=(t.span,), advice=str(t.value)) for t in known]
     strange = [t for t in terms if t.kind == "UNKNOWN"]
     if strange:
         words = ", ".join(f"'{t.text}'" for t in strange[:12])
@@ -91,6 +94,19 @@ def _unknown(terms: Sequence[Term], lexicon: Lexicon) -> tuple[Reason, ...]:
     return tuple(reasons)
 
 
+def _all_accounted(words: Sequence[Word], arranged: Arranged) -> None:
+    """Every word has to stand in a sentence, or among those that are known to mean nothing.
+
+    Raises:
+        Unclear: One does not: it would be dropped in silence.
+    """
+    spans = [*arranged.filler, *(t.span for s in arranged.sentences for t in s.terms)]
+    lost = [w for w in words if not any(start <= w.start and w.end <= end for start, end in spans)]
+    if lost:
+        text = " ".join(w.text for w in lost)
+        raise Unclear(Reason(what=f"'{text}' could not be placed", said=tuple((w.start, w.end) for w in lost)))
+
+
 def _told(arranged: Arranged, request: str, robot: RobotProfile, site: Site) -> Told:
     discourse = Discourse(robot, site)
     for sentence in arranged.sentences:
@@ -98,7 +114,7 @@ def _told(arranged: Arranged, request: str, robot: RobotProfile, site: Site) -> 
         if isinstance(parts, NotParsed):
             raise Unclear(_misfit(parts, request))
         discourse.read(parts)
-    settle_exits(discourse.told)
+    settle(discourse.told)
     for reason in arranged.reasons:
         discourse.told.assumptions.append(f"'{reason}' is taken as a reason, not as something to do.")
     return discourse.told
@@ -108,16 +124,15 @@ def _misfit(wrong: NotParsed, request: str) -> Reason:
     start, end = wrong.said
     sentence = request[start:end]
     short = sentence if len(sentence) <= 120 else sentence[:117] + "..."
-    return Reason(
-        what=f"'{wrong.term.text}' does not fit where it stands in '{short}'",
-        said=(wrong.term.span,),
-        advice="say it in shorter sentences, one thing after the other",
-    )
+    advice = "say it in shorter sentences, one thing after the other"
+    if wrong.term.kind in ("WITHOUT", "NOT", "ISNOT"):
+        advice = "the robot does only what is asked of it: leave out what it is not to do, or say 'except'"
+    what = f"'{wrong.term.text}' does not fit where it stands in '{short}'"
+    return Reason(what=what, said=(wrong.term.span,), advice=advice)
 
 
-def _planned(request: str, told: Told, arranged: Arranged, site: Site, robot: RobotProfile) -> Outcome:
-    del arranged
-    if not told.root.steps:
+def _planned(request: str, told: Told, site: Site, robot: RobotProfile) -> Outcome:
+    if all(isinstance(step, Halt) for step in told.root.steps):
         reason = Reason(
             what="the request asks for nothing to be done", advice="say what to take or measure, and at which trees"
         )
@@ -155,6 +170,7 @@ def _constraints(limits: Iterable[Limit]) -> Constraints:
     budgets: dict[BudgetKind, float] = {}
     reserve: float | None = None
     for limit in limits:
+        _check(limit)
         if limit.keep:
             reserve = max(limit.amount, reserve or 0.0)
         else:
@@ -163,6 +179,13 @@ def _constraints(limits: Iterable[Limit]) -> Constraints:
     return Constraints(
         budgets=tuple(Budget(kind=kind, limit=amount) for kind, amount in budgets.items()), reserve_percent=reserve
     )
+
+
+def _check(limit: Limit) -> None:
+    most = 100.0 if limit.unit == "percent" else math.inf
+    if not 0.0 < limit.amount <= most:
+        what = f"a limit of {limit.amount:g} {limit.unit} cannot be kept"
+        raise Unclear(Reason(what=what, advice="say a number above 0, at most 100 for percent of the battery"))
 
 
 def _impossible(plan: p.Node, site: Site) -> Iterable[Reason]:
@@ -183,10 +206,7 @@ def _impossible(plan: p.Node, site: Site) -> Iterable[Reason]:
             yield Reason(what=error.what, said=node.said, advice=error.advice)
 
 
-def _only_takes(selector: object) -> bool:
-    from fieldhand.task.selectors import Bound, Here, Nearest, Other, Selector
-
-    assert isinstance(selector, Selector)
+def _only_takes(selector: Selector) -> bool:
     return not any(
         isinstance(part, Here | Bound | Other) or (isinstance(part, Nearest) and part.fresh) for part in walk(selector)
     )

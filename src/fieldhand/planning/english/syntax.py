@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib.resources import files
 from typing import Any
 
-from fieldhand.planning.english.arrange import Break, Sentence
+from fieldhand.planning.english.arrange import Sentence
+from fieldhand.planning.english.faults import spans_of
+from fieldhand.planning.english.separators import Break
 from fieldhand.planning.english.tokens import Term
 from fieldhand.task.plan import Span
 
@@ -76,6 +78,7 @@ class Part:
     Attributes:
         kind: Name of the grammar's rule.
         then: "then" stands before it.
+        bare: No comma, "and" or "then" stands before it.
         verb: Its verb, if it has one.
         objects: What to capture.
         places: Where.
@@ -87,6 +90,7 @@ class Part:
     kind: str
     terms: tuple[Term, ...]
     then: bool = False
+    bare: bool = False
     verb: Term | None = None
     objects: tuple[Object, ...] = ()
     places: Places | None = None
@@ -96,8 +100,7 @@ class Part:
     @property
     def said(self) -> tuple[Span, ...]:
         """Where it stands in the request."""
-        spans = [t.span for t in self.terms if t.end > t.start]
-        return ((min(s for s, _ in spans), max(e for _, e in spans)),) if spans else ()
+        return spans_of(self.terms)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,21 +121,33 @@ def parse(sentence: Sentence) -> tuple[Part, ...] | NotParsed:
     tokens = [Token(t.kind, t) for t in terms]
     whole = (terms[0].start, terms[-1].end)
     try:
-        tree = _parser().parse(tokens)
+        tree = _parser().parse(tokens, start="start")
     except UnexpectedInput as error:
         token = getattr(error, "token", None)
         term = token.value if token is not None and isinstance(token.value, Term) else terms[-1]
         return NotParsed(term=term, said=whole)
     parts: list[Part] = []
-    then = sentence.then
+    then, bare = sentence.then, False
     for child in tree.children:
         if isinstance(child, Token):
             brk: Break = child.value.value
-            then = brk.then
+            then, bare = brk.then, not child.value.text
             continue
-        parts.append(_part(child, then))
-        then = False
+        parts.append(replace(_part(child, then), bare=bare))
+        then = bare = False
     return tuple(parts)
+
+
+def parse_places(terms: tuple[Term, ...]) -> Places | None:
+    """Terms as places; None if they are none."""
+    from lark import Token
+    from lark.exceptions import UnexpectedInput
+
+    try:
+        tree = _parser().parse([Token(t.kind, t) for t in terms], start="places")
+    except UnexpectedInput:
+        return None
+    return _places(tree)
 
 
 @cache
@@ -146,11 +161,12 @@ def _parser() -> Any:
         def __init__(self, conf: Any) -> None:
             pass
 
-        def lex(self, data: Any) -> Iterator[Any]:
+        # Lark hands a lexer of this older form the data alone, whatever its base class declares.
+        def lex(self, data: Any) -> Iterator[Any]:  # type: ignore[override]
             yield from data
 
     grammar = (files("fieldhand.planning.english") / "grammar.lark").read_text(encoding="utf-8")
-    return Lark(grammar, parser="lalr", lexer=Terms, maybe_placeholders=False)
+    return Lark(grammar, parser="lalr", lexer=Terms, start=["start", "places"], maybe_placeholders=False)
 
 
 def _terms(tree: Any) -> tuple[Term, ...]:

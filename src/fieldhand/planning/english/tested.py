@@ -1,200 +1,219 @@
-"""Conditions: "if that reading is below 33 °C", "if it is low", "where the tree is yellow"."""
+"""Conditions: "if that reading is below 33 °C", "if the CO2 at tree 4 is low", "if the tree is yellow"."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from fieldhand.planning.english.draft import Block, Capture
-from fieldhand.planning.english.lexicon import Naming
-from fieldhand.planning.english.places import Question, Unclear
+from fieldhand.planning.english.attributes import OPPOSITE, hinted, number_of
+from fieldhand.planning.english.draft import Capture
+from fieldhand.planning.english.faults import Question, text_of, unclear
+from fieldhand.planning.english.kinds import RELATIONS
+from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.english.tokens import Term
-from fieldhand.planning.planner import Reason
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task import conditions as c
 
-NOISE = frozenset(
-    {
-        "DET",
-        "IT",
-        "IS",
-        "WHICH",
-        "STILL",
-        "OF",
-        "READING",
-        "THANEQ",
-        "AT",
-        "THERE",
-        "TREE",
-        "PLACE",
-        "FROM",
-        "MORE",
-        "ANY",
-        "OTHER",
-        "FOR",
-        "EACH",
-    }
+_SUBJECT = frozenset({"NOUN", "ORD", "LAST"})
+#: Words of a condition that say which reading is meant, or nothing.
+_AROUND = frozenset(
+    {"DET", "IT", "IS", "WHICH", "STILL", "OF", "READING", "THANEQ", "THERE", "PLACE", "FOR", "AT", "FROM"}
 )
-TEMPERATURE_WORDS = ("hot", "warm", "cold", "cool")
+_PREDICATE = frozenset({"IS", "ISNOT", "NOT", "CMP", "LEVEL", "BETWEEN", "STILL", "ATTRVAL", "SUPER"})
+_HERE = frozenset({"DET", "IT", "TREE", "PLACE", "THERE", "NOUN", "READING", "ORD", "LAST"})
+_TEMPERATURE_WORDS = ("hot", "warm", "cold", "cool")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Tested:
-    """What a condition is about.
+class Predicate:
+    """One comparison of a condition.
 
     Attributes:
-        build: The condition, once the reading has a name.
-        capture: The capture whose reading it tests; None for an attribute of the tree.
+        made: The comparison, its reading and quantity still unnamed; whole for an attribute of the tree.
+        capture: The capture whose reading it tests; None for an attribute, or if nothing measured it yet.
         missing: Action that must be done first, where nothing measured it yet.
+        quantity: What is compared.
     """
 
-    predicates: tuple[_Predicate, ...]
-    any_of: bool
+    made: c.Condition
+    negated: bool = False
     capture: Capture | None = None
     missing: str = ""
     quantity: str = ""
 
     def condition(self, reading: str) -> c.Condition:
         """The condition on a reading of that name."""
-        made = tuple(p.condition(reading, self.quantity) for p in self.predicates)
+        made = self.made
+        if isinstance(made, c.Compare | c.Between | c.Level):
+            made = replace(made, reading=reading, quantity=self.quantity)
+        return c.Not(condition=made) if self.negated else made
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tested:
+    """What a condition tests: all of its predicates, or any of them; ``place`` holds the terms that say where."""
+
+    predicates: tuple[Predicate, ...]
+    any_of: bool = False
+
+    def condition(self, readings: Sequence[str]) -> c.Condition:
+        """The condition on readings of these names, one for each predicate."""
+        made = tuple(p.condition(name) for p, name in zip(self.predicates, readings, strict=True))
         if len(made) == 1:
             return made[0]
         return c.AnyOf(conditions=made) if self.any_of else c.AllOf(conditions=made)
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Predicate:
-    made: c.Condition
-    negated: bool
+def place_in(terms: Sequence[Term]) -> tuple[tuple[Term, ...], tuple[Term, ...]]:
+    """The terms of a condition, and those in it that name a place of its own ("the CO2 | at tree 4 | is low")."""
+    for start, term in enumerate(terms):
+        if term.kind in _PREDICATE and not any(t.kind in RELATIONS for t in terms[:start]):
+            break
+        if term.kind in RELATIONS - {"FOR"}:
+            end = next((k for k in range(start, len(terms)) if terms[k].kind in _PREDICATE), len(terms))
+            place = tuple(terms[start:end])
+            if all(t.kind in _HERE for t in place[1:]):
+                return tuple(terms), ()
+            return (*terms[:start], *terms[end:]), place
+    return tuple(terms), ()
 
-    def condition(self, reading: str, quantity: str) -> c.Condition:
-        from dataclasses import replace
 
-        made = self.made
-        if isinstance(made, c.Compare | c.Between | c.Level):
-            made = replace(made, reading=reading, quantity=quantity)
-        return c.Not(condition=made) if self.negated else made
-
-
-def read_condition(
-    terms: Sequence[Term], captures: Sequence[tuple[Capture, Block]], robot: RobotProfile, site: Site
-) -> Tested:
+def read_condition(terms: Sequence[Term], captures: Sequence[Capture], robot: RobotProfile, site: Site) -> Tested:
     """What a condition tests.
 
     Args:
-        terms: Its terms, the "if" left out.
+        terms: Its terms, the "if" and a place of its own left out.
         captures: What was captured before it, in the order of the text.
 
     Raises:
         Unclear, Question: It cannot be told what is tested.
     """
     groups, any_of = _groups(terms)
-    subject = [t for g in groups for t in g if t.kind in ("NOUN", "ORD", "LAST")]
-    attribute = _attribute_of(groups, site)
-    if attribute is not None:
-        return Tested(predicates=tuple(_tree_predicate(g, attribute, site) for g in groups), any_of=any_of)
-    unit = next((t.value.unit for t in terms if t.kind == "AMOUNT"), "")
-    wanted = _quantities(subject, terms, unit, robot)
-    capture = _latest(subject, captures, wanted, robot)
-    if capture is None:
-        quantity, action = _measurable(wanted, terms, robot)
-    else:
-        measured = robot.action[capture.action].measures
-        quantity = next((q for q in measured if q in wanted), measured[0])
-        action = ""
-    predicates = tuple(_predicate(g, quantity, robot) for g in groups)
-    return Tested(predicates=predicates, any_of=any_of, capture=capture, missing=action, quantity=quantity)
+    made: list[Predicate] = []
+    subject: list[Term] = []
+    attribute = ""
+    for group in groups:
+        subject = [t for t in group if t.kind in _SUBJECT] or subject
+        attribute = _attribute_of(group, site) or ("" if any(t.kind in _SUBJECT for t in group) else attribute)
+        if attribute:
+            made.append(_tree_predicate(group, attribute))
+        else:
+            made.append(_reading_predicate(group, subject, captures, robot))
+    return Tested(predicates=tuple(made), any_of=any_of)
 
 
 def _groups(terms: Sequence[Term]) -> tuple[list[list[Term]], bool]:
     """Predicates between "and" and "or"; the "and" of "between" belongs to it."""
     groups: list[list[Term]] = [[]]
-    any_of = False
+    words: set[str] = set()
     ranged = False
     for term in terms:
-        if term.kind == "BETWEEN":
-            ranged = True
-        if term.kind in ("JOIN", "OR") and not ranged:
-            any_of = any_of or term.kind == "OR" or term.value == "or"
-            groups.append([])
-            continue
-        if term.kind in ("JOIN", "OR"):
+        ranged = ranged or term.kind == "BETWEEN"
+        if term.kind not in ("JOIN", "OR"):
+            groups[-1].append(term)
+        elif ranged and any(t.kind == "BETWEEN" for t in groups[-1]) and _numbers(groups[-1]) == 1:
             ranged = False
-            continue
-        groups[-1].append(term)
-    return [g for g in groups if g], any_of
+        else:
+            words.add("or" if term.kind == "OR" or term.value == "or" else "and")
+            groups.append([])
+    if len(words) > 1:
+        raise unclear(terms, "'and' and 'or' in one condition can be read in two ways", "say it as two conditions")
+    return [g for g in groups if g], "or" in words
 
 
-def _attribute_of(groups: list[list[Term]], site: Site) -> str | None:
-    """The attribute of the tree that a condition is about, if it is about one."""
-    for group in groups:
-        for term in group:
-            if term.kind == "ATTR":
-                return str(term.value[0])
-            if term.kind == "ATTRVAL":
-                return str(term.value[0][0])
-            if term.kind == "CMP" and term.value[1]:
-                fitting = [n for n in site.attributes if term.value[1] in n.lower().split("_")]
-                if not fitting:
-                    raise Unclear(
-                        Reason(
-                            what=f"this site records no {term.value[1]} of its trees",
-                            said=(term.span,),
-                            advice=f"it records: {', '.join(list(site.attributes)[:8]) or 'none'}",
-                        )
-                    )
-                return fitting[0]
-    return None
+def _numbers(group: Sequence[Term]) -> int:
+    return sum(t.kind in ("NUM", "AMOUNT") for t in group)
 
 
-def _tree_predicate(group: list[Term], attribute: str, site: Site) -> _Predicate:
-    negated = any(t.kind in ("NOT", "ISNOT") for t in group)
-    value = next((t for t in group if t.kind == "ATTRVAL"), None)
-    if value is not None:
-        name, wanted = value.value[0]
-        return _Predicate(made=c.TreeHas(attribute=name, test="eq", value=wanted), negated=negated)
-    test = next((t for t in group if t.kind == "CMP"), None)
-    number = next((t for t in group if t.kind in ("NUM", "AMOUNT")), None)
-    if test is None or number is None:
-        raise _unclear(group, "what is asked of the tree does not stand there")
-    del site
-    return _Predicate(made=c.TreeHas(attribute=attribute, test=test.value[0], value=_number(number)), negated=negated)
+def _attribute_of(group: Sequence[Term], site: Site) -> str:
+    """The attribute of the tree that a predicate is about, if it is about one."""
+    for term in group:
+        if term.kind in ("ATTR", "ATTRVAL"):
+            names = [n if isinstance(n, str) else n[0] for n in term.value]
+            if len(names) > 1:
+                raise Question(f"'{term.text}' stands under {' and '.join(names)}: which is meant?", tuple(names))
+            return str(names[0])
+        if term.kind == "CMP" and term.value[1]:
+            return hinted(term.value[1], (term,), site)
+    if any(t.kind == "AMOUNT" and t.value.unit == "years" for t in group):
+        return hinted("age", tuple(group), site)
+    return ""
 
 
-def _quantities(subject: list[Term], terms: Sequence[Term], unit: str, robot: RobotProfile) -> list[str]:
-    """The quantities that a condition may be about, by its noun, its unit and its adjectives."""
+def _tree_predicate(group: Sequence[Term], attribute: str) -> Predicate:
+    negated = sum(t.kind in ("NOT", "ISNOT") for t in group) % 2 == 1
+    left = [t for t in group if t.kind not in _AROUND | {"TREE", "NOT", "ISNOT", "ATTR", "ANY"}]
+    match [t.kind for t in left]:
+        case ["ATTRVAL"]:
+            name, wanted = left[0].value[0]
+            return Predicate(made=c.TreeHas(attribute=name, test="ne" if negated else "eq", value=wanted))
+        case ["CMP", "NUM" | "AMOUNT"]:
+            test = OPPOSITE[left[0].value[0]] if negated else left[0].value[0]
+            return Predicate(made=c.TreeHas(attribute=attribute, test=test, value=number_of(left[1])))
+        case _:
+            raise unclear(
+                group, "what is asked of the tree does not stand there", "say 'older than 8 years', for example"
+            )
+
+
+def _reading_predicate(
+    group: Sequence[Term], subject: Sequence[Term], captures: Sequence[Capture], robot: RobotProfile
+) -> Predicate:
+    wanted = _quantities(group, subject, robot)
+    capture = _latest(group, subject, captures, wanted, robot)
+    if capture is None:
+        quantity, missing = _measurable(wanted, group, robot)
+    else:
+        measured = robot.action[capture.action].measures
+        quantity, missing = next(q for q in measured if q in wanted), ""
+    made, negated = _comparison(group, quantity, robot)
+    return Predicate(made=made, negated=negated, capture=capture, missing=missing, quantity=quantity)
+
+
+def _quantities(group: Sequence[Term], subject: Sequence[Term], robot: RobotProfile) -> list[str]:
+    """The quantities that a predicate may be about, by its noun, its unit and its adjectives."""
     wanted = [q.name for q in robot.quantities]
     for term in subject:
         if term.kind == "NOUN" and isinstance(term.value, Naming):
             named = [*term.value.quantities, *(m for a in term.value.actions for m in robot.action[a].measures)]
-            wanted = [q for q in wanted if q in named] or wanted
-    if any(t.kind in ("CMP", "LEVEL") and any(w in t.text.lower() for w in TEMPERATURE_WORDS) for t in terms):
+            if not set(wanted) & set(named):
+                raise unclear([term], f"nothing is measured by it on {robot.name}", _reports(robot))
+            wanted = [q for q in wanted if q in named]
+    if any(t.kind in ("CMP", "LEVEL") and any(w in t.text.lower() for w in _TEMPERATURE_WORDS) for t in group):
         wanted = [q for q in wanted if robot.quantity[q].unit == "degC"]
-    if unit:
-        fitting = [q for q in wanted if robot.quantity[q].unit == unit]
+    amount = next((t for t in group if t.kind == "AMOUNT"), None)
+    if amount is not None:
+        fitting = [q for q in wanted if robot.quantity[q].unit == amount.value.unit]
         if not fitting:
-            units = ", ".join(f"{q.replace('_', ' ')} in {robot.quantity[q].unit}" for q in wanted)
-            amount = next(t for t in terms if t.kind == "AMOUNT")
-            raise Unclear(
-                Reason(
-                    what=f"'{amount.text}' does not fit what is measured",
-                    said=(amount.span,),
-                    advice=f"{robot.name} reports {units}",
-                )
-            )
+            raise unclear([amount], "that unit does not fit what is measured", _reports(robot, wanted))
         wanted = fitting
     return wanted
 
 
+def _reports(robot: RobotProfile, wanted: Sequence[str] = ()) -> str:
+    names = wanted or [q.name for q in robot.quantities]
+    units = [f"{name.replace('_', ' ')} in {robot.quantity[name].unit}" for name in names]
+    return f"{robot.name} reports {', '.join(units) or 'no readings'}"
+
+
 def _latest(
-    subject: list[Term], captures: Sequence[tuple[Capture, Block]], wanted: list[str], robot: RobotProfile
+    group: Sequence[Term], subject: Sequence[Term], captures: Sequence[Capture], wanted: list[str], robot: RobotProfile
 ) -> Capture | None:
-    fitting = [cap for cap, _ in captures if set(robot.action[cap.action].measures) & set(wanted)]
+    fitting = [cap for cap in captures if set(robot.action[cap.action].measures) & set(wanted)]
     rank = next((t.value for t in subject if t.kind == "ORD"), None)
-    if rank is not None and 1 <= rank <= len(fitting):
-        return fitting[rank - 1]
-    return fitting[-1] if fitting else None
+    if rank is not None:
+        if not 1 <= rank <= len(fitting):
+            raise unclear(group, f"{len(fitting)} readings are taken before it", "say which reading is meant")
+        return fitting[int(rank) - 1]
+    if not fitting:
+        return None
+    last = fitting[-1]
+    rivals = [cap for cap in fitting if cap.command == last.command and cap.action != last.action]
+    if rivals and last.command:
+        names = tuple(dict.fromkeys(cap.action.replace("_", " ") for cap in (*rivals, last)))
+        raise Question(f"'{text_of(group)}': which reading is meant?", names)
+    return last
 
 
 def _measurable(wanted: list[str], terms: Sequence[Term], robot: RobotProfile) -> tuple[str, str]:
@@ -202,39 +221,35 @@ def _measurable(wanted: list[str], terms: Sequence[Term], robot: RobotProfile) -
     pairs = [(q, a.name) for q in wanted for a in robot.actions if q in a.measures]
     if len(pairs) == 1:
         return pairs[0]
-    text = " ".join(t.text for t in terms)
     if not pairs:
-        raise _unclear(list(terms), f"{robot.name} measures nothing like that")
-    raise Question(f"'{text}': which reading is meant?", tuple(q.replace("_", " ") for q, _ in pairs))
+        raise unclear(terms, f"{robot.name} measures nothing like that", _reports(robot))
+    raise Question(f"'{text_of(terms)}': which reading is meant?", tuple(q.replace("_", " ") for q, _ in pairs))
 
 
-def _predicate(group: list[Term], quantity: str, robot: RobotProfile) -> _Predicate:
-    left = [t for t in group if t.kind not in NOISE | {"NOUN", "ORD", "LAST", "ANOTHER"}]
-    negated = False
-    kept: list[Term] = []
-    for term in left:
-        if term.kind in ("NOT", "ISNOT"):
-            negated = not negated
-        else:
-            kept.append(term)
+def _comparison(group: Sequence[Term], quantity: str, robot: RobotProfile) -> tuple[c.Condition, bool]:
+    negated = sum(t.kind in ("NOT", "ISNOT") for t in group) % 2 == 1
+    kept = [t for t in group if t.kind not in _AROUND | _SUBJECT | {"NOT", "ISNOT", "ANOTHER"}]
+    if kept and kept[0].kind == "TREE" and any(t.kind == "AT" or t.kind == "OF" for t in group):
+        kept = kept[1:]  # "the reading at the tree"
     unit = robot.quantity[quantity].unit
     match [t.kind for t in kept]:
         case ["CMP", "NUM" | "AMOUNT"]:
-            made: c.Condition = c.Compare(
-                reading="", quantity="", test=kept[0].value[0], value=_number(kept[1]), unit=unit
-            )
-        case ["NUM" | "AMOUNT", "CMP"] if kept[1].text.lower() in ("or less", "minimum", "maximum"):
-            made = c.Compare(reading="", quantity="", test=kept[1].value[0], value=_number(kept[0]), unit=unit)
+            return _compare(kept[0], kept[1], unit), negated
+        case ["NUM" | "AMOUNT", "CMP"] if kept[1].text.lower() in ("or less", "or more", "minimum", "maximum"):
+            return _compare(kept[1], kept[0], unit), negated
         case ["BETWEEN", "NUM" | "AMOUNT", "NUM" | "AMOUNT"]:
-            low, high = _number(kept[1]), _number(kept[2])
+            low, high = number_of(kept[1]), number_of(kept[2])
             if low > high:
-                raise _unclear(group, f"nothing lies between {low:g} and {high:g}", "put the lower number first")
-            made = c.Between(reading="", quantity="", low=low, high=high, unit=unit)
+                raise unclear(group, f"nothing lies between {low:g} and {high:g}", "put the lower number first")
+            return c.Between(reading="", quantity="", low=low, high=high, unit=unit), negated
         case ["LEVEL"]:
-            made = _level(kept[0], quantity, robot)
+            return _level(kept[0], quantity, robot), negated
         case _:
-            raise _unclear(group, "what is asked of the reading does not stand there", "say 'below 33 °C', or 'low'")
-    return _Predicate(made=made, negated=negated)
+            raise unclear(group, "what is asked of the reading does not stand there", "say 'below 33 °C', or 'low'")
+
+
+def _compare(test: Term, number: Term, unit: str) -> c.Condition:
+    return c.Compare(reading="", quantity="", test=test.value[0], value=number_of(number), unit=unit)
 
 
 def _level(word: Term, quantity: str, robot: RobotProfile) -> c.Condition:
@@ -242,19 +257,6 @@ def _level(word: Term, quantity: str, robot: RobotProfile) -> c.Condition:
     name = word.text.lower().removeprefix("too ").strip()
     level = name if name in levels else word.value
     if level not in levels:
-        known = tuple(levels)
-        raise Question(
-            f"what is a {level} {quantity.replace('_', ' ')}? {robot.name} gives no such word for it;"
-            f" say a threshold in {robot.quantity[quantity].unit}",
-            known,
-        )
+        what = f"what is a {level} {quantity.replace('_', ' ')}? {robot.name} gives no such word for it"
+        raise Question(f"{what}; say a threshold in {robot.quantity[quantity].unit}", tuple(levels))
     return c.Level(reading="", quantity="", level=level)
-
-
-def _number(term: Term) -> float:
-    return float(term.value if term.kind == "NUM" else term.value.number)
-
-
-def _unclear(group: Sequence[Term], what: str, advice: str = "say it in other words") -> Unclear:
-    text = " ".join(t.text for t in group)
-    return Unclear(Reason(what=f"'{text}': {what}", said=tuple(t.span for t in group), advice=advice))

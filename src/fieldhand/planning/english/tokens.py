@@ -11,13 +11,14 @@ from fieldhand.task.plan import Span
 
 _TOKEN = re.compile(
     r"(?P<number>\d{1,3}(?:,\d{3})+(?![\d])|\d+(?:\.\d+)?)"
-    r"|(?P<word>[^\W\d_][\w₀-₉]*(?:['’][^\W\d_]+)?)"
+    r"|(?P<word>[^\W\d_][\w\u2080-\u2089]*(?:['\u2019][^\W\d_]+)?)"
     r"|(?P<unit>%|°\s?[cCfF]\b|°)"
     r"|(?P<stop>[.;!?\n]+)"
-    r"|(?P<comma>[,:()]|\s[-–—]+\s)"
-    r"|(?P<dash>[-–])"
+    r"|(?P<comma>[,:()]|\s[-\u2013\u2014]+\s)"
+    r"|(?P<dash>[-\u2013])"
     r"|(?P<sign>[&+])"
-    r"|(?P<space>[\s\"'“”‘’*_`]+)"
+    r"|(?P<hash>#)"
+    r"|(?P<space>[\s\"'\u201c\u201d\u2018\u2019*_`]+)"
     r"|(?P<other>.)",
     re.DOTALL,
 )
@@ -28,7 +29,7 @@ class Word:
     """One word, number or sign of the request.
 
     Attributes:
-        kind: ``word``, ``number``, ``unit``, ``stop``, ``comma``, ``dash``, ``sign`` or ``other``.
+        kind: ``word``, ``number``, ``unit``, ``stop``, ``comma``, ``dash``, ``sign``, ``hash`` or ``other``.
         norm: As the lexicon knows it: lower case, compatibility forms folded, straight apostrophes.
     """
 
@@ -69,6 +70,8 @@ def words_of(request: str) -> list[Word]:
         kind = match.lastgroup or "other"
         if kind == "space":
             continue
-        norm = unicodedata.normalize("NFKC", match.group()).lower().replace("’", "'").strip()
+        norm = (
+            unicodedata.normalize("NFKC", match.group()).lower().replace("\N{RIGHT SINGLE QUOTATION MARK}", "'").strip()
+        )
         found.append(Word(kind=kind, text=match.group(), norm=norm, start=match.start(), end=match.end()))
     return found

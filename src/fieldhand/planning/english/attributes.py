@@ -1,0 +1,104 @@
+"""What a phrase says of the trees themselves: variety, age, colour, yield."""
+
+from __future__ import annotations
+
+from fieldhand.planning.english.bag import Bag
+from fieldhand.planning.english.faults import Question, unclear
+from fieldhand.planning.english.tokens import Term
+from fieldhand.site.model import Site
+from fieldhand.task import selectors as s
+
+#: Tests and their opposites.
+OPPOSITE: dict[s.Test, s.Test] = {"lt": "ge", "ge": "lt", "gt": "le", "le": "gt", "eq": "ne", "ne": "eq"}
+_UNIT_HINTS = {"years": "age", "kg": "yield"}
+
+
+def number_of(term: Term) -> float:
+    """The number of a number or an amount."""
+    return float(term.value if term.kind == "NUM" else term.value.number)
+
+
+def filtered(bag: Bag, of: s.Selector, site: Site) -> s.Selector:
+    """The trees that zones, attributes and comparisons of a phrase leave.
+
+    Raises:
+        Unclear, Question: The site has no such attribute, or several.
+    """
+    while (zone := bag.take("ZONE")) is not None:
+        of = s.InZone(zone=zone.value, of=of)
+        bag.take("SIDE")
+    for group in bag.compared:
+        of = _compared(group, bag, of, site)
+    bag.compared = []
+    while (value := bag.take("ATTRVAL")) is not None:
+        of = s.Where(attribute=_one(value, bag), test="eq", value=_text(value, bag), of=of)
+    return of
+
+
+def attribute_of(bag: Bag, hint: str, amount: Term | None, site: Site) -> str:
+    """Which attribute of the site a comparison or a superlative is about."""
+    word = bag.take("ATTR")
+    if word is not None:
+        if len(word.value) > 1:
+            raise Question(f"'{word.text}' can be {' or '.join(word.value)}: which is meant?", tuple(word.value))
+        return str(word.value[0])
+    if not hint and amount is not None and amount.kind == "AMOUNT":
+        hint = _UNIT_HINTS.get(amount.value.unit, "")
+    if not hint:
+        raise bag.fault("which attribute is compared does not stand there", f"say which: {known(site)}")
+    return hinted(hint, bag.phrase.terms, site)
+
+
+def hinted(hint: str, terms: tuple[Term, ...], site: Site) -> str:
+    """The attribute whose name holds a word."""
+    fitting = [name for name in site.attributes if hint in name.lower().replace("-", "_").split("_")]
+    if len(fitting) == 1:
+        return fitting[0]
+    if fitting:
+        raise Question(f"which of {' and '.join(fitting)} is meant?", tuple(fitting))
+    raise unclear(terms, f"this site records no {hint} of its trees", f"it records: {known(site)}")
+
+
+def known(site: Site) -> str:
+    """The attributes that a site records, as words."""
+    return ", ".join(list(site.attributes)[:8]) or "none"
+
+
+def _compared(group: tuple[Term, ...], bag: Bag, of: s.Selector, site: Site) -> s.Selector:
+    negated = any(t.kind in ("NOT", "ISNOT") for t in group)
+    terms = [t for t in group if t.kind not in ("NOT", "ISNOT", "JOIN")]
+    head = terms[0]
+    if head.kind == "ATTRVAL":
+        return s.Where(attribute=_one(head, bag), test="ne", value=_text(head, bag), of=of)
+    if head.kind == "BETWEEN":
+        low, high = number_of(terms[1]), number_of(terms[2])
+        if low > high:
+            raise bag.fault(f"nothing lies between {low:g} and {high:g}", "put the lower number first")
+        if negated:
+            raise bag.fault("'not between' is two comparisons", "say 'below ...' or 'above ...'")
+        attribute = attribute_of(bag, "", terms[1], site)
+        return s.Where(
+            attribute=attribute, test="le", value=high, of=s.Where(attribute=attribute, test="ge", value=low, of=of)
+        )
+    test, hint = head.value
+    test = OPPOSITE[test] if negated else test
+    return s.Where(attribute=attribute_of(bag, hint, terms[1], site), test=test, value=number_of(terms[1]), of=of)
+
+
+def _one(value: Term, bag: Bag) -> str:
+    """The attribute that a text stands under; the phrase may name it ("variety Carmel")."""
+    names = tuple(name for name, _ in value.value)
+    named = bag.take("ATTR") if bag.has("ATTR") else None
+    if named is not None:
+        fitting = tuple(n for n in names if n in named.value)
+        if not fitting:
+            raise bag.fault(f"'{value.text}' is no {named.text}")
+        names = fitting
+    if len(names) > 1:
+        raise Question(f"'{value.text}' stands under {' and '.join(names)}: which is meant?", names)
+    return str(names[0])
+
+
+def _text(value: Term, bag: Bag) -> str:
+    del bag
+    return str(value.value[0][1])

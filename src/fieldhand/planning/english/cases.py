@@ -1,0 +1,172 @@
+"""What an "if", an "otherwise" and an "if that fails" hold, and which reading an "if" tests."""
+
+from __future__ import annotations
+
+from fieldhand.planning.english import draft as d
+from fieldhand.planning.english.faults import Question, text_of, unclear
+from fieldhand.planning.english.hand import Hand
+from fieldhand.planning.english.places import find
+from fieldhand.planning.english.syntax import Part, parse_places
+from fieldhand.planning.english.tested import Predicate, place_in, read_condition
+from fieldhand.planning.english.tokens import Term
+from fieldhand.task import selectors as s
+from fieldhand.task.conditions import readings
+
+
+class Cases(Hand):
+    """Reads conditions."""
+
+    def _condition(self, part: Part, *, trailing: bool) -> None:
+        """An "if": it stands behind what it tests, and holds what follows it, or what stands before it."""
+        held = self._last_steps if trailing else []
+        captures = [(step, block) for step, block in d.walk(self.told.root) if isinstance(step, d.Capture)]
+        self._objects_at_if = self._objects
+        known = [cap for cap, _ in captures if cap not in held and not (trailing and cap in self._aside)]
+        terms, place = place_in(part.terms[1:])
+        at = self._place_tested(place, part)
+        if at is not None:
+            known = [cap for cap in known if cap.at == at]
+        self._check_it(terms, known, part)
+        tested = read_condition(terms, known, self._robot, self._site)
+        made = [self._tested_capture(p, at, part, trailing) for p in tested.predicates]
+        block = self._block_of_condition([cap for cap in made if cap is not None], part)
+        names = [self._bound(cap) for cap in made]
+        choice = d.Choice(condition=tested.condition(names), then=d.Block(), said=part.said)
+        if trailing and any(cap is None for cap in made):
+            self._hold_at_tree(held, choice, part)
+            return
+        block.add(choice)
+        if trailing:
+            self._aside += [step for step in held if isinstance(step, d.Capture)]
+            self._move(held, choice.then)
+        self._choice = choice
+        self._sentence_choices.append(choice)
+        self._scope = choice.then
+
+    def _hold_at_tree(self, held: list[d.Step], choice: d.Choice, part: Part) -> None:
+        """What a tree is can be asked once the robot is there: drive first, then test, then do."""
+        first = held[0] if held else None
+        if isinstance(first, d.Loop):
+            choice.then.steps, first.body.steps = first.body.steps, []
+            for step in choice.then.steps:
+                for inner in d.blocks_of(step):
+                    inner.parent = choice.then
+            first.body.add(choice)
+        elif isinstance(first, d.Capture) and all(isinstance(step, d.Capture) for step in held):
+            holder = next(b for step, b in d.walk(self.told.root) if step is first)
+            if first.at is not None:
+                holder.steps.insert(holder.steps.index(first), d.Go(place=first.at, said=first.said))
+                first.at = None
+            holder.add(choice)
+            self._move(held, choice.then)
+        else:
+            raise unclear(part.terms, "it is not clear at which tree", "say 'go to tree 4; if it is yellow, ...'")
+        self._choice, self._scope = choice, choice.then
+
+    def _check_it(self, terms: tuple[Term, ...], known: list[d.Capture], part: Part) -> None:
+        """ "If it is low, ... If it is high, ...": the second "it" may be what the first case took."""
+        says_which = any(t.kind in ("NOUN", "ORD", "AMOUNT", "READING", "ATTR", "ATTRVAL", "STILL") for t in terms)
+        if says_which or self._choice is None or not readings(self._choice.condition):
+            return
+        inside = [cap for cap in known if any(cap is st for st, _ in d.walk(self._choice.then))]
+        inside = [cap for cap in inside if self._robot.action[cap.action].measures]
+        before = [cap for cap in known if cap.reading in readings(self._choice.condition)]
+        if inside and before and not any(t.kind == "CMP" and t.value[1] for t in terms):
+            names = tuple(dict.fromkeys(cap.action.replace("_", " ") for cap in (*before, *inside)))
+            raise Question(f"'{text_of(part.terms)}': which reading is meant?", names)
+
+    def _place_tested(self, terms: tuple[Term, ...], part: Part) -> s.Selector | None:
+        """The place that a condition names ("the CO2 at tree 4")."""
+        if not terms:
+            return None
+        places = parse_places(terms[1:])
+        if places is None or terms[0].kind not in ("AT", "OF", "FROM", "NEXTTO", "NEAR", "INSIDE"):
+            raise unclear(part.terms, "where is not clear", "measure there first, then say 'if it is ...'")
+        found = find(places, self._site)
+        if found.many or found.object_only:
+            raise unclear(part.terms, "a condition is about one place", "say 'at each of them ..., if it is ...'")
+        if found.here:
+            return None
+        if terms[0].kind in ("NEXTTO", "NEAR"):
+            return s.Nearest(to=found.selector, adjacent=terms[0].kind == "NEXTTO")
+        return found.selector
+
+    def _tested_capture(
+        self, predicate: Predicate, at: s.Selector | None, part: Part, trailing: bool
+    ) -> d.Capture | None:
+        """The capture whose reading a predicate tests; taken first if nothing took it."""
+        if not predicate.missing:
+            if predicate.capture is None:
+                self._needs_place(part)
+            return predicate.capture
+        if trailing:
+            raise unclear(part.terms, "nothing before it measures that", "measure first, then test")
+        if at is None:
+            self._needs_place(part)
+        capture = d.Capture(action=predicate.missing, at=at, said=part.said)
+        (self._scope if at is not None else self._here(part, None, False)[0]).add(capture)
+        where = "there" if at is not None else "where the robot is then"
+        action = predicate.missing.replace("_", " ")
+        self.told.assumptions.append(f"'{text_of(part.terms)}' is measured first ({action}), {where}.")
+        return capture
+
+    def _block_of_condition(self, captures: list[d.Capture], part: Part) -> d.Block:
+        """Where a condition stands: behind the last of what it tests, where the others are known too."""
+        if not captures:
+            inside = self._loop is not None and self._within(self._loop.body, self.told.root)
+            return self._loop.body if inside and self._loop is not None else self._scope
+        holders = [(cap, block) for cap, block in d.walk(self.told.root) if any(cap is c for c in captures)]
+        block = holders[-1][1]
+        if not all(self._within(block, holder) for _, holder in holders):
+            raise unclear(part.terms, "its readings are not taken in the same case", "test them one after the other")
+        return block
+
+    def _bound(self, capture: d.Capture | None) -> str:
+        if capture is None:
+            return ""
+        capture.reading = capture.reading or self._fresh()
+        return capture.reading
+
+    def _so(self, part: Part) -> None:
+        """ "If so": the question before it is answered with yes."""
+        if self._choice is None or self._choice.then.steps:
+            raise unclear(part.terms, "there is no question before it")
+        self._scope = self._choice.then
+
+    def _otherwise(self, part: Part) -> None:
+        choice = self._choice
+        if choice is None:
+            raise unclear(part.terms, "there is no 'if' before it")
+        if choice.otherwise is not None:
+            raise unclear(part.terms, "the 'if' before it has an 'otherwise' already")
+        holder = next((b for st, b in d.walk(self.told.root) if st is choice), None)
+        at = holder.steps.index(choice) if holder is not None else 0
+        if holder is not None and at and isinstance(holder.steps[at - 1], d.Choice) and part.said:
+            earlier = holder.steps[at - 1]
+            if earlier in self._sentence_choices and choice in self._sentence_choices:
+                raise unclear(part.terms, "to which 'if' does it belong?", "say each 'if' with its 'otherwise' in turn")
+        choice.otherwise = d.Block(parent=choice.then.parent)
+        if self._objects != self._objects_at_if:
+            self._objects = ()  # "otherwise take another" may mean what either case takes
+        self._scope = choice.otherwise
+
+    def _failing(self, part: Part) -> None:
+        steps = list(self._last_steps)
+        if not steps:
+            raise unclear(part.terms, "there is nothing before it that could fail")
+        holder = next(b for st, b in d.walk(self.told.root) if st is steps[0])
+        attempt = d.Attempt(body=d.Block(), fallback=d.Block(), said=part.said)
+        place = holder.steps.index(steps[0])
+        self._move(steps, attempt.body)
+        holder.steps.insert(place, attempt)
+        attempt.body.parent = attempt.fallback.parent = holder
+        self._scope = attempt.fallback
+
+    def _move(self, steps: list[d.Step], into: d.Block) -> None:
+        inner = {id(st) for step in steps for b in d.blocks_of(step) for st, _ in d.walk(b)}
+        for step in steps:
+            if id(step) in inner:
+                continue
+            holder = next(b for st, b in d.walk(self.told.root) if st is step)
+            holder.steps.remove(step)
+            into.add(step)

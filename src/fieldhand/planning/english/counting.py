@@ -1,0 +1,89 @@
+"""A number of captures and a kind of place: "2 pictures of nearby trees" are two trees, "2 pictures of a tree" one."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fieldhand.planning.english.faults import Question, text_of, unclear
+from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.syntax import Object, Part
+from fieldhand.task import selectors as s
+
+Wanted = tuple[tuple[str, int | None], ...]
+
+
+def number_of_objects(thing: Object) -> int | None:
+    """How many captures an object asks for; None if it does not say.
+
+    Raises:
+        Unclear: Its quantity says something else.
+    """
+    number: int | None = None
+    for term in thing.quantity:
+        if term.kind == "NUM":
+            if number is not None or term.value != int(term.value) or not 1 <= term.value <= 1000:
+                raise unclear(thing.terms, "how many is not clear", "say one whole number")
+            number = int(term.value)
+        elif term.kind == "UPTO":
+            raise unclear(thing.terms, "captures need one number", "say 'of up to 6 trees'")
+        elif term.kind == "ORD" and term.value != 1:
+            raise unclear(thing.terms, "a rank does not fit there", "say how many")
+    return number
+
+
+def counts_each(found: Found | None, part: Part) -> bool:
+    """Whether a count is meant at each place ("2 pictures at each corner") rather than in all."""
+    return (found is not None and found.each) or any(t.kind == "EACHTAIL" for t in part.tails)
+
+
+def counted(found: Found, part: Part, wanted: Wanted) -> Found:
+    """The places of a command, its number of captures taken as a number of places where it is one.
+
+    Raises:
+        Question: It can be either.
+    """
+    numbers = {count for _, count in wanted if count is not None}
+    count = max(numbers, default=None)
+    plural = bool(part.objects) and part.objects[0].noun.plural
+    if any(t.kind == "ASMANY" for o in part.objects for t in o.quantity):
+        return replace(found, many=True, optional=True)
+    if found.optional or counts_each(found, part):
+        return found
+    if found.at_most is not None:
+        return found if count in (None, 1) else _either(count, found.at_most)
+    if found.region:
+        return _in_area(found, part, count, plural)
+    if not found.many or count is None or count == 1:
+        if found.many and found.counted is None and isinstance(found.selector, s.Nearest):
+            raise Question("how many trees nearby?", ("2", "3", "4"))
+        return found
+    if len(numbers) > 1 or (len(wanted) > 1 and any(n != count for _, n in wanted)):
+        raise Question(f"'{text_of(part.terms)}': how many at each of the places?", (f"{count} at each", "1 at each"))
+    if found.counted is not None:
+        return found if count == found.counted else _either(count, found.counted)
+    selector = found.selector
+    if isinstance(selector, s.Nearest):
+        return replace(found, selector=replace(selector, count=count), counted=count)
+    if isinstance(selector, s.Corners | s.Union):
+        size = len(selector.which) if isinstance(selector, s.Corners) else len(selector.parts)
+        return found if size == count else _either(count, size)
+    return Found(selector=s.Take(count=count, of=selector), many=True, counted=count)
+
+
+def _either(count: int | None, size: int) -> Found:
+    raise Question(
+        f"{count} captures at {size} places: {count} at each of them, or {count} in all?",
+        (f"{count} at each of them", f"{count} in all"),
+    )
+
+
+def _in_area(found: Found, part: Part, count: int | None, plural: bool) -> Found:
+    """Captures in an area: at one tree of it, at as many as there are captures, or at every tree."""
+    if count is None and plural:
+        if found.selector == s.Trees():
+            raise Question(f"'{text_of(part.terms)}': at every tree, or at how many?", ("at every tree", "at 4 trees"))
+        return found
+    if count is None and found.selector == s.Trees():
+        raise Question(f"'{text_of(part.terms)}': at every tree, or at how many?", ("at every tree", "at 4 trees"))
+    number = count or 1
+    return Found(selector=s.Take(count=number, of=found.selector), many=number > 1, counted=number)

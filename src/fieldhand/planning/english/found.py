@@ -1,0 +1,37 @@
+"""What a noun phrase selects."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from fieldhand.task import selectors as s
+
+
+@dataclass(frozen=True, kw_only=True)
+class Found:
+    """What a noun phrase selects.
+
+    Attributes:
+        many: Several places rather than one.
+        counted: The phrase says how many.
+        each: The phrase says "each" or "every".
+        region: An area ("the northern half"), not trees by themselves: "a picture in it" is at one tree of it.
+        optional: "as many as you can".
+        at_most: "up to 6".
+        here: The places just spoken of ("there", "each of them").
+        these: Several places that were spoken of ("each of them", "both").
+        all_or_these: "the trees": those just spoken of if there are any, else all.
+        object_only: A quantity alone ("another", "two more"): of what, the verb before says.
+    """
+
+    selector: s.Selector
+    many: bool = False
+    counted: int | None = None
+    each: bool = False
+    region: bool = False
+    optional: bool = False
+    at_most: int | None = None
+    here: bool = False
+    these: bool = False
+    all_or_these: bool = False
+    object_only: bool = False

@@ -1,0 +1,173 @@
+"""What is in hand while a request is read: the places, captures and cases that a word such as "it" may mean."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fieldhand.planning.english import draft as d
+from fieldhand.planning.english.counting import Wanted, counted, number_of_objects
+from fieldhand.planning.english.faults import Question, text_of, unclear
+from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.naming import Naming
+from fieldhand.planning.english.places import are_several, find
+from fieldhand.planning.english.syntax import Object, Part
+from fieldhand.planning.english.tokens import Term
+from fieldhand.planning.english.told import Told
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.task import selectors as s
+
+
+class Hand:
+    """What has been spoken of. One instance reads one request."""
+
+    def __init__(self, robot: RobotProfile, site: Site) -> None:
+        self.told = Told()
+        self._robot, self._site = robot, site
+        self._readings = 0
+        self._commands = 0
+        self._objects: tuple[tuple[str, int], ...] = ()  # actions and counts of the last command, for "another"
+        self._objects_at_if: tuple[tuple[str, int], ...] = ()
+        self._last_verb = ""
+        self._aside: list[d.Capture] = []  # held by an "if" behind them: a later "if it" does not mean them
+        self._choice: d.Choice | None = None
+        self._sentence_choices: list[d.Step] = []
+        self._loop: d.Loop | None = None  # the places that "each of them" and "there" may mean
+        self._sentence_steps: list[d.Step] = []
+        self._sentence_acts = False
+        self._last_steps: list[d.Step] = []
+        self._scope = self.told.root
+
+    def _where(self, found: Found | None, part: Part, wanted: Wanted) -> tuple[d.Block, s.Selector | None, bool]:
+        """The block that captures belong to, the place they name, and whether that is one of several places."""
+        there = any(t.kind == "THERE" for t in part.tails)
+        if found is None or found.here or there:
+            return self._here(part, found, there)
+        found = counted(found, part, wanted)
+        if not found.many:
+            self._loop = None
+            return self._scope, found.selector, False
+        loop = self._add_loop(found, part)
+        return loop.body, None, True
+
+    def _here(self, part: Part, found: Found | None, there: bool) -> tuple[d.Block, s.Selector | None, bool]:
+        """Captures without a place of their own."""
+        these = (found is not None and found.these) or any(t.kind == "THERE" and are_several(t) for t in part.tails)
+        if these:
+            self._gather(part)
+        loop = self._loop
+        if loop is None or not self._within(loop.body, self.told.root):
+            self._needs_place(part)
+            return self._scope, None, False
+        if self._within(self._scope, loop.body):
+            return self._scope, None, False
+        each = (found is not None and found.here) or there
+        if not loop.body.steps or each or (loop in self._sentence_steps and not part.then):
+            return loop.body, None, False
+        raise Question(
+            f"'{text_of(part.terms)}': at each of the places before it, or only at the last one?",
+            ("at each of them", "only at the last one"),
+        )
+
+    def _gather(self, part: Part) -> None:
+        """ "Each of them": places that were driven to one after the other become places to do something at."""
+        if self._loop is not None:
+            return
+        stops: list[d.Go] = []
+        for step in reversed(self._scope.steps):
+            if not isinstance(step, d.Go):
+                break
+            stops.insert(0, step)
+        if len(stops) < 2:
+            raise unclear(part.terms, "which places are meant?", "name them: 'at trees 4 and 9', for example")
+        self._scope.steps = self._scope.steps[: -len(stops)]
+        said = tuple(span for stop in stops for span in stop.said)
+        places = s.Union(parts=tuple(stop.place for stop in stops))
+        self._loop = d.Loop(select=places, body=d.Block(), order="given", said=said)
+        self._scope.add(self._loop)
+
+    def _add_loop(self, found: Found, part: Part) -> d.Loop:
+        given = any(t.kind == "INORDER" for t in part.tails)
+        loop = d.Loop(
+            select=found.selector,
+            body=d.Block(),
+            order="given" if given else "best",
+            optional=found.optional,
+            at_most=found.at_most,
+            said=part.said,
+        )
+        self._scope.add(loop)
+        self._loop = loop
+        return loop
+
+    def _within(self, block: d.Block | None, outer: d.Block) -> bool:
+        while block is not None:
+            if block is outer:
+                return True
+            block = block.parent
+        return False
+
+    def _needs_place(self, part: Part) -> None:
+        """Something done "there" needs a place that was spoken of; "here" is where the robot stands."""
+        if any(t.kind == "THERE" and t.text.lower() == "here" for t in part.terms):
+            return
+        if not any(isinstance(step, d.Go | d.Capture | d.Loop) for step, _ in d.walk(self.told.root)):
+            raise Question(f"'{text_of(part.terms)}': at which tree or trees?")
+
+    def _related(self, part: Part) -> Found:
+        """The places of a part, with the relation that ties them to its verb."""
+        if part.places is None:
+            raise unclear(part.terms, "a place was expected")
+        found = find(part.places, self._site)
+        relation = part.relation
+        if relation is None or found.here or relation.kind in ("OF", "AT", "FROM", "FOR", "INSIDE"):
+            return found
+        plain = find(part.places, self._site).selector
+        match relation.kind:
+            case "NEXTTO":
+                return Found(selector=s.Nearest(to=plain, adjacent=True))
+            case "NEAR" if isinstance(plain, s.Middle | s.EdgeMiddle):
+                return found
+            case "NEAR":
+                return Found(selector=s.Nearest(to=plain))
+            case "WITHIN":
+                return Found(selector=s.Within(distance_m=relation.value, to=plain), many=True, region=True)
+            case "OUTSIDE" | "EXCEPT":
+                other = replace(plain, outside=True) if isinstance(plain, s.InZone) else s.Excluding(places=plain)
+                return Found(selector=other, many=True, region=True)
+            case _:
+                raise unclear(part.terms, f"'{relation.text}' does not fit there")
+
+    def _fresh(self) -> str:
+        self._readings += 1
+        return f"r{self._readings}"
+
+    def _wanted(self, objects: tuple[Object, ...], part: Part) -> Wanted:
+        """The actions that a command asks for, each with its number if one is said."""
+        if objects:
+            return tuple((self._action(o.noun, part), number_of_objects(o)) for o in objects)
+        verb = part.verb
+        if verb is not None and isinstance(verb.value, Naming):
+            return ((verb.value.actions[0], None),)
+        if self._objects:
+            return tuple((action, None) for action, _ in self._objects)
+        if len(self._robot.actions) == 1:
+            return ((self._robot.actions[0].name, None),)
+        raise Question(
+            f"'{text_of(part.terms)}': what should be taken?", tuple(a.words[0] for a in self._robot.actions if a.words)
+        )
+
+    def _action(self, noun: Term, part: Part) -> str:
+        if noun.kind == "READING":
+            measuring = [a for a in self._robot.actions if a.measures]
+            if len(measuring) == 1:
+                return measuring[0].name
+            if self._objects:
+                return self._objects[-1][0]
+            raise Question(
+                f"'{text_of(part.terms)}': a reading of what?", tuple(a.words[0] for a in measuring if a.words)
+            )
+        naming: Naming = noun.value
+        if not naming.actions:
+            raise unclear(part.terms, f"{self._robot.name} has no action for '{noun.text}'")
+        return naming.actions[0]

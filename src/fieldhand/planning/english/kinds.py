@@ -1,0 +1,36 @@
+"""Groups of the grammar's terminals."""
+
+from __future__ import annotations
+
+VERBS = frozenset({"TAKE", "MEASURE", "ACTV", "GO", "VISIT", "RETURN", "GOHOME", "STOP", "REPEAT"})
+#: What begins a part.
+STARTS = VERBS | {
+    "IF",
+    "WHERE",
+    "WHETHER",
+    "IFSO",
+    "OTHERWISE",
+    "TRY",
+    "BUDGET",
+    "THEN",
+    "NOORDER",
+    "INORDER",
+    "DISTINCT",
+}
+RELATIONS = frozenset({"OF", "AT", "FROM", "NEXTTO", "NEAR", "WITHIN", "INSIDE", "OUTSIDE", "EXCEPT", "WITH", "FOR"})
+QUANTITY = frozenset({"DET", "EACH", "ANY", "ANOTHER", "NUM", "MORE", "ASMANY", "UPTO"})
+#: Heads of noun phrases that are places.
+PLACES = frozenset(
+    {"TREE", "CORNER", "MIDDLE", "EDGE", "HALF", "QUARTER", "SIDE", "START", "FINISH", "CHARGER", "PLOT", "PLACE"}
+    | {"ZONE", "DIR", "MOST", "IDS", "THERE", "IT"}
+)
+#: Words that go on with a noun phrase: a "there" of several words is none before them ("of each | tree in ...").
+CONTINUES = (
+    RELATIONS
+    | (PLACES - {"THERE"})
+    | QUANTITY
+    | {"WHICH", "ATTRVAL", "ATTR", "CMP", "SUPER", "ORD", "LAST"}
+    | {"NEAREST", "FARTHEST", "FAR", "NEARBY", "OTHER", "ADJACENT", "NUMBERED", "NOT", "ISNOT"}
+)
+#: What a condition goes on with ("if it is not | low").
+TESTS = frozenset({"CMP", "LEVEL", "BETWEEN", "NUM", "ATTRVAL", "ATTR", "DIR", "NOUN", "READING", "NOT", "UPTO"})

@@ -1,0 +1,111 @@
+"""What this robot's captures and this site's trees are called in words."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from fieldhand.planning.english.inflection import forms_of, plural_of
+from fieldhand.planning.english.vocabulary import vocabulary
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+
+Phrase = tuple[str, ...]
+
+#: Words of an attribute's name that say its unit, not what it is.
+_UNIT_WORDS = frozenset({"m", "kg", "years", "cm", "mm", "of", "the", "percent", "pct"})
+#: An attribute with more texts than this is a label of each tree rather than a kind of tree.
+_MOST_TEXTS = 200
+_LONGEST_TEXT, _LONGEST_ZONE = 40, 60
+
+
+@dataclass(frozen=True, kw_only=True)
+class Entry:
+    """What a phrase is: a terminal of the grammar, its value, and whether it is a noun in the plural."""
+
+    kind: str
+    value: Any = None
+    plural: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Naming:
+    """What a noun may mean to this robot: actions that yield it, quantities that it names."""
+
+    actions: tuple[str, ...] = ()
+    quantities: tuple[str, ...] = ()
+
+
+def split(phrase: str) -> Phrase:
+    """A phrase as words in the form in which the lexicon keeps them."""
+    return tuple(
+        w for w in re.split(r"[\s_\-\u2013]+", phrase.lower().replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")) if w
+    )
+
+
+def robot_entries(robot: RobotProfile) -> Iterator[tuple[Phrase, Entry]]:
+    """Nouns and verbs of the robot's own. A word of several actions keeps them all, the usual one first."""
+    actions: dict[Phrase, list[str]] = {}
+    quantities: dict[Phrase, list[str]] = {}
+    for action in robot.actions:
+        for word in (*action.words, action.name):
+            actions.setdefault(split(word), []).append(action.name)
+    for quantity in robot.quantities:
+        for word in (*quantity.words, quantity.name):
+            quantities.setdefault(split(word), []).append(quantity.name)
+    for phrase in dict.fromkeys((*actions, *quantities)):
+        if not phrase:
+            continue
+        named, measured = actions.get(phrase, []), quantities.get(phrase, [])
+        measuring = [a.name for a in robot.actions if a.name not in named and set(a.measures) & set(measured)]
+        naming = Naming(actions=(*named, *measuring), quantities=tuple(measured))
+        yield phrase, Entry(kind="NOUN", value=naming)
+        yield _plural(phrase), Entry(kind="NOUN", value=naming, plural=True)
+    for action in robot.actions:
+        for verb in action.verbs:
+            for form in forms_of(verb):
+                yield split(form), Entry(kind="ACTV", value=Naming(actions=(action.name,)))
+
+
+def site_entries(site: Site) -> Iterator[tuple[Phrase, Entry]]:
+    """Attributes, their texts and zones of the site."""
+    values: dict[Phrase, list[tuple[str, str]]] = {}
+    names: dict[Phrase, list[str]] = {}
+    for attribute, found in site.attributes.items():
+        for text in _texts(found):
+            values.setdefault(split(text), []).append((attribute, text))
+        for phrase in _spoken(attribute):
+            names.setdefault(phrase, []).append(attribute)
+    for phrase, meant in values.items():
+        yield phrase, Entry(kind="ATTRVAL", value=tuple(meant))
+        yield _plural(phrase), Entry(kind="ATTRVAL", value=tuple(meant), plural=True)
+    for phrase, attributes in names.items():
+        yield phrase, Entry(kind="ATTR", value=tuple(attributes))
+        yield _plural(phrase), Entry(kind="ATTR", value=tuple(attributes), plural=True)
+    for zone in site.zones:
+        name = split(zone.name)
+        if zone.kind != "boundary" and name and len(zone.name) <= _LONGEST_ZONE:
+            for phrase in (name, (*name, "zone"), ("zone", *name), (*name, "area"), ("area", *name)):
+                yield phrase, Entry(kind="ZONE", value=zone.name)
+
+
+def _texts(found: tuple[Any, ...]) -> list[str]:
+    texts = [value for value in found if isinstance(value, str) and len(value) <= _LONGEST_TEXT and split(value)]
+    return texts if len(texts) <= _MOST_TEXTS else []
+
+
+def _spoken(attribute: str) -> set[Phrase]:
+    """How people may call an attribute: its name, that without its unit, and other words for it."""
+    base = [w for w in split(attribute) if w not in _UNIT_WORDS]
+    spoken = {split(attribute), tuple(base)}
+    for hint, words in vocabulary()["aliases"].items():
+        if hint in base:
+            for word in words:
+                spoken |= {split(" ".join(base).replace(hint, word)), split(word)}
+    return {phrase for phrase in spoken if phrase}
+
+
+def _plural(phrase: Phrase) -> Phrase:
+    return (*phrase[:-1], plural_of(phrase[-1]))

@@ -1,0 +1,171 @@
+"""Corners, middles, sides and edges: what the compass and the outline of the trees name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from fieldhand.planning.english.bag import Bag
+from fieldhand.planning.english.faults import Question
+from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.sets import check_sides
+from fieldhand.task import selectors as s
+
+_CORNERS: tuple[s.CornerName, ...] = ("nw", "ne", "se", "sw")
+_CORNER_WORDS = ("north-west", "north-east", "south-east", "south-west")
+SIDE_ADVICE = "say north, east, south or west"
+
+
+def corners(bag: Bag, of: s.Selector) -> Found:
+    """The trees at corners, one or several."""
+    corner = bag.take("CORNER")
+    bag.take("TREE")
+    bag.take("PLACE")
+    bag.take("PLOT")
+    which = _which(bag)
+    names = which or _CORNERS
+    plural = bool(corner and corner.plural) or bag.each or bag.plural
+    if bag.count is not None and bag.count > len(names):
+        raise bag.fault(f"there are {len(names)} such corners, not {bag.count}", "ask for fewer")
+    everything = s.Corners(which=names, of=of)
+    if len(names) == 1:
+        return Found(selector=everything)
+    if bag.another or bag.take("OTHER") is not None:
+        number = bag.count or (1 if not plural else None)
+        if number is None:
+            return Found(selector=s.Other(of=everything), many=True)
+        return Found(selector=s.Take(count=number, of=s.Other(of=everything)), many=number > 1, counted=number)
+    if bag.count is not None and bag.count < len(names):
+        if bag.definite or bag.each:
+            raise Question(f"which {bag.count} of the corners?", _CORNER_WORDS)
+        return Found(selector=s.Take(count=bag.count, of=everything), many=bag.count > 1, counted=bag.count)
+    if plural or bag.count == len(names):
+        if bag.any:
+            raise Question("how many of the corners?", ("1", "2", "all 4"))
+        return Found(selector=everything, many=True, each=bag.each, counted=bag.count)
+    if bag.take("NEAREST") is not None:
+        return Found(selector=s.Nearest(to=s.Here(), of=everything))
+    if bag.any or bag.article in ("a", "an", "some"):
+        return Found(selector=s.Take(count=1, of=everything))
+    raise Question("which corner?", _CORNER_WORDS)
+
+
+def _which(bag: Bag) -> tuple[s.CornerName, ...]:
+    named: list[s.CornerName] = []
+    while (direction := bag.take("DIR", "MOST")) is not None:
+        for corner in _CORNERS:  # "the two northern corners"
+            one = direction.value == corner or (len(direction.value) > 2 and direction.value[0] in corner)
+            if one and corner not in named:
+                named.append(corner)
+    return tuple(c for c in _CORNERS if c in named)
+
+
+def middle(bag: Bag, of: s.Selector) -> Found:
+    """The trees nearest to the middle of an area or of an edge."""
+    bag.take("MIDDLE")
+    tree = bag.take("TREE", "PLACE")
+    bag.take("PLOT")
+    bag.take("SIDE")
+    bag.any = False
+    if tree is not None and tree.plural and bag.count is None:
+        raise Question("how many trees in the middle?", ("2", "3", "4"))
+    if bag.another or bag.take("OTHER") is not None:
+        of = s.Other(of=of)
+    count = bag.count or 1
+    many, counted = count > 1, bag.count
+    edge, direction = bag.take("EDGE", "FINISH"), bag.take("DIR")
+    if direction is not None and edge is not None:
+        if len(direction.value) == 2:
+            raise bag.fault("an edge lies on one side", SIDE_ADVICE)
+        return Found(selector=s.EdgeMiddle(side=direction.value, count=count, of=of), many=many, counted=counted)
+    if direction is not None or edge is not None:
+        raise bag.fault("the middle of which side?", "say 'the middle of the northern edge', for example")
+    if isinstance(of, s.Edge):
+        return Found(selector=s.EdgeMiddle(side=of.side, count=count, of=of.of), many=many, counted=counted)
+    return Found(selector=s.Middle(count=count, of=of), many=many, counted=counted)
+
+
+def extremes(bag: Bag, kept: Callable[[s.Selector], s.Selector], of: s.Selector) -> Found:
+    """The northernmost tree and its kin; the northernmost edge, part or half.
+
+    Args:
+        kept: The trees that the rest of the phrase leaves of an area.
+    """
+    most = bag.take("MOST")
+    side = "" if most is None else most.value
+    tree = bag.take("TREE", "PLACE")
+    bag.take("PLOT")
+    if bag.take("EDGE", "FINISH") is not None:
+        area: s.Selector = s.Edge(side=_one_side(bag, side), of=of)
+        check_sides(area, bag.phrase)
+        return Found(selector=kept(area), region=True, many=True)
+    if bag.take("SIDE", "HALF", "QUARTER") is not None:
+        return Found(selector=kept(half_or_quarter(side, of)), region=True, many=True)
+    of = kept(of)
+    rank = bag.take("ORD")
+    if bag.another or bag.take("OTHER") is not None:
+        of = s.Other(of=of)
+    count = bag.count or 1
+    if len(side) == 2:
+        if rank is not None or count > 1 or (tree is not None and tree.plural):
+            raise bag.fault("there is one such tree", "say 'the trees in the north-east', for example")
+        return Found(selector=s.Corners(which=(_corner(side),), of=of))
+    compass = _one_side(bag, side)
+    if rank is not None and rank.value > 1:
+        if bag.count is not None or (tree is not None and tree.plural):
+            raise bag.fault("a rank and several trees at once", "say which one, or how many")
+        nearer = s.Extreme(side=compass, count=rank.value - 1, of=of)
+        return Found(selector=s.Extreme(side=compass, of=s.Excluding(places=nearer, of=of)))
+    if bag.any or (bag.article in ("a", "an") and bag.count is None):
+        return Found(
+            selector=s.Take(count=count, of=s.AmongExtreme(side=compass, of=of)), many=count > 1, counted=count
+        )
+    if tree is not None and tree.plural and bag.count is None:
+        return Found(selector=s.AmongExtreme(side=compass, of=of), many=True, each=bag.each)
+    return Found(selector=s.Extreme(side=compass, count=count, of=of), many=count > 1, counted=count, each=bag.each)
+
+
+def region(bag: Bag, of: s.Selector) -> s.Selector:
+    """The trees of a half, a quarter, a side or an edge."""
+    direction = bag.take("DIR")
+    bag.take("PLOT")
+    if direction is None:
+        if bag.has("EDGE") and isinstance(of, s.Half) and of.of == s.Trees():
+            bag.take("EDGE")
+            return s.Edge(side=of.side)  # "the edge on the western side"
+        if isinstance(of, s.Half) and bag.has("SIDE"):
+            bag.take("SIDE")
+            return of
+        if bag.has("FINISH"):
+            raise bag.fault("which trees are meant does not stand there", "say 'the tree nearest to the end'")
+        raise bag.fault("which side is meant does not stand there", SIDE_ADVICE)
+    side = direction.value
+    if bag.take("EDGE", "FINISH") is not None:
+        area: s.Selector = s.Edge(side=_one_side(bag, side), of=of)
+    else:
+        quarter = bag.has("QUARTER")
+        bag.take("HALF", "SIDE", "QUARTER")
+        if quarter and len(side) != 2:
+            raise bag.fault("a quarter lies in a corner", "say 'the north-east quarter', for example")
+        area = half_or_quarter(side, of)
+    check_sides(area, bag.phrase)
+    return area
+
+
+def half_or_quarter(side: str, of: s.Selector) -> s.Selector:
+    """The half on one side, or the quarter in one corner."""
+    if len(side) == 2:
+        return s.Quarter(quarter=_corner(side), of=of)
+    compass: s.Side = {"north": "north", "east": "east", "south": "south"}.get(side, "west")  # type: ignore[assignment]
+    return s.Half(side=compass, of=of)
+
+
+def _corner(name: str) -> s.CornerName:
+    return next(c for c in _CORNERS if c == name)
+
+
+def _one_side(bag: Bag, side: str) -> s.Side:
+    for compass in ("north", "east", "south", "west"):
+        if side == compass:
+            found: s.Side = compass
+            return found
+    raise bag.fault("an edge lies on one side", SIDE_ADVICE)

@@ -1,0 +1,74 @@
+""" "Do the same": a passage of the plan, taken out, made ready for another place and put there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from fieldhand.planning.english import draft as d
+from fieldhand.planning.english.faults import unclear
+from fieldhand.planning.english.syntax import Part
+from fieldhand.task import selectors as s
+
+
+def last_passage(steps: list[d.Step]) -> d.Block:
+    """What was done at the last place: from the last step that goes somewhere."""
+    start = next((k for k in range(len(steps) - 1, -1, -1) if _has_place(steps[k])), 0)
+    return d.Block(steps=steps[start:])
+
+
+def without_place(passage: d.Block, part: Part) -> None:
+    """Make a copied passage begin at the new place instead of its own."""
+    first = passage.steps[0]
+    match first:
+        case d.Go():
+            passage.steps = passage.steps[1:]
+            if not passage.steps:
+                raise unclear(part.terms, "there is nothing before it to repeat")
+        case d.Capture():
+            first.at = None
+        case d.Loop(select=s.Adjacent() as select):
+            first.select = replace(select, near=s.Here())
+        case d.Loop(select=s.Nearest() as select):
+            first.select = replace(select, to=s.Here())
+        case d.Loop(body=body):
+            passage.steps = [*body.steps, *passage.steps[1:]]
+        case _:
+            pass
+
+
+def continue_with(passage: d.Block, scope: d.Block) -> None:
+    """Append a copied passage; its first capture may have been asked for again at the new place."""
+    first = passage.steps[0]
+    last = scope.steps[-1] if scope.steps else None
+    if isinstance(first, d.Capture) and isinstance(last, d.Capture) and last.action == first.action:
+        if first.reading:
+            last.reading = last.reading or first.reading
+            for step, _ in d.walk(passage):
+                if isinstance(step, d.Choice):
+                    step.condition = d.rename(step.condition, {first.reading: last.reading})
+        passage.steps = passage.steps[1:]
+    append(passage, scope)
+
+
+def append(passage: d.Block, scope: d.Block) -> None:
+    """Put the steps of a passage behind those of a block."""
+    for step in passage.steps:
+        scope.add(step)
+
+
+def copied(passage: d.Block, keep: Callable[[d.Step], bool], fresh: Callable[[], str]) -> d.Block:
+    """A copy of a passage with readings of its own."""
+    return d.copy_block(passage, keep, {}, fresh)
+
+
+def _has_place(step: d.Step) -> bool:
+    match step:
+        case d.Go() | d.Loop():
+            return True
+        case d.Capture(at=at):
+            return at is not None
+        case d.Attempt(body=body):
+            return bool(body.steps) and _has_place(body.steps[0])
+        case _:
+            return False

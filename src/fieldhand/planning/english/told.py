@@ -1,0 +1,72 @@
+"""What a request says, as far as it has been read, and how a mission ends."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from fieldhand.planning.english import draft as d
+from fieldhand.planning.english.limits import Limit
+from fieldhand.task import selectors as s
+from fieldhand.task.frames import Then
+
+
+@dataclass
+class Told:
+    """What a request says.
+
+    Attributes:
+        root: The plan's own level.
+        limits: Budgets and reserves.
+        nominal: Where the robot is to end, if the request says it.
+        first: The request says where to end before it says what to do.
+        in_case: Where the robot is to end in one case, if the request says it.
+        assumptions: What was assumed, as sentences.
+    """
+
+    root: d.Block = field(default_factory=d.Block)
+    limits: list[Limit] = field(default_factory=list)
+    nominal: Then | None = None
+    first: bool = False
+    in_case: Then | None = None
+    assumptions: list[str] = field(default_factory=list)
+
+
+@dataclass(eq=False)
+class Homeward(d.Halt):
+    """A return that the request asks for at the plan's own level: the exit if nothing follows it, else a drive."""
+
+    then: Then = "return_to_end"
+
+
+def settle(told: Told) -> None:
+    """Make the returns of the plan's own level drives, but for the last, which is the exit.
+
+    ``told`` is changed.
+    """
+    steps = told.root.steps
+    for index, step in enumerate(steps[:-1]):
+        if isinstance(step, Homeward):
+            marker = s.Marker(name="start" if step.then == "return_to_start" else "end")
+            steps[index] = d.Go(place=marker, said=step.said)
+    if steps and isinstance(steps[-1], Homeward):
+        told.nominal = steps[-1].then
+        steps.pop()
+    elif told.nominal in ("return_to_start", "return_to_end") and not told.first:
+        told.nominal = None
+    if told.nominal is None and told.in_case is not None:
+        told.nominal = told.in_case
+        told.assumptions.append(f"The mission ends there in any case ({told.in_case.replace('_', ' ')}).")
+    while len(steps) > 1 and type(steps[-1]) is d.Halt:
+        steps.pop()  # a plan ends at its end
+    _without_questions(told, told.root)
+
+
+def _without_questions(told: Told, block: d.Block) -> None:
+    for step in list(block.steps):
+        for inner in d.blocks_of(step):
+            _without_questions(told, inner)
+        if isinstance(step, d.Choice) and not step.then.steps and not (step.otherwise and step.otherwise.steps):
+            block.steps.remove(step)
+            told.assumptions.append(
+                "What is asked about a reading is answered by the reading; nothing is done about it."
+            )

@@ -1,0 +1,88 @@
+"""A plan as one readable line, for tests: ``for Corners: [picture x2; co2 = r1; if r1 co2 low: [picture]]``."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+
+from fieldhand.task import conditions as c
+from fieldhand.task import plan as p
+from fieldhand.task import selectors as s
+from fieldhand.task.frames import Task
+
+SHORT = {"take_thermal_picture": "picture", "take_picture": "picture", "read_co2": "co2"}
+SHORT |= {"read_ambient_temperature": "air", "read_soil_moisture": "moisture", "read_soil_nitrate": "nitrate"}
+SIGNS = {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "eq": "=", "ne": "!="}
+
+
+def outline(task: Task) -> str:
+    """The plan of a Task, its limits and its exit where it is not the usual one."""
+    limits = "".join(f" | {b.kind} {b.limit:g}" for b in task.constraints.budgets)
+    if task.constraints.reserve_percent is not None:
+        limits += f" | reserve {task.constraints.reserve_percent:g}"
+    exit_ = "" if task.composition.nominal == "return_to_end" else f" | {task.composition.nominal}"
+    return node(task.composition.plan) + limits + exit_
+
+
+def node(n: p.Node) -> str:
+    """One node with all inside it."""
+    match n:
+        case p.Act():
+            times = f" x{n.count}" if n.count > 1 else ""
+            at = f" @ {selector(n.at)}" if n.at is not None else ""
+            return f"{SHORT.get(n.action, n.action)}{times}{at}" + (f" = {n.reading}" if n.reading else "")
+        case p.GoTo():
+            return f"go {selector(n.place)}"
+        case p.ForEach():
+            how = (" given" if n.order == "given" else "") + (" optional" if n.optional else "")
+            how += f" at most {n.at_most}" if n.at_most else ""
+            return f"for {selector(n.select)}{how}: [{node(n.body)}]"
+        case p.If():
+            other = "" if n.otherwise is None else f" else [{node(n.otherwise)}]"
+            return f"if {condition(n.condition)}: [{node(n.then)}]{other}"
+        case p.Repeat():
+            return f"{n.times} times: [{node(n.body)}]"
+        case p.Try():
+            return f"try [{node(n.body)}] or [{node(n.otherwise)}]"
+        case p.Sequence():
+            return "; ".join(node(step) for step in n.steps)
+        case p.Stop():
+            return "stop"
+        case _:
+            raise AssertionError(n)
+
+
+def selector(x: s.Selector) -> str:
+    """A selector, its defaults left out."""
+    said = []
+    for f in fields(x):
+        value = getattr(x, f.name)
+        if value == f.default:
+            continue
+        if isinstance(value, s.Selector):
+            value = selector(value)
+        elif isinstance(value, tuple):
+            value = "+".join(selector(v) if isinstance(v, s.Selector) else str(v) for v in value)
+        elif isinstance(value, float):
+            value = f"{value:g}"
+        said.append(f"of {value}" if f.name == "of" else str(value))
+    return f"{type(x).__name__}({', '.join(said)})" if said else type(x).__name__
+
+
+def condition(x: c.Condition) -> str:
+    """A condition."""
+    match x:
+        case c.Compare():
+            return f"{x.reading} {SIGNS[x.test]} {x.value:g} {x.unit}"
+        case c.Between():
+            return f"{x.low:g} <= {x.reading} <= {x.high:g} {x.unit}"
+        case c.Level():
+            return f"{x.reading} {x.level}"
+        case c.TreeHas():
+            value = f"{x.value:g}" if isinstance(x.value, float) else x.value
+            return f"{x.attribute} {SIGNS[x.test]} {value}"
+        case c.Not():
+            return f"not {condition(x.condition)}"
+        case c.AllOf():
+            return " and ".join(condition(i) for i in x.conditions)
+        case c.AnyOf():
+            return " or ".join(condition(i) for i in x.conditions)

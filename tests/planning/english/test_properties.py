@@ -1,0 +1,82 @@
+"""Whatever is typed: an outcome or a RequestError, and no word dropped in silence."""
+
+from __future__ import annotations
+
+import contextlib
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from english_requests import PLANNED
+from fieldhand.errors import RequestError
+from fieldhand.planning.english.arrange import arrange
+from fieldhand.planning.english.faults import Question, Unclear
+from fieldhand.planning.english.lexicon import lexicon_for
+from fieldhand.planning.english.planner import EnglishPlanner
+from fieldhand.planning.english.tokens import words_of
+from fieldhand.planning.english.vocabulary import vocabulary
+from fieldhand.planning.planner import Clarify, Planned, Refused
+from fieldhand.robot.capabilities import capabilities_of
+from fieldhand.robot.loader import load_robot
+from fieldhand.site.geojson import open_site
+from fieldhand.task.codec import encode
+from fieldhand.task.references import references
+from fieldhand.task.schema import validate
+
+SITE, HUSKY = open_site("demo"), load_robot("husky")
+CAPABILITIES = capabilities_of(HUSKY)
+LEXICON = lexicon_for(HUSKY, SITE)
+TABLES = ("verbs", "nouns", "words", "sides", "levels")
+WORDS = sorted({w for table in TABLES for phrases in vocabulary()[table].values() for w in phrases})
+MORE = ["picture", "CO2 reading", "tree 4", "5", "33 °C", "400 ppm", "yellow", "wet corner", ",", ".", "and", "below"]
+
+
+def try_to_plan(request: str) -> None:
+    with contextlib.suppress(RequestError):
+        outcome = EnglishPlanner().plan(request, SITE, HUSKY)
+        assert isinstance(outcome, Planned | Clarify | Refused)
+        if isinstance(outcome, Planned):
+            assert references(outcome.task, CAPABILITIES) == ()
+            assert validate(encode(outcome.task), CAPABILITIES) == ()
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.lists(st.sampled_from(WORDS + MORE * 20), min_size=1, max_size=14))
+def test_known_words_in_any_order_never_break_it(words: list[str]) -> None:
+    try_to_plan(" ".join(words))
+
+
+@settings(max_examples=80, deadline=None)
+@given(st.text(max_size=60))
+def test_any_text_never_breaks_it(text: str) -> None:
+    try_to_plan(text)
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.sampled_from(PLANNED), st.data())
+def test_a_request_with_a_word_left_out_or_doubled_never_breaks_it(
+    case: tuple[str, str, str], data: st.DataObject
+) -> None:
+    words = case[1].split()
+    at = data.draw(st.integers(0, len(words) - 1))
+    try_to_plan(" ".join(words[:at] + words[at + 1 :]))
+    try_to_plan(" ".join([*words[:at], words[at], *words[at:]]))
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.lists(st.sampled_from(WORDS + MORE * 20), min_size=1, max_size=14))
+def test_every_word_is_in_a_sentence_or_known_to_mean_nothing(words: list[str]) -> None:
+    request = " ".join(words)
+    terms = LEXICON.terms(words_of(request))
+    with contextlib.suppress(Unclear, Question):
+        arranged = arrange(terms, request)
+        spans = [*arranged.filler, *(t.span for sentence in arranged.sentences for t in sentence.terms)]
+        for word in words_of(request):
+            assert any(start <= word.start and word.end <= end for start, end in spans), word
+
+
+def test_a_word_that_is_not_known_is_named() -> None:
+    outcome = EnglishPlanner().plan("take a picture of tree 4 with the frobnicator", SITE, HUSKY)
+    assert isinstance(outcome, Refused)
+    assert "'frobnicator'" in outcome.reasons[0].what
+    assert outcome.reasons[0].said == ((34, 45),)
