@@ -57,8 +57,8 @@ def test_a_level_is_what_the_profile_says() -> None:
 
 def test_why_is_a_true_sentence() -> None:
     below = Compare(reading="r", quantity="canopy_temperature", test="lt", value=33, unit="degC")
-    assert finding(below, canopy_temperature=31.2)[1] == "canopy temperature 31.2 degC is below 33 degC"
-    assert finding(below, canopy_temperature=35)[1] == "canopy temperature 35 degC is not below 33 degC"
+    assert finding(below, canopy_temperature=31.2)[1] == "canopy temperature 31.2 °C is below 33 °C"
+    assert finding(below, canopy_temperature=35)[1] == "canopy temperature 35 °C is not below 33 °C"
     assert finding(Level(reading="r", quantity="co2", level="low"))[1] == "CO₂ 390 ppm is low (below 400 ppm)"
     assert finding(UNKNOWN)[1] == "there is no reading of CO₂"
 

@@ -264,7 +264,7 @@ def test_the_last_of_several_captures_is_the_reading() -> None:
     result = Rig().fly(seq(act(at=tree("r0c0"), count=2, reading="r"), If(id="", condition=HOT, then=act(CO2))))
     last = of_type(result.events, Acted)[1].readings["canopy_temperature"]
     (decided,) = of_type(result.events, Decided)
-    assert decided.why.startswith(f"canopy temperature {last:.6g}")
+    assert decided.why.startswith(f"canopy temperature {last:.4g}")
 
 
 def test_try_goes_on_with_the_otherwise() -> None:
