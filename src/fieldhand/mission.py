@@ -146,15 +146,17 @@ def review(task: Task, site: Site, robot: RobotProfile, *, seed: int = 0, docume
     return Review(task=task, problems=found.problems, estimate=found.estimate, read_back=words)
 
 
-def authorize(task: Task, site: Site, robot: RobotProfile, *, by: str, at: datetime) -> AuthorizedTask:
-    """Approve a Task for this site and this robot.
+def authorize(
+    task: Task, site: Site, robot: RobotProfile, *, by: str, at: datetime, confirmed: tuple[str, ...] = ()
+) -> AuthorizedTask:
+    """Approve a Task for this site and this robot, with the warnings that were shown and accepted.
 
     Raises:
         NotApprovedError: A check fails.
     """
     from fieldhand.approval.authorize import approve
 
-    return approve(task, site, robot, by=by, at=at.isoformat(timespec="seconds"))
+    return approve(task, site, robot, by=by, at=at.isoformat(timespec="seconds"), confirmed=confirmed)
 
 
 def carry_out(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from itertools import pairwise
 from pathlib import Path
 
@@ -154,3 +155,20 @@ def test_nobody_there_to_approve_is_no_approval() -> None:
     assert run.status == 1
     assert "--yes" in run.err
     assert "Traceback" not in run.err
+
+
+def test_a_negative_seed_is_no_seed() -> None:
+    run = fieldhand("run", "Take a picture of the first tree.", "--site", "demo", "--yes", "--seed", "-1")
+    assert run.status == 2
+    assert "Traceback" not in run.err
+    assert "--seed" in run.err
+
+
+def test_a_terminal_that_cannot_show_every_sign_still_gets_an_answer() -> None:
+    run = fieldhand("robot", "husky", env=dict(os.environ) | {"PYTHONIOENCODING": "ascii"})
+    assert run.status == 0, run.err
+    plan = fieldhand(
+        "plan", "Read CO2 at tree 5.", "--site", "demo", env=dict(os.environ) | {"PYTHONIOENCODING": "ascii"}
+    )
+    assert plan.status == 0, plan.err
+    assert "CO?" in plan.out

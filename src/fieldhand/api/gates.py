@@ -97,11 +97,19 @@ class CallerGate:
                 response = problem(403, "this server is not known by that name", "Host", "call it as localhost")
                 await response(scope, receive, send)
                 return
-            if origin is not None and urlsplit(origin).netloc.lower() != host.lower():
+            if origin is not None and _origin_host(origin) != host.lower():
                 response = problem(403, "a page of another site may not use this server", "Origin")
                 await response(scope, receive, send)
                 return
         await self._app(scope, receive, send)
+
+
+def _origin_host(origin: str) -> str:
+    """The host and port of an ``Origin`` header; empty for one that is none."""
+    try:
+        return urlsplit(origin).netloc.lower()
+    except ValueError:
+        return ""
 
 
 class BodyGate:

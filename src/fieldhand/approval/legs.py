@@ -18,9 +18,10 @@ def driven_through(walks: Sequence[Walk], site: Site) -> tuple[tuple[str, str], 
     from shapely.geometry import LineString
     from shapely.ops import unary_union
 
-    keep_outs = site.zones_of("keep_out")
+    # Driving along an edge is allowed: only what lies inside a keep-out counts, and outside the boundary.
+    keep_outs = [(z.name, z.polygon.buffer(-TOLERANCE_M)) for z in site.zones_of("keep_out")]
     boundaries = site.zones_of("boundary")
-    inside = unary_union([b.polygon for b in boundaries]) if boundaries else None
+    inside = unary_union([b.polygon for b in boundaries]).buffer(TOLERANCE_M) if boundaries else None
     found: dict[tuple[str, str], None] = {}
     seen: set[tuple[tuple[float, float], ...]] = set()
     for step in (s for w in walks for s in w.steps):
@@ -28,9 +29,9 @@ def driven_through(walks: Sequence[Walk], site: Site) -> tuple[tuple[str, str], 
             continue
         seen.add(step.drive.points)
         line = LineString(step.drive.points)
-        for zone in keep_outs:
-            if line.intersects(zone.polygon) and line.intersection(zone.polygon).length > TOLERANCE_M:
-                found[step.node.id, f"through the keep-out “{zone.name}”"] = None
+        for name, polygon in keep_outs:
+            if line.intersects(polygon) and line.intersection(polygon).length > TOLERANCE_M:
+                found[step.node.id, f"through the keep-out “{name}”"] = None
         if inside is not None and line.difference(inside).length > TOLERANCE_M:
             found[step.node.id, "outside the boundary"] = None
     return tuple(found)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import sys
 from collections.abc import Callable
 
@@ -14,6 +15,10 @@ def main(*others: Callable[..., None]) -> None:
     """
     from fieldhand.cli.app import assemble
     from fieldhand.errors import FieldhandError
+
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")  # a terminal without "°" or "₂" shows a question mark, no traceback
 
     try:
         assemble(*others)()

@@ -58,7 +58,7 @@ def fly(ground: Ground, task: Task, document: bytes | None, orders: Orders, *, p
         OutputError: Something cannot be written.
     """
     review = _review(ground, task, document, orders)
-    authorized = _approve(ground, task, orders)
+    authorized = _approve(ground, review, orders)
     _leave_plan(ground, review, document, orders)
     events = _carry_out(ground, authorized, orders)
     return _conclude(ground, review, authorized, events, orders, planner)
@@ -94,7 +94,7 @@ def _review(ground: Ground, task: Task, document: bytes | None, orders: Orders) 
     return review
 
 
-def _approve(ground: Ground, task: Task, orders: Orders) -> AuthorizedTask:
+def _approve(ground: Ground, review: mission.Review, orders: Orders) -> AuthorizedTask:
     if orders.ask:
         if not may_ask():
             raise NotApprovedError("nobody is here to approve", advice="give --yes if you have read the plan")
@@ -102,7 +102,14 @@ def _approve(ground: Ground, task: Task, orders: Orders) -> AuthorizedTask:
 
         if not typer.confirm("\nApprove and carry out?"):
             raise NotApprovedError("not approved, nothing was done")
-    return mission.authorize(task, ground.site, ground.robot, by=orders.by or _user(), at=datetime.now(UTC))
+    return mission.authorize(
+        review.task,
+        ground.site,
+        ground.robot,
+        by=orders.by or _user(),
+        at=datetime.now(UTC),
+        confirmed=tuple(str(p) for p in review.problems if p.severity == "warning"),
+    )
 
 
 def _leave_plan(ground: Ground, review: mission.Review, document: bytes | None, orders: Orders) -> None:

@@ -23,4 +23,4 @@ TranscriptOption = Annotated[
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object instead of text.")]
 PictureOption = Annotated[Path | None, typer.Option("--picture", help="Draw a map to this PNG file.")]
-SeedOption = Annotated[int, typer.Option("--seed", help="Same seed, same mission.")]
+SeedOption = Annotated[int, typer.Option("--seed", min=0, help="Same seed, same mission.")]

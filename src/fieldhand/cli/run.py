@@ -17,7 +17,7 @@ def run(
     planner: PlannerOption = "auto",
     world: Annotated[Path | None, typer.Option("--world", help="What sensors read, and what goes wrong.")] = None,
     seed: Annotated[
-        int | None, typer.Option("--seed", help="Same seed, same mission; else the world's, else 0.")
+        int | None, typer.Option("--seed", min=0, help="Same seed, same mission; else the world's, else 0.")
     ] = None,
     events: Annotated[Path | None, typer.Option("--events", help="Write the event log (JSON lines) here.")] = None,
     output: Annotated[Path | None, typer.Option("-o", "--out", help="Folder for Task, map, events and report.")] = None,

@@ -70,3 +70,11 @@ def test_what_is_no_transcript_is_refused_with_its_line(tmp_path: Path, line: st
 def test_a_missing_file_is_said(tmp_path: Path) -> None:
     with pytest.raises(InputError):
         read_transcript(tmp_path / "nowhere.jsonl")
+
+
+def test_a_key_that_an_endpoint_sends_back_is_not_kept(tmp_path: Path) -> None:
+    path = tmp_path / "t.jsonl"
+    writer = TranscriptWriter(path, now=lambda: NOON, redact=lambda line: line.replace("secret", "***"))
+    writer.begin("Take a picture.", planner="llm:secret")
+    assert "secret" not in path.read_text()
+    assert path.stat().st_mode & 0o077 == 0

@@ -61,14 +61,14 @@ Answer = TaskAnswer | QuestionAnswer | RefusalAnswer | Unusable
 
 def read_answer(reply: Reply) -> Answer:
     """What a reply says. Never raises: what cannot be read is :class:`Unusable`."""
+    if len(reply.text) > LONGEST_ANSWER:
+        return Unusable(reason=f"The answer was longer than {LONGEST_ANSWER} characters.")
     # A comment leaves its line breaks behind, so that lines are counted as the model wrote them.
     text = _COMMENT.sub(lambda m: "\n" * m[0].count("\n"), _THOUGHT.sub("", reply.text)).strip()
     if reply.finish == "content_filter":
         return Unusable(reason="The answer was withheld by the content filter of the endpoint.")
     if not text:
         return _cut_off() if reply.finish == "length" else Unusable(reason="The answer was empty.")
-    if len(text) > LONGEST_ANSWER:
-        return Unusable(reason=f"The answer was longer than {LONGEST_ANSWER} characters.")
     documents, unclosed = _documents(text)
     if unclosed or (not documents and reply.finish == "length"):
         return _cut_off()

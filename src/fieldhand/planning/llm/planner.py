@@ -20,6 +20,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.build import FAULTED_EXITS, make_task
 from fieldhand.task.codec import Draft
+from fieldhand.task.codec_text import unwritable_character
 from fieldhand.task.frames import Resource
 
 #: A longer request is a file given by mistake; a model would be paid to read it.
@@ -53,7 +54,7 @@ class LlmPlanner:
     ) -> None:
         self._settings = settings
         self._chat = chat or ModelChat(settings)
-        self._transcript = TranscriptWriter(transcript, now)
+        self._transcript = TranscriptWriter(transcript, now, settings.redact)
         self._transcript_path = transcript
         self._note = note
 
@@ -147,6 +148,12 @@ def _check(request: str) -> None:
         raise RequestError(
             f"the request has {len(request)} characters, more than {LONGEST_REQUEST}",
             advice="say it in fewer words, or in several requests",
+        )
+    odd = unwritable_character(request)
+    if odd is not None:
+        what = f"the request holds the character {odd!r}, which no document can hold"
+        raise RequestError(what, advice="leave it out")
+            f"the request holds the character {odd!r}, which no document can hold", advice="leave it out"
         )
 
 

@@ -31,11 +31,15 @@ class TranscriptWriter:
     Args:
         path: The file; None writes nothing.
         now: Gives the time.
+        redact: Takes secrets out of a line: an endpoint may answer with the key that it was sent.
     """
 
-    def __init__(self, path: Path | None, now: Callable[[], datetime] = wall_clock) -> None:
+    def __init__(
+        self, path: Path | None, now: Callable[[], datetime] = wall_clock, redact: Callable[[str], str] = str
+    ) -> None:
         self._path = path
         self._now = now
+        self._redact = redact
 
     def begin(self, request: str, **about: Any) -> None:
         """Open a session: the request word for word, and who is asked about what."""
@@ -67,8 +71,9 @@ class TranscriptWriter:
             return
         try:
             self._path.parent.mkdir(parents=True, exist_ok=True)
-            with self._path.open("a", encoding="utf-8") as file:
-                file.write(json.dumps(line, ensure_ascii=False) + "\n")
+            self._path.touch(mode=0o600)
+            with self._path.open("a", encoding="utf-8", errors="backslashreplace") as file:
+                file.write(self._redact(json.dumps(line, ensure_ascii=False)) + "\n")
         except OSError as error:
             raise OutputError(
                 f"the transcript cannot be written ({error.strerror})",
