@@ -6,6 +6,25 @@ Longer than other files because it is a table.
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
+    ("husky", "take a picture at tree 4 unless it is yellow", "go TreeIs(4); if not leaf_color = yellow: [picture]"),
+    (
+        "husky",
+        "Take a picture of tree 4. Unless it is above 36 C, read CO2.",
+        "picture @ TreeIs(4) = r1; if not r1 > 36 degC: [co2]",
+    ),
+    ("husky", "Image tree 5, then the tree next to it.", "picture @ TreeIs(5); picture @ Nearest(Here, True)"),
+    ("husky", "Picture the trees older than 3 years.", "for Where(age_years, gt, 3): [picture]"),
+    ("husky", "What is the CO2 at the westernmost tree?", "co2 @ Extreme(west)"),
+    (
+        "husky",
+        "Read co2 at the tree nearest to the end marker and go back to the start when you are finished",
+        "co2 @ Nearest(Marker(end)) | return_to_start",
+    ),
+    (
+        "husky",
+        "Measure the temperature at the trees yielding more than 15 kg.",
+        "for Where(yield_kg, gt, 15): [air]",
+    ),
     ("husky", "take a picture of tree 7", "picture @ TreeIs(7)"),
     ("husky", "photograph trees 4, 9 and 12", "for Union(TreeIs(4)+TreeIs(9)+TreeIs(12)): [picture]"),
     ("husky", "take a picture of tree #7", "picture @ TreeIs(7)"),
@@ -572,7 +591,6 @@ REFUSED = [
         "take a picture and a CO2 reading at tree 4 and tree 9 respectively",
         "'respectively' is not possible yet",
     ),
-    ("husky", "take a picture at tree 4 unless it is yellow", "'unless' is not possible yet"),
     ("husky", "take a picture at tree 4 because I like it", "not understood: 'I', 'like'"),
     ("husky", "Take a CO2 reading at every third tree", "'every third' is not possible yet"),
     ("husky", "Take a picture of every tree in the pond", "nothing on this site is trees inside zone pond"),

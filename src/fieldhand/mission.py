@@ -159,6 +159,17 @@ def authorize(
     return approve(task, site, robot, by=by, at=at.isoformat(timespec="seconds"), confirmed=confirmed)
 
 
+def check_world(world: World, site: Site, robot: RobotProfile) -> None:
+    """See whether a world speaks of this site and this robot.
+
+    Raises:
+        WorldError: It names a tree, a quantity or an action that is not there.
+    """
+    from fieldhand.execution.drivers.groundtruth import GroundTruth
+
+    GroundTruth(world, site, robot, seed=0)
+
+
 def carry_out(
     authorized: AuthorizedTask,
     site: Site,

@@ -192,6 +192,20 @@ def test_what_stands_behind_a_stop_is_not_wanted():
     assert "the plan ended before it" in outcome.why
 
 
+def test_what_stands_behind_a_stop_that_only_the_exit_tells_of_is_not_wanted():
+    plan = Sequence(id="", steps=(Try(id="", body=PICTURE, otherwise=Stop(id="")), CO2))
+    failed = [
+        acted("n3", "failed"),
+        Faulted(t=2, node="n3", fault="action_failed", what="no picture", handled=True),
+        Exited(t=3, node="n4", exit="nominal", then="stay"),
+        ended(),
+    ]
+    picture, co2 = judge(task_of(plan), failed)
+    assert picture.outcome == "failure"
+    assert (co2.outcome, co2.done, co2.wanted) == ("success", 0, 0)
+    assert "the plan ended before it" in co2.why
+
+
 @pytest.mark.parametrize(
     ("end", "expected"),
     [([], "indeterminate"), ([ended("aborted")], "indeterminate"), ([ended("returned", "low battery")], "failure")],

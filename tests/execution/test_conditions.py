@@ -72,12 +72,25 @@ def test_why_is_a_true_sentence() -> None:
         ("Variety", "eq", "Kerman", True),
         ("reward", "ge", 1.0, True),
         ("reward", "gt", 1.0, False),
-        ("variety", "lt", 3.0, False),
+        ("variety", "lt", 3.0, None),
+        ("reward", "gt", "abc", None),
+        ("reward", "le", "1", True),
+        ("variety", "eq", "no such variety", False),
         ("age", "lt", 3.0, None),
     ],
 )
 def test_what_the_site_says_of_the_tree(attribute: str, how: Test, value: Value, truth: bool | None) -> None:
     assert finding(TreeHas(attribute=attribute, test=how, value=value))[0] is truth
+
+
+def test_the_opposite_of_a_comparison_that_cannot_be_made_does_not_hold() -> None:
+    for one in (
+        TreeHas(attribute="reward", test="gt", value="abc"),
+        TreeHas(attribute="variety", test="lt", value=3.0),
+    ):
+        truth, why = finding(Not(condition=one))
+        assert truth is None
+        assert "cannot be ordered against" in why
 
 
 def test_a_marker_has_no_attributes() -> None:

@@ -7,10 +7,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
+import numpy as np
 import pytest
 
 from fieldhand.clock import Clock, ScaledClock
 from fieldhand.errors import NotApprovedError, OutputError
+from fieldhand.execution.drivers.protocol import DriveGoal
+from fieldhand.execution.drivers.simulation import SimulatedDriver
 from fieldhand.execution.runtime import run
 from fieldhand.execution.world import (
     ActionFails,
@@ -24,7 +27,7 @@ from fieldhand.execution.world import (
 from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
 from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import Constraints, FaultedExit
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Try
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Stop, Try
 from fieldhand.task.plan import Sequence as Steps
 from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event, Exited, Faulted, Shed, Started, to_json
 from fieldhand.task.selectors import Half, Selector, TreeIs, Trees, Union
@@ -371,7 +374,7 @@ def test_optional_visits_that_do_not_fit_are_shed_with_the_reason_and_the_missio
 
 def test_the_guard_chooses_among_optional_visits_and_sheds_some() -> None:
     class LastFirst(BudgetOf):
-        def choose(self, state: MissionState, candidates: Sequence[Visit]) -> Choice:
+        def choose(self, state: MissionState, candidates: Sequence[Visit], *, at_most: int | None = None) -> Choice:
             rewards = [c.reward for c in candidates]
             best = rewards.index(max(rewards))
             worthless = tuple(i for i, r in enumerate(rewards) if r == 0.0)
@@ -382,6 +385,19 @@ def test_the_guard_chooses_among_optional_visits_and_sheds_some() -> None:
     assert [p for _, p in captured(result.events)] == ["r0c3", "r0c2", "r0c1"]
     (shed,) = of_type(result.events, Shed)
     assert (shed.places, shed.reason) == (("r0c0",), "worth nothing")
+
+
+def test_the_guard_is_told_how_many_optional_visits_may_still_be_made() -> None:
+    told: list[int | None] = []
+
+    class Counting(BudgetOf):
+        def choose(self, state: MissionState, candidates: Sequence[Visit], *, at_most: int | None = None) -> Choice:
+            told.append(at_most)
+            return super().choose(state, candidates)
+
+    Rig(guard=Counting(99)).fly(each("r0c0", "r0c1", "r0c2", "r0c3", optional=True, at_most=2))
+    Rig(guard=Counting(99)).fly(each("r0c0", optional=True))
+    assert told == [2, 1, None]
 
 
 def test_work_that_does_not_fit_inside_an_optional_visit_costs_only_that_visit() -> None:
@@ -408,3 +424,68 @@ def test_mandatory_loops_inside_optional_visits_cost_only_the_visit() -> None:
     assert result.status == "completed"
     assert [p for a, p in captured(result.events) if a == PICTURE] == ["r0c0", "r0c1"]
     assert [(e.places, e.optional) for e in of_type(result.events, Shed)] == [(("r0c0",), True), (("r0c1",), True)]
+
+
+# --- work at the place in hand ---------------------------------------------------------------------------------------
+
+
+def _picture_else_air() -> Steps:
+    """A picture at r0c0; then one at r3c4, and where that fails a reading at the place in hand."""
+    return seq(act(at="r0c0"), Try(id="", body=act(at="r3c4"), otherwise=act(CO2)))
+
+
+def test_after_a_failed_drive_work_at_the_place_in_hand_is_done_there() -> None:
+    world = World(faults=(Blocked(at=Spot(id="r3c4"), within_m=2.0),))
+    guard = BudgetOf(visits=99)
+    result = Rig(world=world, guard=guard).fly(_picture_else_air())
+    assert captured(result.events) == [(PICTURE, "r0c0"), (CO2, "r0c0")]
+    reading = next(e for e in result.events if isinstance(e, Acted) and e.action == CO2)
+    before = result.events[: result.events.index(reading)]
+    arrived = before[-1]
+    assert isinstance(arrived, Arrived)
+    assert (arrived.node, arrived.place) == (reading.node, "r0c0")
+    assert arrived.leg_m > 1
+    assert (reading.node, "r0c0") in [(node, place) for node, place, _ in guard.asked]
+    assert result.status == "completed"
+
+
+class NoWayBack(SimulatedDriver):
+    """Once it has left r0c0, it finds its way back there only by way of r3c4."""
+
+    def start_drive(self, goal: DriveGoal) -> None:
+        first, *others = goal.path_m
+        if goal.place.id == "r0c0" and math.dist(first, SITE.start.xy) > 1:
+            goal = replace(goal, path_m=(first, SITE.by_id["r3c4"].place.xy, *others))
+        super().start_drive(goal)
+
+
+class RigOfNoWayBack(Rig):
+    def driver(self) -> SimulatedDriver:
+        return NoWayBack(self.site, self.robot, self.world, self.clock, np.random.default_rng(self.seed))
+
+
+def test_work_at_the_place_in_hand_fails_where_the_robot_cannot_drive_back() -> None:
+    world = World(faults=(Blocked(at=Spot(id="r3c4"), within_m=2.0),))
+    result = RigOfNoWayBack(world=world).fly(_picture_else_air())
+    assert [(e.action, e.place) for e in of_type(result.events, Acted)] == [(PICTURE, "r0c0")]
+    assert result.status == "faulted"
+    fault = of_type(result.events, Faulted)[-1]
+    assert (fault.node, fault.fault, fault.handled) == ("n5", "drive_failed", False)
+
+
+def test_the_guard_is_asked_before_the_robot_drives_back_to_the_place_in_hand() -> None:
+    world = World(faults=(Blocked(at=Spot(id="r3c4"), within_m=2.0),))
+    result = Rig(world=world, guard=BudgetOf(visits=2)).fly(_picture_else_air())
+    assert captured(result.events) == [(PICTURE, "r0c0")]
+    assert result.status == "returned"
+    assert [(e.node, e.places) for e in of_type(result.events, Shed)] == [("n5", ("r0c0",))]
+
+
+def test_the_exit_names_the_stop_that_took_it() -> None:
+    stop = Try(id="", body=act(at="r0c0"), otherwise=Stop(id="", exit="faulted"))
+    world = World(faults=(ActionFails(action=PICTURE),))
+    result = Rig(world=world).fly(seq(stop, act(CO2)))
+    (exited,) = of_type(result.events, Exited)
+    assert (exited.node, exited.exit) == ("n4", "faulted")
+    (exited,) = of_type(Rig().fly(act(at="r0c0")).events, Exited)
+    assert exited.node == ""

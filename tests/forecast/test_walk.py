@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import pytest
 
-from fieldhand.errors import PlaceError
+from fieldhand.errors import PlaceError, TaskError
 from fieldhand.forecast.branches import branches
 from fieldhand.forecast.walk import walk
 from fieldhand.task.conditions import Level
@@ -174,3 +174,21 @@ def test_more_branches_than_can_be_looked_at_are_reported_with_the_extremes_amon
 def test_a_failing_action_inside_a_try_is_a_branch():
     found = branches(task_for(SITE, Try(id="", body=picture(tree("1")), otherwise=picture(tree("2")))), SITE, ROBOT)
     assert sorted(places(w) for w in found.walks) == [["1"], ["1", "2"]]
+
+
+@pytest.mark.parametrize("body", [picture(), GoTo(id="", place=Here())], ids=["with captures", "without any step"])
+def test_a_walk_without_end_in_sight_is_refused_with_its_node(body):
+    plan = Repeat(id="", times=1000, body=Repeat(id="", times=1000, body=body))
+    with pytest.raises(TaskError, match="the plan has more than 100,000 steps") as caught:
+        walked(plan)
+    assert caught.value.where in ("n2", "n3")
+    assert caught.value.advice
+
+
+def test_long_walks_are_not_walked_again_and_again():
+    long = Repeat(id="", times=200, body=Repeat(id="", times=300, body=picture()))
+    assert branches(task_for(SITE, long), SITE, ROBOT).complete
+    choices = [If(id="", condition=LOW, then=picture(), otherwise=picture(count=2)) for _ in range(4)]
+    found = branches(task_for(SITE, Sequence(id="", steps=(long, *choices))), SITE, ROBOT)
+    assert len(found.walks) == 4
+    assert not found.complete

@@ -60,7 +60,7 @@ def test_the_operator_reads_which_planner_it_was_and_why() -> None:
     assert isinstance(by_english, Planned)
     assert isinstance(by_model, Planned)
     assert by_english.warnings[0] == by_model.warnings[0] == "of its own"
-    assert "'english'" in by_english.warnings[-1]
+    assert by_english.warnings == ("of its own",)
     assert "'llm:m'" in by_model.warnings[-1]
     assert "'a' is not known" in by_model.warnings[-1]
     assert "and 2 more" in by_model.warnings[-1]
@@ -81,7 +81,7 @@ def test_two_refusals_give_the_reasons_of_both() -> None:
 def test_without_a_model_the_refusal_says_what_was_not_understood_and_how_to_get_one() -> None:
     refused = ask(Fixed(REFUSED), None)
     assert isinstance(refused, Refused)
-    assert refused.reasons[:-1] == REFUSED.reasons
+    assert [r.what for r in refused.reasons] == [r.what for r in REFUSED.reasons]
     assert "FIELDHAND_MODEL" in refused.reasons[-1].advice
 
 

@@ -104,6 +104,23 @@ def test_a_reading_taken_anew_replaces_the_one_before():
     assert len(references(task_of(probe("r"), co2, when(dry())), ROVER)) == 1
 
 
+@pytest.mark.parametrize(("low", "high", "wrong"), [(5, 1, True), (1, 5, False), (3, 3, False)])
+def test_the_low_end_of_a_range_comes_first(low, high, wrong):
+    between = Between(reading="r", quantity="soil_moisture", low=low, high=high, unit="percent")
+    problems = references(task_of(probe("r"), when(Not(condition=between))), ROVER)
+    expected = (
+        "node 'n3' tests whether the soil_moisture is between 5 and 1, which it never is: the low end comes first"
+    )
+    assert problems == ((expected,) if wrong else ())
+
+
+@pytest.mark.parametrize(("times", "wrong"), [(100, False), (101, True)])
+def test_nested_repeats_do_not_multiply_without_end(times, wrong):
+    plan = Repeat(id="", times=10, body=Repeat(id="", times=times, body=Repeat(id="", times=100, body=probe())))
+    expected = "node 'n4' comes to 101,000 rounds, with the loops around it; 100,000 is the most"
+    assert references(task_of(plan)) == ((expected,) if wrong else ())
+
+
 def test_ids_stand_once():
     task = task_of(probe(), probe())
     plan = Sequence(id="n1", steps=(probe(at=Here()), Stop(id="n1"), Stop(id="")))

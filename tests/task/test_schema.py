@@ -114,6 +114,7 @@ def test_the_schema_is_itself_valid_and_the_same_every_time(draft):
         ("<condition>", "<case/><condition>", "<case>: is not known inside <if>; known: condition, then, otherwise"),
         ("<select>", "<select>every tree", "<select>: holds text between its elements"),
         ('count="2"', 'count="0"', 'count="0" is out of bounds: it must be at least 1'),
+        ('count="2"', 'count="1001"', 'count="1001" is out of bounds: it must be at most 1000'),
         ('count="2"', 'count="two"', 'count="two" is not a whole number'),
         ('said="0-2"', 'said="0"', 'said="0" is not a list of character ranges'),
         ('limit="100"', 'limit="0"', 'limit="0" is out of bounds: it must be above 0'),
@@ -130,6 +131,23 @@ def test_the_schema_is_itself_valid_and_the_same_every_time(draft):
 def test_what_the_robot_lacks_is_not_valid_and_is_named(right, wrong, expected):
     assert right.encode() in DOCUMENT
     assert expected in said(DOCUMENT.replace(right.encode(), wrong.encode(), 1))
+
+
+@pytest.mark.parametrize(
+    ("speed", "expected"),
+    [("1e-310", "at least 0.01"), ("0", "at least 0.01"), ("20.1", "at most 20"), ("0.01", ""), ("20", "")],
+)
+def test_a_speed_is_one_that_a_robot_drives_at(speed, expected):
+    found = said(DOCUMENT.replace(b'reserve-percent="20"', f'speed-m-s="{speed}"'.encode()))
+    assert expected in found
+    assert bool(found) == bool(expected)
+
+
+@pytest.mark.parametrize(("times", "valid"), [("1", True), ("1000", True), ("1001", False), ("999999999999", False)])
+def test_rounds_have_a_bound(times, valid):
+    act = b'<act id="n5" count="2"><take_picture view="trunk"/><at><here/></at></act>'
+    repeat = f'<repeat id="n6" times="{times}"><body>'.encode() + act + b"</body></repeat>"
+    assert (said(DOCUMENT.replace(act, repeat)) == "") is valid
 
 
 def test_one_mistake_is_one_problem():

@@ -38,6 +38,16 @@ def test_durations_are_as_fine_as_they_need_to_be(seconds, text):
     assert words.say_duration(seconds) == text
 
 
+@given(st.floats(min_value=0))
+def test_every_duration_can_be_said_in_few_words(seconds):
+    assert len(words.say_duration(seconds)) <= 20
+
+
+@pytest.mark.parametrize("seconds", [1e300, float("inf")])
+def test_what_no_mission_lasts_is_said_without_a_figure(seconds):
+    assert words.say_duration(seconds) == "more than ten years"
+
+
 @pytest.mark.parametrize(
     ("noun", "many"),
     [

@@ -67,7 +67,7 @@ def examine(
     if not _errors(problems):
         try:
             forecast = estimate(task, site, robot, seed=seed)
-        except (PlaceError, DriveFault) as error:
+        except (PlaceError, DriveFault, TaskError) as error:
             problems.append(_of_error(error))
         else:
             problems.extend(_drives(forecast, site))

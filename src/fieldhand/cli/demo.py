@@ -40,7 +40,7 @@ def demo(
     if shutil.which("fieldhand") is None:
         show.out.print("  . .venv/bin/activate")
     for line in (
-        'fieldhand plan "Take pictures of the 5 oldest trees." --site demo',
+        'fieldhand plan "Take pictures of the 5 trees with the highest yield." --site demo',
         'fieldhand run "Measure CO2 at the middle tree. If it is low, take 2 pictures of nearby trees." --site demo',
         "fieldhand site demo --picture orchard.png",
         "fieldhand robot husky",

@@ -30,6 +30,7 @@ def run(
     json: JsonOption = False,
 ) -> None:
     """Plan, approve and carry out a mission in simulation, then judge it."""
+    from fieldhand import mission
     from fieldhand.cli.flight import Orders, fly, parse_speed
     from fieldhand.cli.inputs import open_ground, plan_or_read
     from fieldhand.execution.world import World, load_world
@@ -37,6 +38,7 @@ def run(
     pace = parse_speed(speed)
     ground = open_ground(site, robot)
     given = World() if world is None else load_world(world)
+    mission.check_world(given, ground.site, ground.robot)
     task, document, planned_by = plan_or_read(request, ground, planner, transcript)
     orders = Orders(
         ask=not yes,

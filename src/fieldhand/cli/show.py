@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
@@ -19,8 +20,17 @@ if TYPE_CHECKING:
     from fieldhand.task.frames import Task
     from fieldhand.task.results import Ended, GoalOutcome
 
-out = Console(highlight=False, markup=False, soft_wrap=True)
-err = Console(stderr=True, highlight=False, markup=False, soft_wrap=True)
+
+class _Terminal(Console):
+    """A console that nobody may be reading any more: that is no reason to end a mission."""
+
+    def on_broken_pipe(self) -> None:
+        self.quiet = True
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+out = _Terminal(highlight=False, markup=False, soft_wrap=True)
+err = _Terminal(stderr=True, highlight=False, markup=False, soft_wrap=True)
 
 MARK = {"success": ("✓", "green"), "failure": ("✗", "red"), "indeterminate": ("?", "yellow")}
 

@@ -40,7 +40,8 @@ class _Replay:
         own = self._inside[plan.id]
         over = next((k for k, e in enumerate(events) if isinstance(e, Exited | Ended)), len(events))
         self._orderly = any(isinstance(e, Ended) and e.status in ("completed", "returned") for e in events)
-        self._events = [e for e in events[:over] if e.node in own]
+        # The exit itself belongs to the plan only where a stop took it: then it names that stop.
+        self._events = [e for e in events[: over + 1] if e.node in own]
         self._next = 0
         self._tallies = {n.id: Tally() for n in p.walk(plan) if isinstance(n, p.Act)}
 
@@ -87,6 +88,7 @@ class _Replay:
             case p.GoTo():
                 return self._go_to(node)
             case p.Stop():
+                self._next += self._comes([node])
                 return _Flow.STOPPED
 
     def _sequence(self, steps: Sequence[p.Node]) -> _Flow:

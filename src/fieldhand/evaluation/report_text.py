@@ -10,7 +10,7 @@ from fieldhand.forecast.estimate import BranchEstimate, Estimate, Figure
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.authorization import Authorization
-from fieldhand.task.frames import Task
+from fieldhand.task.frames import BudgetKind, Task
 from fieldhand.task.results import Decided, Ended, Event, Faulted, GoalOutcome, Shed, Started
 from fieldhand.task.words import (
     capitalised,
@@ -209,6 +209,13 @@ def clock_time(seconds: float) -> str:
     return f"{minutes}:{rest:02d}"
 
 
+_BUDGETS: dict[BudgetKind, str] = {
+    "distance_m": "m of driving",
+    "duration_s": "s",
+    "energy_percent": "% of the battery",
+}
+
+
 def _record(task: Task, site: Site, robot: RobotProfile, events: Sequence[Event], authorization: Authorization) -> str:
     started = next((e for e in events if isinstance(e, Started)), None)
     seed = f", simulated with seed {started.seed}" if started and started.seed is not None else ""
@@ -220,9 +227,9 @@ def _record(task: Task, site: Site, robot: RobotProfile, events: Sequence[Event]
     ]
     lines += [f"Confirmed: {escape(text)}" for text in authorization.confirmed]
     lines += [f"Assumed: {escape(text)}" for text in task.command.assumptions]
-    budgets = [f"{escape(b.kind)} {say_number(b.limit)}" for b in task.constraints.budgets]
+    budgets = [f"{say_number(b.limit)} {_BUDGETS[b.kind]}" for b in task.constraints.budgets]
     if budgets:
-        lines.append(f"Budgets: {listed(budgets)}.")
+        lines.append(f"Budget: at most {listed(budgets)}.")
     return "\n\n".join(lines)
 
 

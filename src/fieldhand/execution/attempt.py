@@ -34,12 +34,13 @@ AT_M = 0.5
 
 @dataclass(frozen=True, kw_only=True)
 class Ending:
-    """How the plan came to its end, and which exit follows from that."""
+    """How the plan came to its end, and which exit follows; ``node`` is the ``Stop`` that ended it, if any."""
 
     status: MissionStatus
     exit: Literal["nominal", "faulted"]
     then: Then
     reason: str = ""
+    node: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)

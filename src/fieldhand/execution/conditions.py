@@ -7,6 +7,7 @@ logic).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -17,7 +18,7 @@ from fieldhand.site.kinds import phrase
 from fieldhand.site.model import Place, Site
 from fieldhand.site.places import resolve
 from fieldhand.task.conditions import AllOf, AnyOf, Between, Compare, Condition, Level, Not, TreeHas
-from fieldhand.task.selectors import Test, TreeIs, Where
+from fieldhand.task.selectors import Test, TreeIs, Value, Where
 from fieldhand.task.words import TESTS, listed, say_name, say_number, say_unit, say_value
 
 
@@ -124,12 +125,24 @@ def _attribute(condition: TreeHas, facts: Facts) -> Finding:
     selector = Where(
         attribute=condition.attribute, test=condition.test, value=condition.value, of=TreeIs(tree=tree.place.id)
     )
+    said = f"the {name} of tree {tree.place.id}, {say_value(value)},"
+    if condition.test not in ("eq", "ne") and not (_is_number(value) and _is_number(condition.value)):
+        return Finding(truth=None, why=f"{said} cannot be ordered against {say_value(condition.value)}")
     try:
         truth = bool(resolve(selector, facts.site, Context(here=facts.here)))
     except PlaceError:
+        # No tree has the value that is asked for, this one included.
         truth = False
     words = f"{'' if truth else 'not '}{TESTS[condition.test]} {say_value(condition.value)}"
-    return Finding(truth=truth, why=f"the {name} of tree {tree.place.id}, {say_value(value)}, is {words}")
+    return Finding(truth=truth, why=f"{said} is {words}")
+
+
+def _is_number(value: Value) -> bool:
+    """Whether a value is a number or text that spells one."""
+    try:
+        return not isinstance(value, bool) and math.isfinite(float(value))
+    except ValueError:
+        return False
 
 
 def _joined(found: Sequence[Finding], *, decisive: bool) -> Finding:

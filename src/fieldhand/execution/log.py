@@ -37,8 +37,15 @@ class EventLog:
             raise self._unwritable(error) from None
 
     def close(self) -> None:
-        """Close the file."""
-        self._file.close()
+        """Close the file.
+
+        Raises:
+            OutputError: What was still on its way cannot be written.
+        """
+        try:
+            self._file.close()
+        except (OSError, ValueError) as error:
+            raise self._unwritable(error) from None
 
     def __enter__(self) -> EventLog:
         return self

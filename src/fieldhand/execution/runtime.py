@@ -176,7 +176,7 @@ def _carry_out_plan(attempt: Attempt, asked: Asked) -> Ending:
 
 def _take_exit(attempt: Attempt, ending: Ending, asked: Asked) -> Ending:
     """Drive where the exit leads. What goes wrong on the way ends the mission where the robot then is."""
-    attempt.emit(Exited(t=attempt.t, exit=ending.exit, then=ending.then, reason=ending.reason))
+    attempt.emit(Exited(t=attempt.t, node=ending.node, exit=ending.exit, then=ending.then, reason=ending.reason))
     home = attempt.site.home(ending.then, attempt.standing)
     heard = asked() if ending.status == "aborted" else None
     way = drive(attempt, "", home) if ending.then != "stay" else None

@@ -147,7 +147,7 @@ class RobotStopsModel(_Model):
 
     fault: Literal["robot_stops"]
     at_s: Annotated[float, Field(ge=0, allow_inf_nan=False)]
-    why: str = "power cut"
+    why: Annotated[str, Field(min_length=1)] = "power cut"
 
     def made(self) -> WorldFault:
         """As execution uses it."""
@@ -200,13 +200,25 @@ def _explained(error: ValidationError, source: str) -> WorldError:
     problems = error.errors(include_url=False, include_context=True)
     # A reading may be a value or a mapping; pydantic blames it for being neither. The deepest blame is the one meant.
     first = max(problems, key=lambda p: (p["type"] == "extra_forbidden", len(p["loc"])))
-    path = [str(part) for part in first["loc"] if not _is_branch(str(part))]
+    path = _path(first)
     if first["type"] == "missing":
         return WorldError(
             f"the key '{path[-1]}' is missing", where=": ".join([source, *_dotted(path[:-1])]), advice=GUIDE
         )
     what, advice = _words_for(first, path)
     return WorldError(what, where=": ".join([source, *_dotted(path)]), advice=advice)
+
+
+def _path(problem: ErrorDetails) -> list[str]:
+    """The keys down to a mistake, without the alternatives that pydantic tried on the way.
+
+    What the author named may be called as such an alternative is: a key of the file itself, a reading, a stray key.
+    """
+    loc = [str(part) for part in problem["loc"]]
+    named = {0, 1} if loc[:1] == ["readings"] else {0}
+    if problem["type"] == "extra_forbidden":
+        named.add(len(loc) - 1)
+    return [part for k, part in enumerate(loc) if k in named or not _is_branch(part)]
 
 
 def _dotted(path: list[str]) -> list[str]:
@@ -234,6 +246,8 @@ def _words_for(problem: ErrorDetails, path: list[str]) -> tuple[str, str]:
             return problem["msg"].removeprefix("Value error, "), GUIDE
         case "model_type" | "dict_type" | "model_attributes_type":
             return f"must hold keys and values, is {shown}", GUIDE
+        case "string_too_short":
+            return "is empty", "give a word or two, or leave the key out"
         case "tuple_type":
             return f"must be a list, is {shown}", "begin each entry with a dash"
         case "bool_type" | "float_type" | "float_parsing" if path[:1] == ["readings"]:
@@ -248,8 +262,7 @@ def _keys_at(problem: ErrorDetails, path: list[str]) -> list[str]:
     if path[0] == "readings":
         inner = TruthModel if len(path) == 3 else TreeValueModel
     elif path[0] == "faults":
-        kind = next((str(p) for p in problem["loc"][2:] if _is_branch(str(p))), "")
-        inner = SpotModel if "at" in path[2:-1] else _KINDS_OF_FAULT[kind]
+        inner = SpotModel if "at" in path[2:-1] else _KINDS_OF_FAULT[str(problem["loc"][2])]
     return list(inner.model_fields)
 
 

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 #: So many walks are looked at, and so many steps in all of them, before the rest is left.
 MAX_WALKS = 256
 MAX_STEPS = 40_000
+#: The walks that come first are worth more: the longest and the shortest are among them.
+MAX_STEPS_ALIKE = 200_000
 _ALIKE = 4
 
 _Kind = Literal["holds", "fails"]
@@ -57,6 +59,7 @@ def branches(
     Raises:
         PlaceError: A selector gives nothing on one of the branches; ``where`` names the node.
         DriveFault: A place that cannot be reached on one of them.
+        TaskError: A walk comes to more nodes than any mission.
     """
     ways = drives or routes.drives_for(site, robot)
     found: dict[tuple[Decision, ...], Walk] = {}
@@ -72,7 +75,7 @@ def branches(
         return walked
 
     for answers in _alike(task):
-        if len(found) < limit:
+        if len(found) < limit and steps < MAX_STEPS_ALIKE:
             look(_Script((), answers))
     # Each prefix of answers is tried once: a walk proposes to turn each answer that its own prefix did not give.
     open_prefixes: deque[tuple[bool, ...]] = deque([()])
@@ -80,7 +83,8 @@ def branches(
         prefix = open_prefixes.popleft()
         given = tuple(d.answer for d in look(_Script(prefix, {})).decisions)
         open_prefixes.extend((*given[:i], not given[i]) for i in range(len(prefix), len(given)))
-    return Branches(walks=tuple(found.values()), complete=not open_prefixes)
+    # A walk on which nothing is decided is the only one, however long it is.
+    return Branches(walks=tuple(found.values()), complete=not open_prefixes or () in found)
 
 
 class _Script:

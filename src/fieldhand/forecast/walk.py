@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal
 
-from fieldhand.errors import PlaceError
+from fieldhand.errors import PlaceError, TaskError
 from fieldhand.forecast import routes
 from fieldhand.forecast.limits import speed_of
 from fieldhand.forecast.state import Spent
@@ -27,6 +27,10 @@ if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
 
 __all__ = ["Answer", "Decision", "Step", "StepKind", "Walk", "Walker", "exit_of", "never", "walk"]
+
+
+#: A walk comes to so many nodes; a mission that would come to more is refused, as no robot could carry it out.
+MAX_NODES = 100_000
 
 
 class Ended(Exception):
@@ -69,6 +73,7 @@ def walk(
     Raises:
         PlaceError: A selector gives nothing, or several places where one is needed; ``where`` names the node.
         DriveFault: A place that cannot be reached.
+        TaskError: It comes to more than ``MAX_NODES`` nodes.
     """
     walker = Walker(task, site, robot, drives or routes.drives_for(site, robot), holds, fails, charge_percent)
     return walker.run((task.composition.plan,))
@@ -111,6 +116,7 @@ class Walker:
         self._steps: list[Step] = []
         self._decisions: list[Decision] = []
         self._inside_try = 0
+        self._nodes = 0
         self.spent = Spent()
         #: Every place that was gone to, in order; also those where the walk stood already.
         self.stops: list[Place] = []
@@ -140,6 +146,13 @@ class Walker:
         return Walk(steps=tuple(self._steps), end=self._context.here, exit=taken, decisions=tuple(self._decisions))
 
     def _node(self, node: Node) -> None:
+        self._nodes += 1
+        if self._nodes > MAX_NODES:
+            raise TaskError(
+                f"the plan has more than {MAX_NODES:,} steps when it is carried out",
+                where=node.id,
+                advice="repeat less often, or nest fewer loops",
+            )
         match node:
             case plan.Sequence(steps=steps):
                 for step in steps:

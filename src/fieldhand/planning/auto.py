@@ -10,8 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.errors import ModelError
-from fieldhand.planning.llm.settings import HOW_TO_CONFIGURE
-from fieldhand.planning.planner import Clarify, Outcome, Planned, Planner, Reason, Refused
+from fieldhand.planning.planner import Clarify, Outcome, Planned, Planner, Refused
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
@@ -31,11 +30,7 @@ class AutoPlanner:
     def plan(self, request: str, site: Site, robot: RobotProfile) -> Outcome:
         understood = self._english.plan(request, site, robot)
         match understood:
-            case Planned():
-                return _warn(
-                    understood, f"Planned by '{understood.planner}': it accounts for every word of the request."
-                )
-            case Clarify():
+            case Planned() | Clarify():
                 return understood
             case Refused():
                 if self._llm is None:
@@ -70,12 +65,11 @@ def _warn(planned: Planned, warning: str) -> Planned:
 
 
 def _advise(refused: Refused) -> Refused:
-    """The refusal with how to get a second opinion."""
-    reason = Reason(
-        what="no language model is configured that could try it",
-        advice=f"say it in other words, or {HOW_TO_CONFIGURE}",
-    )
-    return replace(refused, reasons=(*refused.reasons, reason))
+    """The refusal with how to get a second opinion, said once."""
+    *others, last = refused.reasons
+    second = "or name a language model that may try it in FIELDHAND_MODEL (docs/planning-llm.md)"
+    advice = f"{last.advice}; {second}" if last.advice else second
+    return replace(refused, reasons=(*others, replace(last, advice=advice)))
 
 
 def _summary(refused: Refused) -> str:

@@ -19,6 +19,7 @@ from fieldhand.task.plan import (
     Repeat,
     Sequence,
     Try,
+    children,
     condition_of,
     selector_of,
     walk,
@@ -30,11 +31,12 @@ def references(task: Task, capabilities: Capabilities | None = None) -> tuple[st
     """What is wrong with the references inside a Task, a sentence each with the node's id; empty if nothing is.
 
     Ids are unique; goals and state variables name actions of the plan; a place is bound before it is named; a reading
-    is taken before it is tested, by a node that can come first on some branch. With capabilities: each of those
-    readings measures the quantity that is tested.
+    is taken before it is tested, by a node that can come first on some branch; a range has its low end first; nested
+    repeats do not multiply beyond ``MAX_ROUNDS``. With capabilities: each of those readings measures the quantity that
+    is tested.
     """
     nodes = {node.id: node for node in walk(task.composition.plan)}
-    problems = [*_ids(task), *_frames(task, nodes)]
+    problems = [*_ids(task), *_frames(task, nodes), *_endless(task.composition.plan)]
     _visit(task.composition.plan, _Known(), _Found(problems=problems, capabilities=capabilities))
     return tuple(problems)
 
@@ -64,6 +66,20 @@ def _frames(task: Task, nodes: Mapping[str, Node]) -> Iterator[str]:
             yield f"state variable {variable.name!r} names {variable.node!r}, which is no action of the plan"
         elif node.reading != variable.name:
             yield f"state variable {variable.name!r} is not the reading that {variable.node!r} binds"
+
+
+#: Rounds of nested repeats, multiplied: more than a robot makes in any mission.
+MAX_ROUNDS = 100_000
+
+
+def _endless(plan: Node, around: int = 1) -> Iterator[str]:
+    """Repeats whose rounds multiply beyond all use; of nested ones the outermost at which they do."""
+    rounds = around * plan.times if isinstance(plan, Repeat) else around
+    if rounds > MAX_ROUNDS:
+        yield f"node {plan.id!r} comes to {rounds:,} rounds, with the loops around it; {MAX_ROUNDS:,} is the most"
+        return
+    for child in children(plan):
+        yield from _endless(child, rounds)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -139,6 +155,11 @@ def _check_places(node: Node, known: _Known, found: _Found) -> None:
 def _check_condition(node: Node, known: _Known, found: _Found) -> None:
     condition: Condition | None = condition_of(node)
     for part in conditions.walk(condition) if condition is not None else ():
+        if isinstance(part, Between) and part.low > part.high:
+            found.add(
+                f"node {node.id!r} tests whether the {part.quantity} is between {part.low:g} and {part.high:g}, which "
+                "it never is: the low end comes first"
+            )
         if not isinstance(part, Compare | Between | Level):
             continue
         actions = known.readings.get(part.reading)

@@ -137,7 +137,7 @@ class Faulted:
 
 @dataclass(frozen=True, kw_only=True)
 class Exited:
-    """The plan is over and the mission takes an exit."""
+    """The plan is over and the mission takes an exit; ``node`` is the ``Stop`` that ended the plan, if one did."""
 
     event: ClassVar[str] = "exit"
     t: float

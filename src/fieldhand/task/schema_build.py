@@ -30,15 +30,15 @@ _XS = "http://www.w3.org/2001/XMLSchema"
 
 #: What the type of a field does not say of its value: XSD facets by field name, in whatever class it stands.
 _FACETS: dict[str, dict[str, str]] = {
-    "count": {"minInclusive": "1"},
-    "times": {"minInclusive": "1"},
-    "at_most": {"minInclusive": "1"},
+    "count": {"minInclusive": "1", "maxInclusive": "1000"},
+    "times": {"minInclusive": "1", "maxInclusive": "1000"},
+    "at_most": {"minInclusive": "1", "maxInclusive": "1000000"},
     "expected": {"minInclusive": "0"},
     "distance_m": {"minInclusive": "0"},
     "limit": {"minExclusive": "0"},
     "failure_probability": {"minExclusive": "0", "maxExclusive": "1"},
     "reserve_percent": {"minInclusive": "0", "maxExclusive": "100"},
-    "speed_m_s": {"minExclusive": "0"},
+    "speed_m_s": {"minInclusive": "0.01", "maxInclusive": "20"},
 }
 
 

@@ -31,6 +31,9 @@ UNITS = {
     "unitless": "",
 }
 
+#: Ten years in seconds: beyond it no number of hours means anything to a person.
+_YEARS_S = 10 * 365.25 * 86_400.0
+
 _MINUS = "\N{MINUS SIGN}"
 _ACRONYMS = {"co2": "CO₂", "ndvi": "NDVI", "ph": "pH", "ec": "EC", "rgb": "RGB", "par": "PAR", "lidar": "LiDAR"}
 _IRREGULAR = {"leaf": "leaves", "fruit": "fruit", "co₂": "CO₂", "datum": "data"}
@@ -72,7 +75,11 @@ def say_value(value: str | float | bool) -> str:
 
 
 def say_duration(seconds: float) -> str:
-    """A duration as people say it: "45 s", "12 min", "1 h 05 min"."""
+    """A duration as people say it: "45 s", "12 min", "1 h 05 min". Safe for what no mission lasts."""
+    if math.isnan(seconds):
+        return "an unknown time"
+    if seconds > _YEARS_S:
+        return "more than ten years"
     if seconds < 90:
         return f"{seconds:.0f} s"
     minutes = round(seconds / 60)

@@ -16,6 +16,7 @@ from fieldhand.execution.behaviors.surroundings import admitted, is_caught, visi
 from fieldhand.execution.goals import Steps, capture, drive
 from fieldhand.site.model import Place
 from fieldhand.task.plan import Act, GoTo, Node, Stop
+from fieldhand.task.results import MissionStatus
 
 
 class Leaf(Behaviour):
@@ -79,7 +80,11 @@ class GoToPlace(Leaf):
 
 
 class DoAction(Leaf):
-    """``Act``: drive if it names a place, then make its captures there; bind the place and what was read."""
+    """``Act``: drive if it names a place, then make its captures there; bind the place and what was read.
+
+    Without a place of its own it is work at the place in hand: a robot that a failed drive has left elsewhere drives
+    back there first, and where it cannot, the work fails.
+    """
 
     def __init__(self, name: str, node: Act, attempt: Attempt) -> None:
         super().__init__(name, node, attempt)
@@ -91,7 +96,7 @@ class DoAction(Leaf):
         attempt.readings.pop(node.reading, None)
         place = attempt.here if node.at is None else attempt.resolve_one(node.at)
         yield from self.permission(place, node)
-        if node.at is not None:
+        if node.at is not None or attempt.standing != place:
             yield from drive(attempt, node.id, place)
         attempt.bind(node.label, (place,))
         for _ in range(node.count):
@@ -111,9 +116,18 @@ class EndMission(Leaf):
         attempt = self.attempt
         if self._stop.exit == "nominal":
             then = attempt.task.composition.nominal
-            attempt.end(Ending(status="completed", exit="nominal", then=then, reason="the plan says to stop here"))
+            status: MissionStatus = "completed"
         else:
             then = attempt.exit_for("action_failed")
-            attempt.end(Ending(status="faulted", exit="faulted", then=then, reason="the plan says to stop here"))
+            status = "faulted"
+        attempt.end(
+            Ending(
+                status=status,
+                exit=self._stop.exit,
+                then=then,
+                reason="the plan says to stop here",
+                node=self._stop.id,
+            )
+        )
         while True:
             yield

@@ -113,7 +113,7 @@ def _contrasted(before: list[Term]) -> bool:
     for term in reversed(before):
         if term.kind == "STOPMARK":
             return False
-        if term.kind in ("OTHERWISE", "IF", "TRY", "WHERE"):
+        if term.kind in ("OTHERWISE", "IF", "TRY", "WHERE", "UNLESS"):
             return True
     return False
 

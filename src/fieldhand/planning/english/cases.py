@@ -9,6 +9,7 @@ from fieldhand.planning.english.places import find
 from fieldhand.planning.english.syntax import Part, parse_places
 from fieldhand.planning.english.tested import Predicate, place_in, read_condition
 from fieldhand.planning.english.tokens import Term
+from fieldhand.task import conditions as c
 from fieldhand.task import selectors as s
 from fieldhand.task.conditions import readings
 
@@ -31,7 +32,10 @@ class Cases(Hand):
         made = [self._tested_capture(p, at, part, trailing) for p in tested.predicates]
         block = self._block_of_condition([cap for cap in made if cap is not None], part)
         names = [self._bound(cap) for cap in made]
-        choice = d.Choice(condition=tested.condition(names), then=d.Block(), said=part.said)
+        condition = tested.condition(names)
+        if part.terms[0].value == "unless":
+            condition = c.Not(condition=condition)
+        choice = d.Choice(condition=condition, then=d.Block(), said=part.said)
         if trailing and any(cap is None for cap in made):
             self._hold_at_tree(held, choice, part)
             return

@@ -7,6 +7,7 @@ VERBS = frozenset({"TAKE", "MEASURE", "ACTV", "GO", "VISIT", "RETURN", "GOHOME",
 STARTS = VERBS | {
     "IF",
     "WHERE",
+    "UNLESS",
     "WHETHER",
     "IFSO",
     "OTHERWISE",

@@ -114,7 +114,7 @@ def _is_compared(inside: list[Term], before: list[Term]) -> bool:
         if term.kind in ("COMMA", "THEN", "BUDGET"):
             break
         clause.append(term.kind)
-    return bool({"IF", "WHERE", "WHETHER"} & set(clause)) and "USE" not in said and "KEEP" not in said
+    return bool({"IF", "WHERE", "UNLESS", "WHETHER"} & set(clause)) and "USE" not in said and "KEEP" not in said
 
 
 def _within(terms: list[Term]) -> list[Term]:

@@ -53,8 +53,8 @@ def separated(terms: list[Term]) -> tuple[list[Term], bool, list[Span]]:
                 silent.append(found.pop().span)  # "to the corner to take a picture"
             found.append(_break_at(term.start))
             opened = False
-        if term.kind == "WHERE":
-            term = replace(term, kind="IF", value="where")
+        if term.kind in ("WHERE", "UNLESS"):
+            term = replace(term, kind="IF", value=term.kind.lower())
         opened = opened or term.kind in ("IF", "WHETHER")
         found.append(term)
         if term.kind in ("OTHERWISE", "TRY", "IFSO"):

@@ -116,6 +116,14 @@ def _by(term: Term, _before: str, after: str) -> Term | None:
     return None
 
 
+def _noun_as_verb(term: Term, before: str, after: str) -> Term | None:
+    """ "Picture the oldest tree", "image each corner": what an action yields, as the verb for it."""
+    orders = before in _CLAUSE_STARTS and after in QUANTITY | {"TREE", "IDS"}
+    if term.kind == "NOUN" and orders and not term.plural and " " not in term.text and term.value.actions:
+        return replace(term, kind="ACTV")
+    return None
+
+
 def _first(term: Term, before: str, after: str) -> Term | None:
     starts = before in ("", "COMMA", "AND")
     if term.kind == "ORD" and term.value == 1 and starts and after in (*VERBS, "COMMA", "AT"):
@@ -158,6 +166,7 @@ _RULES: tuple[Callable[[Term, str, str], Term | None], ...] = (
     _next,
     _one,
     _by,
+    _noun_as_verb,
     _first,
     _but,
     _number,

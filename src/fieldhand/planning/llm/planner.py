@@ -153,8 +153,6 @@ def _check(request: str) -> None:
     if odd is not None:
         what = f"the request holds the character {odd!r}, which no document can hold"
         raise RequestError(what, advice="leave it out")
-            f"the request holds the character {odd!r}, which no document can hold", advice="leave it out"
-        )
 
 
 def _planned(draft: Draft, request: str, site: Site, robot: RobotProfile, name: str) -> Planned:

@@ -7,9 +7,9 @@ const MANY = 8; // more stops of one line than this are counted
 
 export const title = (answer) => TITLES[answer.outcome];
 
-// The answer as elements. `map` lights up stops; `choose` takes the choice of a question.
-export function render(answer, request, map, choose) {
-  if (answer.outcome === "clarify") return question(answer, choose);
+// The answer as elements. `map` lights up stops.
+export function render(answer, request, map) {
+  if (answer.outcome === "clarify") return question(answer);
   if (answer.outcome === "refused") return refusal(answer, request);
   const parts = [...problems(answer), ...answer.warnings.map((w) => notice("warning", sentence(w)))];
   if (answer.read_back) parts.push(steps(answer, map), ...rest(answer.read_back), totals(answer.read_back.totals));
@@ -17,12 +17,11 @@ export function render(answer, request, map, choose) {
   return parts;
 }
 
-function question(answer, choose) {
-  const choices = answer.choices.map((choice) =>
-    el("button", { type: "button", class: "choice", onclick: () => choose(choice) }, choice),
-  );
-  const advice = choices.length ? "Choose, and it is planned again." : "Say it in the request, and plan again.";
-  return [el("p", { class: "question" }, answer.question), el("div", { class: "choices" }, choices), el("p", { class: "hint" }, advice)];
+// Which words of the request a choice would replace only the person knows, so the choices are shown, not inserted.
+function question(answer) {
+  const choices = answer.choices.map((choice) => el("li", {}, choice));
+  const advice = "Say it in the request, and plan again.";
+  return [el("p", { class: "question" }, answer.question), el("ul", { class: "choices" }, choices), el("p", { class: "hint" }, advice)];
 }
 
 function refusal(answer, request) {

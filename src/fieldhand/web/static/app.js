@@ -133,18 +133,11 @@ async function planRequest() {
 
 function showAnswer(answer, request) {
   $("answer-title").textContent = answerTitle(answer);
-  $("answer-body").replaceChildren(...renderAnswer(answer, request, map, (choice) => answerQuestion(request, choice)));
+  $("answer-body").replaceChildren(...renderAnswer(answer, request, map));
   $("answer").hidden = false;
   $("approve").hidden = !(answer.outcome === "planned" && answer.approvable);
   $("answer").focus({ preventScroll: true });
   $("answer").scrollIntoView({ block: "nearest", behavior: "smooth" });
-}
-
-// The answer to a question becomes part of the request, so that the Task keeps every word it was made from.
-function answerQuestion(request, choice) {
-  const said = request.trim();
-  $("request").value = `${said}${/[.!?]$/.test(said) ? "" : "."} ${choice}`;
-  planRequest();
 }
 
 async function simulate() {
