@@ -56,14 +56,17 @@ class Paper:
 
     def optional(self, node: ForEach, places: Sequence[Place]) -> Choice | None:
         """The visits of an optional for-each; the last answer of the guard."""
-        left, choice = list(places), None
-        while left:
-            choice = self.guard.choose(self.state(node.id), [self.visit(p, node) for p in left])
+        left, choice, made = list(places), None, 0
+        while left and made != node.at_most:
+            at_most = None if node.at_most is None else node.at_most - made
+            candidates = [self.visit(p, node) for p in left]
+            choice = self.guard.choose(self.state(node.id), candidates, at_most=at_most)
             if choice.index is None:
                 return choice
             place = left[choice.index]
             left = [p for i, p in enumerate(left) if i != choice.index and i not in choice.shed]
             self.go(place, service_of(node.body, self.robot))
+            made += 1
         return choice
 
     def mandatory(self, node: Node, place: Place, later: Sequence[Visit] = ()) -> Verdict:

@@ -10,11 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.execution.guard import Guard
-from fieldhand.forecast.routes import drives_for
+from fieldhand.forecast.routes import drives_for, visits_in_order
 from fieldhand.forecast.state import Spent, Visit
+from fieldhand.forecast.walk import walk
 from fieldhand.site.geojson import load_site
 from fieldhand.task.frames import Budget, Constraints
-from fieldhand.task.plan import Act, ForEach, Sequence
+from fieldhand.task.plan import Act, ForEach, Repeat, Sequence
 from fieldhand.task.selectors import TreeIs, Trees
 from orchards import block, husky, orchard, task_for
 from paper import Paper
@@ -172,6 +173,83 @@ def test_mandatory_missions_exceed_their_budget_no_more_often_than_accepted():
         failed += paper.spent.metres > 118.0
     assert no_more_often(failed, 40)
     assert done > 0.5 * 40 * 20
+
+
+ROUND = [*TREES[:5], *TREES[9:4:-1], *TREES[10:15], *TREES[19:14:-1]]
+
+#: Metres that last for the round with a chance of a few percent of running short.
+LASTS = 155.0
+
+
+def rounds(limit, missions, before=None):
+    """Missions that must visit every tree, after optional ones: how many of them do, and how many exceed the limit."""
+    plan = ALL if before is None else Sequence(id="", steps=(before, ALL))
+    task = task_for(SITE, plan, constraints=limited(limit))
+    drives = drives_for(SITE, ROBOT)
+    loop = "n1" if before is None else "n4"
+    done = failed = 0
+    for seed in range(missions):
+        paper, order = Paper(task, SITE, ROBOT, seed, drives), tuple(ROUND)
+        if before is not None:
+            paper.optional(replace(before, id="n2"), TREES)
+            order = visits_in_order(ALL, drives, paper.here, TREES, SITE.home("return_to_end", paper.here))
+        for k, place in enumerate(order):
+            later = [paper.visit(p, PICTURE) for p in order[k + 1 :]]
+            if not paper.mandatory(replace(PICTURE, id=loop), place, later).go:
+                break
+        else:
+            done += 1
+        paper.home()
+        failed += paper.spent.metres > limit
+    return done, failed
+
+
+@pytest.mark.parametrize("limit", [104.0, 110.0, 118.0, 125.0])
+def test_mandatory_missions_do_not_exceed_their_budget_more_often_than_accepted_however_tight_it_is(limit):
+    _, failed = rounds(limit, 150)
+    assert no_more_often(failed, 150)
+
+
+def test_a_mandatory_mission_that_is_safe_enough_at_its_start_is_carried_out():
+    paper = Paper(task_for(SITE, ALL, constraints=limited(LASTS)), SITE, ROBOT, 0)
+    later = [paper.visit(p, PICTURE) for p in ROUND]
+    chance = paper.guard.admit(paper.state("n1"), later[0], later[1:]).chance_short
+    assert 0.03 < chance < 0.1
+    done, failed = rounds(LASTS, 150)
+    assert done >= 150 * (1 - chance) - 3 * np.sqrt(150 * chance * (1 - chance))
+    assert no_more_often(failed, 150, chance)
+
+
+def test_mandatory_visits_after_optional_ones_are_carried_out_as_often_as_the_budget_was_to_last():
+    done, failed = rounds(160.0, 60, before=replace(MANY, at_most=4))
+    assert done >= 60 * 0.9 - 3 * np.sqrt(60 * 0.09)
+    assert no_more_often(failed, 60)
+
+
+def test_work_allowed_with_a_visit_is_not_asked_for_again_but_what_follows_the_loop_at_that_place_is():
+    loop = ForEach(id="", select=TreeIs(tree="1"), body=PICTURE)
+    plan = Sequence(id="", steps=(loop, Repeat(id="", times=40, body=PICTURE)))
+    paper = Paper(task_for(SITE, plan, constraints=limited(200.0, "duration_s")), SITE, ROBOT, 0)
+    tree = SITE.by_id["1"].place
+    assert paper.mandatory(replace(loop, id="n2"), tree).go
+    costly = replace(paper.visit(tree, PICTURE), service_s=1000.0)
+    assert paper.guard.admit(paper.state("n3"), costly).go
+    assert not paper.guard.admit(paper.state("n5"), costly).go
+    assert not paper.guard.admit(paper.state("n3"), costly).go
+
+
+@pytest.mark.parametrize("at_most", [1, 2])
+@pytest.mark.parametrize("limit", [45.0, 60.0, 90.0])
+def test_where_only_so_many_visits_may_be_made_the_robot_makes_those_of_the_preview(at_most, limit):
+    node = replace(MANY, at_most=at_most, reward="reward")
+    task = task_for(SITE, node, constraints=limited(limit))
+    walked = walk(task, SITE, CERTAIN, holds=lambda _: True)
+    (shown,) = [[p.id for p in s.places] for s in walked.steps if s.kind == "visit-list"]
+    paper, _ = optional_mission(SITE, 0, limited(limit), robot=CERTAIN, node=node)
+    assert len(shown) == at_most
+    assert list(paper.visited) == shown
+    first = [str(k + 1) for k in range(at_most)]
+    assert shown != first
 
 
 def test_trees_that_cannot_be_reached_are_given_up_and_named():

@@ -3,6 +3,13 @@
 Each limit (distance, time, energy, the battery's reserve) is checked by itself; all share the legs' one random cost
 (:mod:`fieldhand.forecast.limits`). The accepted chance holds for the whole mission, not for each decision anew: a level
 for each limit is carried from decision to decision (:mod:`fieldhand.orienteering.policy`).
+
+What that comes to. Mandatory work whose chance is within the accepted one when it is first asked for is carried out,
+also after unlucky legs, as long as what is left lasts on average. Over all such missions a limit is exceeded no more
+often than was forecast, since turning home early is no riskier than going on. Mandatory work that begins with less
+hope, or after optional visits, is allowed the accepted chance at each visit even where less of it was carried over: so
+it is promised for each visit, not for the mission as a whole. Nor is it where more is asked for than was set aside:
+faults, places not known before, rounds of a repeat.
 """
 
 from __future__ import annotations
@@ -19,7 +26,7 @@ from fieldhand.errors import DriveFault
 from fieldhand.evaluation.reasons import named, running_short
 from fieldhand.forecast.distances import Distances
 from fieldhand.forecast.limits import Resource, resources_of
-from fieldhand.forecast.optional import visits_problem
+from fieldhand.forecast.optional import decide_at_most, only, visits_problem
 from fieldhand.forecast.rest import Rest, rest_after
 from fieldhand.forecast.routes import way_to
 from fieldhand.forecast.state import Choice, MissionState, Spent, Verdict, Visit
@@ -52,6 +59,14 @@ class _Way:
     joules: float = 0.0
 
 
+@dataclass(frozen=True, kw_only=True)
+class _Grant:
+    """A visit of a loop that was allowed with all its work: the for-each's node id, and where."""
+
+    loop: str
+    xy: tuple[float, float]
+
+
 class BudgetGuard:
     """Implements :class:`fieldhand.execution.guard.Guard`. One guard watches one mission.
 
@@ -72,7 +87,7 @@ class BudgetGuard:
             [r.failure_probability for r in resources_of(task.constraints, robot, charge_percent)]
         )
         self._split: Split | None = None
-        self._granted: tuple[float, float] | None = None
+        self._granted: _Grant | None = None
         self._distances = Distances(drives)
         self._planned: dict[str, tuple[Place, ...]] = {}
 
@@ -81,31 +96,33 @@ class BudgetGuard:
     def admit(self, state: MissionState, visit: Visit, still_to_come: Sequence[Visit] = ()) -> Verdict:
         """May the robot make this mandatory visit?
 
-        Yes where going there and straight home is safe enough; or there, on to all that must follow, and home then:
-        many short legs are less uncertain than one long one. Where even straight home is not safe enough any more, only
-        what is no riskier than that.
+        Yes where going there, on to all that must follow, and home is safe enough, or else there and straight home.
+        Safe enough is the accepted chance, or what the decisions before left where that is more. Where even straight
+        home is not safe enough any more, only what is no riskier than that.
         """
-        if state.context.here.xy == visit.place.xy == self._granted:
+        if self._is_granted(state, visit.place):
             return Verdict(go=True)
         resources = self._resources(state)
         here, then = state.context.here, exit_of(self._task, "low_budget")
         home_now = _Way(legs_m=(self._length(here, self._site.home(then, here)),))
         straight = self._figures(home_now, resources, state.spent)
         levels = self._levels(resources, state.spent)
-        allowed = np.maximum(levels, self._chances(straight))
+        allowed = np.maximum(np.maximum(levels, self._accepted), self._chances(straight))
         short = self._there_and_home(here, visit, self._site.home(then, visit.place))
-        way, chances = short, self._chances(self._figures(short, resources, state.spent))
-        if not self._fits(way, chances, allowed, straight, resources, state.spent):
-            way = self._there_and_on(state, visit, still_to_come)
+        on = self._there_and_on(state, visit, still_to_come) or short
+        for way in (on, short):
             chances = self._chances(self._figures(way, resources, state.spent))
-            if not self._fits(way, chances, allowed, straight, resources, state.spent):
-                return self._refusal(resources, state.spent, visit.place, short)
+            if self._fits(way, chances, allowed, straight, resources, state.spent):
+                break
+        else:
+            return self._refusal(resources, state.spent, visit.place, short)
+        # Going on stays an option of the next decision also where only the short way is safe enough now.
         self._split = split(
             np.maximum(levels, chances),
             way.legs_m[0],
             self._alpha,
             self._left(resources, state.spent, visit),
-            [self._option(short, visit, resources, 0.0), self._option(way, visit, resources, 1.0 + len(still_to_come))],
+            [self._option(short, visit, resources, 0.0), self._option(on, visit, resources, 1.0 + len(still_to_come))],
         )
         self._grant(state.node, visit.place)
         return Verdict(go=True, chance_short=float(chances.max()))
@@ -113,21 +130,36 @@ class BudgetGuard:
     def _grant(self, node: str, place: Place) -> None:
         """Remember where a loop's visit was allowed with all its work: that is not asked for again, piece by piece."""
         way = way_to(self._task.composition.plan, node)
-        self._granted = place.xy if way and isinstance(way[-1], ForEach) else None
+        self._granted = _Grant(loop=node, xy=place.xy) if way and isinstance(way[-1], ForEach) else None
+
+    def _is_granted(self, state: MissionState, place: Place) -> bool:
+        """Whether work was allowed with the visit it is part of. Work elsewhere or after the loop ends that."""
+        granted = self._granted
+        if granted is None:
+            return False
+        outer = way_to(self._task.composition.plan, state.node)[:-1]
+        if state.context.here.xy == place.xy == granted.xy and any(n.id == granted.loop for n in outer):
+            return True
+        self._granted = None
+        return False
 
     def _there_and_home(self, here: Place, visit: Visit, home: Place) -> _Way:
         legs = (self._length(here, visit.place), self._length(visit.place, home))
         return _Way(legs_m=legs, seconds=visit.service_s, joules=visit.service_j)
 
-    def _there_and_on(self, state: MissionState, visit: Visit, still_to_come: Sequence[Visit]) -> _Way:
-        """To the visit, all that must follow on the branch that takes most, and home."""
+    def _there_and_on(self, state: MissionState, visit: Visit, still_to_come: Sequence[Visit]) -> _Way | None:
+        """To the visit, all that must follow on the branch that takes most, and home; None where there is no way."""
         stops = [visit, *still_to_come]
         there = state.context
         for stop in stops:
             there = _arrived(there, stop.place)
-        rest = rest_after(self._task, self._site, self._robot, self._drives, state.node, there, loops=False)
-        places = [state.context.here, *(v.place for v in stops), *([] if rest.first is None else [rest.first])]
-        legs = [self._length(a, b) for a, b in itertools.pairwise(places)]
+        try:
+            rest = rest_after(self._task, self._site, self._robot, self._drives, state.node, there, loops=False)
+            places = [state.context.here, *(v.place for v in stops), *([] if rest.first is None else [rest.first])]
+            legs = [self._length(a, b) for a, b in itertools.pairwise(places)]
+        except DriveFault:
+            # Said when it is its turn; until then what can be done is.
+            return None
         return _Way(
             legs_m=(*legs, *rest.legs_m),
             seconds=sum(v.service_s for v in stops) + rest.seconds,
@@ -152,8 +184,8 @@ class BudgetGuard:
 
     # --- what may be left out ----------------------------------------------------------------------------------------
 
-    def choose(self, state: MissionState, candidates: Sequence[Visit]) -> Choice:
-        """Which optional visit comes next. Asked again after every leg, with what is left.
+    def choose(self, state: MissionState, candidates: Sequence[Visit], *, at_most: int | None = None) -> Choice:
+        """Which optional visit comes next, of ``at_most`` that may still be made. Asked again after every leg.
 
         What must follow and the way home are set aside first; then the best route over the candidates is planned anew,
         beginning with what was planned before. Candidates that have no way to them are given up at once; all others, in
@@ -168,7 +200,7 @@ class BudgetGuard:
         visits = [candidates[i] for i in open_]
         resources = self._resources(state)
         problem = self._problem(state, visits, rest, resources)
-        decision = self._decide(state.node, problem, visits, self._levels(resources, state.spent))
+        decision = self._decide(state.node, problem, visits, self._levels(resources, state.spent), at_most)
         chance = max(decision.route.chances)
         if decision.vertex != problem.end:
             self._split = decision.split
@@ -192,18 +224,24 @@ class BudgetGuard:
             spent=state.spent,
         )
 
-    def _decide(self, node: str, problem: Problem, visits: Sequence[Visit], levels: Floats) -> Decision:
-        """Plan anew, beginning with the rest of what was planned before for this node."""
+    def _decide(
+        self, node: str, problem: Problem, visits: Sequence[Visit], levels: Floats, at_most: int | None
+    ) -> Decision:
+        """Plan anew, beginning with the rest of what was planned before for this node.
+
+        Where only so many visits may be made and those planned still fit, it stays with them.
+        """
         position = {v.place.xy: i + 1 for i, v in enumerate(visits)}
         planned = self._planned.get(node)
         warm = [position[p.xy] for p in planned or () if p.xy in position]
-        decision = decide(
-            problem,
-            tuple(float(x) for x in levels),
-            self._rng,
-            (problem.start, *warm, problem.end),
-            SOLVE if planned is None else RESOLVE,
-        )
+        way = (problem.start, *warm, problem.end)
+        asked = tuple(float(x) for x in levels)
+        decision = None
+        if warm and len(warm) == at_most:
+            decision = decide(only(problem, warm), asked, self._rng, way, RESOLVE)
+        if decision is None or len(decision.route.vertices) != len(way):
+            effort = SOLVE if planned is None else RESOLVE
+            decision = decide_at_most(problem, asked, self._rng, way, effort=effort, at_most=at_most)
         self._planned[node] = tuple(visits[v - 1].place for v in decision.route.vertices[1:-1])
         return decision
 

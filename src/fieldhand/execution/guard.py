@@ -15,8 +15,11 @@ class Guard(Protocol):
         """May the robot make this mandatory visit? ``still_to_come``: later visits of the loop that it stands in."""
         ...
 
-    def choose(self, state: MissionState, candidates: Sequence[Visit]) -> Choice:
-        """Which optional visit comes next. Asked again after every leg, with what is left."""
+    def choose(self, state: MissionState, candidates: Sequence[Visit], *, at_most: int | None = None) -> Choice:
+        """Which optional visit comes next. Asked again after every leg, with what is left.
+
+        ``at_most``: how many of the candidates may still be visited; None for all.
+        """
         ...
 
 
@@ -26,5 +29,11 @@ class NoGuard:
     def admit(self, state: MissionState, visit: Visit, still_to_come: Sequence[Visit] = ()) -> Verdict:  # noqa: ARG002
         return Verdict(go=True)
 
-    def choose(self, state: MissionState, candidates: Sequence[Visit]) -> Choice:  # noqa: ARG002
+    def choose(
+        self,
+        state: MissionState,  # noqa: ARG002
+        candidates: Sequence[Visit],
+        *,
+        at_most: int | None = None,  # noqa: ARG002
+    ) -> Choice:
         return Choice(index=0 if candidates else None)

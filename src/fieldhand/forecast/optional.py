@@ -13,7 +13,7 @@ from fieldhand.forecast.limits import Resource, limits_of, resources_of
 from fieldhand.forecast.rest import Rest, rest_after
 from fieldhand.forecast.service import service_of
 from fieldhand.forecast.state import Spent
-from fieldhand.orienteering.policy import SOLVE, decide
+from fieldhand.orienteering.policy import SOLVE, Decision, Effort, decide, left_of
 from fieldhand.orienteering.problem import Problem, under_way
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
@@ -54,11 +54,40 @@ def affordable(walker: Walker, node: ForEach, places: tuple[Place, ...]) -> tupl
         spent=walker.spent,
     )
     levels = tuple(limit.failure_probability for limit in problem.limits)
-    decision = decide(problem, levels, np.random.default_rng(0), effort=SOLVE)
+    decision = decide_at_most(problem, levels, np.random.default_rng(0), effort=SOLVE, at_most=node.at_most)
+    return tuple(v - 1 for v in decision.route.vertices[1:-1])
+
+
+def decide_at_most(
+    problem: Problem,
+    levels: tuple[float, ...],
+    rng: np.random.Generator,
+    warm: tuple[int, ...] = (),
+    *,
+    effort: Effort,
+    at_most: int | None,
+) -> Decision:
+    """The next optional visit where only so many may be made; preview and robot both ask here.
+
+    The best route without that bound is planned first; then the stops worth least for their detour are left out, and
+    the way over those that remain is planned anew.
+
+    Args:
+        problem, levels, rng, warm, effort: As for :func:`fieldhand.orienteering.policy.decide`.
+        at_most: Visits that may still be made; None for as many as fit.
+    """
+    decision = decide(problem, levels, rng, warm, effort)
     stops = [v - 1 for v in decision.route.vertices[1:-1]]
-    if node.at_most is not None:
-        stops = _least_worth_dropped(stops, problem, node.at_most)
-    return tuple(stops)
+    if at_most is None or len(stops) <= at_most:
+        return decision
+    kept = [s + 1 for s in _least_worth_dropped(stops, problem, at_most)]
+    return decide(only(problem, kept), levels, rng, (problem.start, *kept, problem.end), effort)
+
+
+def only(problem: Problem, vertices: Sequence[int]) -> Problem:
+    """The problem in which nothing but these vertices is worth a visit."""
+    others = tuple(v for v in range(len(problem.rewards)) if v not in vertices)
+    return left_of(problem, problem.start, tuple(limit.budget for limit in problem.limits), others)
 
 
 def visits_problem(

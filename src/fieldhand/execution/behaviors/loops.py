@@ -185,7 +185,8 @@ class ForEachPlace(Loop):
 
     def _next_chosen(self) -> Next:
         """Ask the guard which optional visit comes next, and say which are given up."""
-        choice = self.attempt.guard.choose(self.attempt.state(self.node.id), list(self.left))
+        at_most = None if self.node.at_most is None else self.node.at_most - len(self._visited)
+        choice = self.attempt.guard.choose(self.attempt.state(self.node.id), list(self.left), at_most=at_most)
         given_up = set(range(len(self.left))) if choice.index is None else set(choice.shed) - {choice.index}
         if given_up:
             places = [self.left[i].place for i in sorted(given_up)]
