@@ -9,6 +9,7 @@ from fieldhand.planning.english.counting import Wanted, counted, number_of_objec
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.naming import Naming
+from fieldhand.planning.english.pick import is_spot
 from fieldhand.planning.english.places import are_several, find
 from fieldhand.planning.english.syntax import Object, Part
 from fieldhand.planning.english.tokens import Term
@@ -126,7 +127,7 @@ class Hand:
         match relation.kind:
             case "NEXTTO":
                 return Found(selector=s.Nearest(to=plain, adjacent=True))
-            case "NEAR" if isinstance(plain, s.Middle | s.EdgeMiddle):
+            case "NEAR" if is_spot(plain):
                 return found
             case "NEAR":
                 return Found(selector=s.Nearest(to=plain))

@@ -88,6 +88,8 @@ def _trees(bag: Bag, group: Group, site: Site) -> Found:
     if group.anchor is not None:
         bag.take("NEAREST", "NEARBY")
         beside = group.beside
+        if not beside and is_spot(near) and not bag.has("ORD"):
+            return _ranked(bag, of, plural, lambda n, base: s.Adjacent(near=near, count=n, of=base))
         return _ranked(bag, of, plural, lambda n, base: s.Nearest(to=near, count=n, adjacent=beside, of=base))
     if bag.take("NEAREST") is not None:
         return _ranked(bag, of, plural, lambda n, base: s.Nearest(to=near, count=n, of=base))
@@ -105,6 +107,11 @@ def _trees(bag: Bag, group: Group, site: Site) -> Found:
     if tree is None:
         raise bag.fault("which place or which trees are meant does not stand there")
     return _some_of(bag, of, plural=tree.plural, site=site, single=group.single)
+
+
+def is_spot(place: s.Selector) -> bool:
+    """Whether a place is a spot of the ground: the tree nearest to a corner or a middle is the one there."""
+    return s.is_single(place) and isinstance(place, s.Corners | s.Middle | s.EdgeMiddle)
 
 
 def _ranked(bag: Bag, of: s.Selector, plural: bool, pick: Callable[[int, s.Selector], s.Selector]) -> Found:
