@@ -6,6 +6,23 @@ Longer than other files because it is a table.
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
+    ("husky", "Take a picture of one tree at each corner.", "for Corners: [picture]"),
+    ("husky", "Photograph two neighbouring trees.", "for Adjacent(Here): [picture]"),
+    (
+        "husky",
+        "If the CO2 level at the first tree is high, take a thermal picture of it; otherwise go to the end.",
+        "co2 @ First = r1; if r1 high: [picture] else [go Marker(end)]",
+    ),
+    (
+        "husky",
+        "Start by photographing the southernmost tree, then take a second picture there.",
+        "picture @ Extreme(south); picture",
+    ),
+    (
+        "husky",
+        "Take a picture of the yellow tree nearest to the south-west corner.",
+        "picture @ Adjacent(Corners(sw), 1, of Where(leaf_color, eq, yellow))",
+    ),
     ("husky", "take a picture at tree 4 unless it is yellow", "go TreeIs(4); if not leaf_color = yellow: [picture]"),
     (
         "husky",
@@ -504,6 +521,7 @@ ASKED = [
 ]
 
 REFUSED = [
+    ("husky", "Take a picture of two trees at each corner.", "'two trees': so many at each place cannot be said yet"),
     ("husky", "take a picture at tree 4 instead of tree 5", "'instead of' is not possible yet"),
     (
         "husky",

@@ -26,6 +26,8 @@ def number_of_objects(thing: Object) -> int | None:
             number = int(term.value)
         elif term.kind == "UPTO":
             raise unclear(thing.terms, "captures need one number", "say 'of up to 6 trees'")
+        elif term.kind == "ORD" and term.value != 1 and thing.quantity[0].text.lower() in ("a", "an"):
+            continue  # "a second reading" is one more
         elif term.kind == "ORD" and term.value != 1:
             raise unclear(thing.terms, "a rank does not fit there", "say how many")
     return number

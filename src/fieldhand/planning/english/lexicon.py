@@ -80,7 +80,7 @@ class Lexicon:
         if at >= len(words) or kind not in ("THERE", "OTHERWISE", "IFSO"):
             return False
         after, _ = self._match(words, at) or self._single(words[at])
-        return after.kind in (CONTINUES if kind == "THERE" else TESTS)
+        return after.kind in (CONTINUES | {"THERE"} if kind == "THERE" else TESTS)
 
     def _match(self, words: list[Word], at: int, longest: int = 99) -> tuple[Term, int] | None:
         """The longest phrase that begins here."""

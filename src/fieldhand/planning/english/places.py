@@ -212,6 +212,10 @@ def _describe(
         case "OF" | "AT" if anchored and not behind.region and not behind.many:
             group.anchor = _single(behind, inner)
         case "OF" | "AT" | "INSIDE":
+            if behind.each and behind.many and not behind.region and not bag.as_many and not bag.up_to:
+                if bag.count not in (None, 1):
+                    raise unclear(part.phrase.terms, "so many at each place cannot be said yet", "name each place")
+                bag.each, bag.count = True, None  # "the tree at each corner"
             group.add(behind, inner.phrase)
         case "NEXTTO" | "NEAR":
             group.anchor, group.beside = _single(behind, inner), kind == "NEXTTO"

@@ -73,7 +73,9 @@ def place_in(terms: Sequence[Term]) -> tuple[tuple[Term, ...], tuple[Term, ...]]
         if term.kind in RELATIONS - {"FOR"}:
             end = next((k for k in range(start, len(terms)) if terms[k].kind in _PREDICATE), len(terms))
             place = tuple(terms[start:end])
-            if all(t.kind in _HERE for t in place[1:]):
+            kinds = {t.kind for t in place[1:]}
+            ranked_tree = "TREE" in kinds and kinds & {"ORD", "LAST"}  # "at the first tree" is a place of its own
+            if kinds <= _HERE and not ranked_tree:
                 return tuple(terms), ()
             return (*terms[:start], *terms[end:]), place
     return tuple(terms), ()
