@@ -277,6 +277,10 @@ class BudgetGuard:
         )
         chances = self._chances(self._figures(way, resources, state.spent))
         why = self._reason(resources, state.spent, visit.place, way, chances, rest.mandatory)
+        allowed = self._levels(resources, state.spent)
+        binding = int((chances - allowed).argmax())
+        if chances[binding] > allowed[binding]:
+            why += f", {100 * allowed[binding]:.0f} % is left to risk on optional visits"
         return Choice(
             index=None,
             shed=tuple(range(candidates)),
