@@ -1,4 +1,7 @@
-"""Whole missions: what is refused, which exit follows from what, what the budget guard does, and that seeds decide."""
+"""Whole missions: what is refused, which exit follows from what, what the budget guard does, and that seeds decide.
+
+Longer than other files: whole missions on one small site, told one after the other.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Selectors on sites: each definition of docs/site.md, held against brute force where trees may stand anywhere."""
+"""Selectors on sites: each definition of docs/site.md, held against brute force where trees may stand anywhere.
+
+Longer than other files: every selector stands once here, beside its brute force.
+"""
 
 from __future__ import annotations
 
