@@ -7,7 +7,11 @@ Longer than other files because it is a table.
 
 PLANNED = [
     ("husky", "Take a picture of one tree at each corner.", "for Corners: [picture]"),
-    ("husky", "Photograph two neighbouring trees.", "for Adjacent(Here): [picture]"),
+    (
+        "husky",
+        "Get a thermal shot of tree 60, plus shots of three neighbouring trees.",
+        "picture @ TreeIs(60); for Nearest(Here, 3, True): [picture]",
+    ),
     (
         "husky",
         "If the CO2 level at the first tree is high, take a thermal picture of it; otherwise go to the end.",

@@ -93,10 +93,8 @@ def _trees(bag: Bag, group: Group, site: Site) -> Found:
         return _ranked(bag, of, plural, lambda n, base: s.Nearest(to=near, count=n, adjacent=beside, of=base))
     if bag.take("NEAREST") is not None:
         return _ranked(bag, of, plural, lambda n, base: s.Nearest(to=near, count=n, of=base))
-    if (nearby := bag.take("NEARBY")) is not None:
+    if bag.take("NEARBY") is not None:
         one = bag.count or 1
-        if one > 1 and nearby.text.lower().startswith("neighb"):  # "two neighbouring trees" neighbour each other
-            return Found(selector=s.Adjacent(near=s.Here(), count=one, of=of), many=True, counted=one)
         near_here = s.Nearest(to=s.Here(), count=one, fresh=True, of=of)
         return Found(selector=near_here, many=plural or one > 1, counted=bag.count)
     if bag.has("ORD", "LAST"):
