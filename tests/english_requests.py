@@ -6,6 +6,12 @@ Longer than other files because it is a table.
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
+    (
+        "husky",
+        "In the northern half, take pictures of the yellow trees.",
+        "for Where(leaf_color, eq, yellow, of Half(north)): [picture]",
+    ),
+    ("husky", "In the southern half, take a picture of 3 trees.", "for Take(3, of Half(south)): [picture]"),
     ("husky", "Take a picture of one tree at each corner.", "for Corners: [picture]"),
     (
         "husky",

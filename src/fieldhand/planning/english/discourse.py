@@ -15,6 +15,8 @@ from dataclasses import replace
 
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english import repeating
+from fieldhand.planning.english.areas import ACTS as _ACTS
+from fieldhand.planning.english.areas import with_areas
 from fieldhand.planning.english.cases import Cases
 from fieldhand.planning.english.counting import Wanted, counts_each
 from fieldhand.planning.english.faults import Question, spans_of, text_of, unclear
@@ -40,8 +42,6 @@ COMMANDS = (
     "more_places",
 )
 
-_ACTS = ("act_on_objects", "act_on_places", "act_bare", "more_objects", "more_places")
-
 
 def _waits(following: tuple[Part, ...]) -> bool:
     """Whether what follows a place is done there: it has none of its own."""
@@ -57,6 +57,7 @@ class Discourse(Cases):
         Raises:
             Unclear, Question: Something in it means nothing here, or several things.
         """
+        parts = with_areas(parts, self._site)
         if parts[0].kind not in ("otherwise", "failing", "so"):
             self._scope = self.told.root
         self._sentence_steps = []
