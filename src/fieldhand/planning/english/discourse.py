@@ -208,6 +208,8 @@ class Discourse(Cases):
     def _go(self, part: Part) -> None:
         if part.places is None:
             return
+        if self._sentence_steps and part.verb is not None and part.verb.text.lower() in ("starting", "beginning"):
+            raise unclear(part.terms, "where to begin cannot be said behind the work", "name the first tree first")
         found = self._related(part)
         if found.here and part.kind != "visit":
             return
