@@ -22,7 +22,7 @@ SMALL = Limits(body_bytes=1000)
 
 
 def broken(request: str, site: Any, robot: Any) -> Any:
-    raise ZeroDivisionError("a fault of the program, in /home/somebody/secret.py")
+    raise ZeroDivisionError("a fault of the program, in /srv/somebody/secret.py")
 
 
 def test_every_answer_carries_the_security_headers() -> None:

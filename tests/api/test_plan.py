@@ -121,7 +121,7 @@ def test_the_english_planner_points_at_what_it_did_not_understand() -> None:
         ({"request": "x", "planner": "oracle"}, "planner"),
         ({"request": "x", "robot": ["husky"]}, "robot"),
         ({"request": "x" * 20_001}, "request"),
-        ({"request": "x", "transcript": "/tmp/x"}, "transcript"),
+        ({"request": "x", "transcript": "x.jsonl"}, "transcript"),
         ({"request": "\ud800"}, "request"),
     ],
 )
