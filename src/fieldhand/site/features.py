@@ -1,27 +1,40 @@
-"""The features of a GeoJSON document, read with care: every fault names its feature and says what to do."""
+"""The features of a site file, read with care: every fault is told with its feature and what to do."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import count
 from typing import Any, NoReturn
 
-from fieldhand.errors import SiteError
-from fieldhand.site.kinds import PointKind, area_kind, number_text, point_kind
+from fieldhand.site.formats.faults import Faults, Unsound
+from fieldhand.site.formats.records import Records, UnusablePart
+from fieldhand.site.kinds import PointKind, area_kind, barrier_name, is_derived, number_text, point_kind, text_of
 from fieldhand.site.model import ZoneKind
 from fieldhand.task.selectors import Value
 
 _LONGEST_KEY = 100
 _LONGEST_ID = 64
-_LINES = ("LineString", "MultiLineString")
+#: Whole numbers below this are exact as float.
+_SAFE = 1 << 53
+_GATE_KEYS = ("width m", "width", "gate width m", "gate width", "opening m", "opening")
+_METRES = re.compile(r"\s*(\d+(?:\.\d+)?)\s*(?:m|metres?|meters?)?\s*", re.IGNORECASE)
+USUAL_GATE_M = 4.0
 
-Ring = list[tuple[float, float]]
+Position = tuple[float, float]
+Ring = list[Position]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(slots=True, kw_only=True)
 class PointFeature:
-    """One point in degrees; several of them come from one MultiPoint."""
+    """One point in degrees; several of them come from one MultiPoint.
+
+    Attributes:
+        own_id: Its property ``id``, else that of the feature; empty where neither can be shown and typed.
+        feature_id: The feature's own ``id``.
+    """
 
     feature: int
     kind: PointKind
@@ -30,6 +43,7 @@ class PointFeature:
     lat: float
     properties: Mapping[str, Value]
     own_id: str
+    feature_id: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,45 +56,43 @@ class AreaFeature:
     rings: tuple[Ring, ...]
 
 
+@dataclass(frozen=True, kw_only=True)
+class BarrierFeature:
+    """One line in degrees that no robot drives across."""
+
+    feature: int
+    name: str
+    positions: Ring
+
+
 @dataclass(kw_only=True)
 class Gathered:
-    """What the features of a file hold, in their order."""
+    """What the features of a file hold, in their order.
+
+    Attributes:
+        lines: Lines of no meaning to a robot.
+        heights: Features with heights, which are read over.
+        closed: Features with a ring that was closed for them.
+    """
 
     points: list[PointFeature] = field(default_factory=list)
     areas: list[AreaFeature] = field(default_factory=list)
+    barriers: list[BarrierFeature] = field(default_factory=list)
     lines: int = 0
+    heights: int = 0
+    closed: list[int] = field(default_factory=list)
 
 
-def gather(features: Sequence[Any], source: str) -> Gathered:
-    """Sort the features into points, areas and lines.
-
-    Lines are counted and left out: a robot can neither visit nor be kept inside a line.
-
-    Raises:
-        SiteError: A feature is no feature, or its geometry or a property cannot be used.
-    """
+def gather(records: Records, faults: Faults) -> Gathered:
+    """Sort the features into points, areas and barriers; what cannot be used goes to ``faults``."""
     gathered = Gathered()
-    for number, feature in enumerate(features, start=1):
-        reader = _Reader(source, number)
-        kind, coordinates, raw, own_id = reader.parts(feature)
-        if kind in _LINES:
-            gathered.lines += 1
-            continue
-        properties = reader.scalars(raw)
-        if kind in ("Polygon", "MultiPolygon"):
-            zone, name = area_kind(properties)
-            for polygon in [coordinates] if kind == "Polygon" else reader.listed(coordinates):
-                rings = tuple(reader.ring(ring) for ring in reader.listed(polygon))
-                gathered.areas.append(AreaFeature(feature=number, kind=zone, name=name, rings=rings))
-            continue
-        what, word = point_kind(properties)
-        for position in [coordinates] if kind == "Point" else reader.listed(coordinates):
-            lon, lat = reader.position(position)
-            gathered.points.append(
-                PointFeature(
-                    feature=number, kind=what, word=word, lon=lon, lat=lat, properties=properties, own_id=own_id
-                )
-            )
+    reader = _Reader(gathered, lenient=faults.lenient)
+    for number, feature in zip(records.numbers or count(1), records.features, strict=False):
+        try:
+            reader.read(number, feature)
+        except Unsound as fault:
+            faults.add(number, fault.what, fault.advice, needed=_keeps_out(feature))
+    gathered.heights = len(reader.high)
     return gathered
 
 
@@ -91,101 +103,217 @@ def clean(text: str) -> str:
     return "".join(c if c.isprintable() else " " for c in text)
 
 
+def gate_width_m(properties: Mapping[str, Value]) -> float:
+    """The width that a gate says it has, else a usual one.
+
+    Raises:
+        Unsound: It says one that no gate has.
+    """
+    said = text_of(properties, _GATE_KEYS)
+    if not said:
+        return USUAL_GATE_M
+    match = _METRES.fullmatch(said.replace(",", "."))
+    width = float(match[1]) if match else math.nan
+    if not 0.1 <= width <= 100.0:
+        raise Unsound(f"its width is {_shown(said)}", "write it in metres, from 0.1 to 100, as width_m")
+    return width
+
+
+def _keeps_out(feature: Any) -> bool:
+    """Whether a feature that cannot be read says that it keeps a robot out of somewhere, or inside."""
+    known = isinstance(feature, dict)
+    properties = feature.get("properties") if known else getattr(feature, "properties", None)
+    if not isinstance(properties, Mapping):
+        return False
+    said = {k: v for k, v in properties.items() if isinstance(v, str | bool)}
+    geometry = feature.get("geometry") if known else None
+    kind = str(geometry.get("type", "")) if isinstance(geometry, dict) else ""
+    if "Point" in kind:
+        return False
+    return area_kind(said)[0] != "zone" or bool(barrier_name(said))
+
+
 class _Reader:
-    """Reads one feature; knows where it stands for the messages."""
+    """Reads features one after the other into ``gathered``; what they have in common is kept only once."""
 
-    def __init__(self, source: str, number: int) -> None:
-        self._source = source
+    def __init__(self, gathered: Gathered, *, lenient: bool) -> None:
+        self._into = gathered
+        self._lenient = lenient
+        self._number = 0
+        self._keys: dict[str, str] = {}
+        self._texts: dict[str, str] = {}
+        self.high: set[int] = set()
+
+    def read(self, number: int, feature: Any) -> None:
         self._number = number
-
-    def fail(self, what: str, advice: str) -> NoReturn:
-        raise SiteError(what, where=f"{self._source}, feature {self._number}", advice=advice)
-
-    def parts(self, feature: Any) -> tuple[str, Any, Mapping[str, Any], str]:
-        """Geometry type, coordinates, properties and the feature's own id."""
+        if isinstance(feature, UnusablePart):
+            _fail(feature.what, feature.advice)
         if not isinstance(feature, dict) or feature.get("type") != "Feature":
-            self.fail("it is not a GeoJSON Feature", 'every entry of "features" needs "type": "Feature"')
-        geometry, properties = feature.get("geometry"), feature.get("properties")
+            _fail("it is not a GeoJSON Feature", 'every entry of "features" needs "type": "Feature"')
+        geometry, raw = feature.get("geometry"), feature.get("properties")
         if not isinstance(geometry, dict):
-            self.fail("it has no geometry", "give it a Point or a Polygon, or take it out")
-        kind = geometry.get("type")
-        if kind not in ("Point", "MultiPoint", "Polygon", "MultiPolygon", *_LINES):
-            self.fail(
-                f"a geometry of type {_shown(kind)} cannot be used",
-                "use Point, MultiPoint, Polygon or MultiPolygon, one geometry a feature",
-            )
-        if properties is None:
-            properties = {}
-        if not isinstance(properties, dict):
-            self.fail("its properties are not an object", 'write "properties": {"name": value, ...} or null')
-        own = properties.get("id", feature.get("id"))
-        return kind, geometry.get("coordinates"), properties, _id_text(own)
+            _fail("it has no geometry", "give it a Point or a Polygon, or take it out")
+        if raw is None:
+            raw = {}
+        if not isinstance(raw, dict):
+            _fail("its properties are not an object", 'write "properties": {"name": value, ...} or null')
+        kind, coordinates = geometry.get("type"), geometry.get("coordinates")
+        match kind:
+            case "Point":
+                self._points([coordinates], raw, feature)
+            case "MultiPoint":
+                self._points(_listed(coordinates), raw, feature)
+            case "Polygon":
+                self._areas([coordinates], raw)
+            case "MultiPolygon":
+                self._areas(_listed(coordinates), raw)
+            case "LineString":
+                self._lines([coordinates], raw)
+            case "MultiLineString":
+                self._lines(_listed(coordinates), raw)
+            case "GeometryCollection" if isinstance(geometry.get("geometries"), list):
+                for part in geometry["geometries"]:
+                    if isinstance(part, dict) and part.get("type") == "GeometryCollection":
+                        _fail("its geometries are nested", "use one geometry a feature")
+                    self.read(number, {**feature, "geometry": part})
+            case _:
+                _fail(
+                    f"a geometry of type {_shown(kind)} cannot be used",
+                    "use Point, MultiPoint, Polygon or MultiPolygon, one geometry a feature",
+                )
 
-    def scalars(self, properties: Mapping[str, Any]) -> Mapping[str, Value]:
+    def _points(self, positions: list[Any], raw: Mapping[str, Any], feature: Mapping[str, Any]) -> None:
+        properties = self._scalars(raw)
+        what, word = point_kind(properties)
+        feature_id = feature.get("id")
+        feature_text = "" if feature_id is None else _id_text(feature_id)
+        own = raw.get("id")
+        own_text = feature_text if own is None else _id_text(own)
+        if what == "gate":
+            gate_width_m(properties)
+        degrees = [self._position(p) for p in positions]
+        for lon, lat in degrees:
+            self._into.points.append(
+                PointFeature(
+                    feature=self._number,
+                    kind=what,
+                    word=word,
+                    lon=lon,
+                    lat=lat,
+                    properties=properties,
+                    own_id=own_text,
+                    feature_id=feature_text,
+                )
+            )
+
+    def _areas(self, polygons: list[Any], raw: Mapping[str, Any]) -> None:
+        zone, name = area_kind(self._scalars(raw))
+        every = [tuple(self._ring(ring) for ring in _listed(polygon)) for polygon in polygons]
+        self._into.areas.extend(AreaFeature(feature=self._number, kind=zone, name=name, rings=rings) for rings in every)
+
+    def _lines(self, lines: list[Any], raw: Mapping[str, Any]) -> None:
+        texts = {k: v for k, v in raw.items() if isinstance(v, str)}
+        name = clean(barrier_name(texts))
+        if not name:
+            self._into.lines += not is_derived(texts)
+            return
+        every = [[self._position(p) for p in _listed(line)] for line in lines]
+        if any(len(set(line)) < 2 for line in every):
+            _fail("its line has fewer than 2 different positions", "draw it from one end to the other")
+        self._into.barriers.extend(BarrierFeature(feature=self._number, name=name, positions=line) for line in every)
+
+    def _scalars(self, raw: Mapping[str, Any]) -> dict[str, Value]:
         """Text, numbers (as float) and booleans by name; nested values and nulls are left out."""
         kept: dict[str, Value] = {}
-        for key, value in properties.items():
-            if isinstance(value, str):
-                kept[clean(key)[:_LONGEST_KEY]] = clean(value)
-            elif isinstance(value, bool):
-                kept[clean(key)[:_LONGEST_KEY]] = value
+        keys, texts = self._keys, self._texts
+        for name, value in raw.items():
+            key = keys.get(name)
+            if key is None:
+                key = keys[name] = clean(name)[:_LONGEST_KEY]
+            kind = type(value)
+            if (kind is float and value - value == 0.0) or (kind is int and -_SAFE < value < _SAFE):
+                kept[key] = float(value)
+            elif kind is str:
+                known = texts.get(value)
+                if known is None:
+                    known = clean(value)
+                    if len(texts) < 10_000:
+                        texts[value] = known
+                kept[key] = known
+            elif kind is bool:
+                kept[key] = value
             elif isinstance(value, int | float):
-                kept[clean(key)[:_LONGEST_KEY]] = self.number(value, f"property {_shown(key)}")
+                kept[key] = _number(value, f"property {_shown(name)}")
         return kept
 
-    def number(self, value: Any, what: str) -> float:
-        if isinstance(value, bool) or not isinstance(value, int | float):
-            self.fail(f"{what} is {_shown(value)}", "a number is needed, without quotation marks")
-        try:
-            number = float(value)
-        except OverflowError:
-            number = math.inf
-        if not math.isfinite(number):
-            self.fail(f"{what} is not a finite number (NaN or infinite)", "correct it or take it out")
-        return number
-
-    def listed(self, value: Any) -> list[Any]:
-        if not isinstance(value, list) or not value:
-            self.fail("its coordinates are missing or not a list", "write them as the GeoJSON standard (RFC 7946) does")
-        return value
-
-    def position(self, value: Any) -> tuple[float, float]:
+    def _position(self, value: Any) -> Position:
         """Longitude and latitude; a height is read over."""
         if not isinstance(value, list) or len(value) < 2:
-            self.fail(f"its coordinates are {_shown(value)}", "write them as [longitude, latitude] in degrees")
-        lon, lat = self.number(value[0], "its longitude"), self.number(value[1], "its latitude")
+            _fail(f"its coordinates are {_shown(value)}", "write them as [longitude, latitude] in degrees")
+        if len(value) > 2:
+            self.high.add(self._number)
+        lon, lat = value[0], value[1]
+        if type(lon) is not float or type(lat) is not float:
+            lon, lat = _number(lon, "its longitude"), _number(lat, "its latitude")
         if not (-180.0 <= lon <= 180.0 and -90.0 <= lat <= 90.0):
-            if abs(lon) <= 90.0 and abs(lat) <= 180.0:
-                self.fail(
-                    f"its latitude would be {lat:g}: latitude and longitude seem to be swapped",
-                    f"write [longitude, latitude]: [{lat:g}, {lon:g}]",
-                )
-            self.fail(
-                f"its coordinates [{lon:g}, {lat:g}] are out of range",
-                "give longitude (-180 to 180) and latitude (-90 to 90) in degrees, WGS 84 (EPSG:4326)",
-            )
+            _out_of_range(_number(lon, "its longitude"), _number(lat, "its latitude"))
         return lon, lat
 
-    def ring(self, value: Any) -> Ring:
-        positions = [self.position(p) for p in self.listed(value)]
+    def _ring(self, value: Any) -> Ring:
+        positions = [self._position(p) for p in _listed(value)]
+        if positions[0] != positions[-1] and self._lenient and len(positions) > 2:
+            positions.append(positions[0])
+            self._into.closed.append(self._number)
         if len(positions) < 4:
-            self.fail(
+            _fail(
                 f"its polygon has {len(positions)} positions", "a closed ring needs at least 4, the last like the first"
             )
         if positions[0] != positions[-1]:
-            self.fail("its polygon is not closed", "repeat the first position at the end")
+            _fail("its polygon is not closed", "repeat the first position at the end")
         return positions
+
+
+def _fail(what: str, advice: str) -> NoReturn:
+    raise Unsound(what, advice)
+
+
+def _out_of_range(lon: float, lat: float) -> NoReturn:
+    if abs(lon) <= 90.0 and abs(lat) <= 180.0:
+        _fail(
+            f"its latitude would be {lat:g}: latitude and longitude seem to be swapped",
+            f"write [longitude, latitude]: [{lat:g}, {lon:g}]",
+        )
+    _fail(
+        f"its coordinates [{lon:g}, {lat:g}] are out of range",
+        "give longitude (-180 to 180) and latitude (-90 to 90) in degrees, WGS 84 (EPSG:4326)",
+    )
+
+
+def _number(value: Any, what: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        _fail(f"{what} is {_shown(value)}", "a number is needed, without quotation marks")
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not math.isfinite(number):
+        _fail(f"{what} is not a finite number (NaN or infinite)", "correct it or take it out")
+    return number
+
+
+def _listed(value: Any) -> list[Any]:
+    if not isinstance(value, list) or not value:
+        _fail("its coordinates are missing or not a list", "write them as the GeoJSON standard (RFC 7946) does")
+    return value
 
 
 def _id_text(value: Any) -> str:
     """The id as text; empty where there is none that can be shown and typed."""
-    if isinstance(value, bool):
+    if isinstance(value, str):
+        return value.strip() if value.isprintable() and len(value) <= _LONGEST_ID else ""
+    if isinstance(value, bool) or not isinstance(value, int | float):
         return ""
-    if isinstance(value, int | float):
-        return number_text(float(value)) if abs(value) < 1e15 else ""
-    if isinstance(value, str) and value.isprintable() and len(value) <= _LONGEST_ID:
-        return value.strip()
-    return ""
+    return number_text(float(value)) if abs(value) < 1e15 else ""
 
 
 def _shown(value: Any) -> str:

@@ -8,17 +8,38 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
+from functools import lru_cache
 from typing import Literal
 
 from fieldhand.site.model import ZoneKind
 from fieldhand.task.selectors import Value
 
-PointKind = Literal["tree", "start", "end", "charger", "landmark"]
+PointKind = Literal["tree", "start", "end", "charger", "gate", "landmark"]
 
 KIND_KEYS = ("marker symbol", "kind", "type", "symbol", "class", "feature type", "category")
 NAME_KEYS = ("name", "title", "label")
 ROW_KEYS = ("row", "row id", "row number", "row no", "row num", "row name")
+BLOCK_KEYS = (
+    *("block", "block id", "block number", "block no", "block name", "plot", "plot id", "plot number", "plot name"),
+    *("parcel", "parcel id", "parcel name", "section", "section id", "section name", "paddock", "quarter"),
+)
+#: A column is a position where rows are named as well, else the row.
+COLUMN_KEYS = ("column", "col", "column id", "column number", "column no", "col no", "line", "line id", "line number")
+POSITION_KEYS = (
+    *("position", "pos", "position in row", "row position", "place in row", "tree in row", "tree number", "tree no"),
+    *(
+        "tree position",
+        "number in row",
+        "tree num",
+        "plant number",
+        "plant no",
+        "vine number",
+        "vine no",
+        "slot",
+        "tree index",
+    ),
+)
 
 MARKERS: Mapping[str, PointKind] = {
     **dict.fromkeys(
@@ -40,12 +61,22 @@ PLANTS = frozenset({
     "tree", "trees", "vine", "vines", "plant", "plants", "bush", "shrub", "palm", "seedling", "sapling",
 })
 
+#: A kind that ends in one of these words is an opening in a fence.
+GATES = frozenset({"gate", "entrance"})
+
 #: A kind that ends in one of these words is something that stands there and is no tree.
 LANDMARKS = frozenset({
-    "gate", "entrance", "door", "well", "borehole", "pole", "post", "pylon", "pump", "valve", "hydrant", "tap",
+    "door", "well", "borehole", "pole", "post", "pylon", "pump", "valve", "hydrant", "tap",
     "outlet", "sprinkler", "sensor", "station", "probe", "camera", "antenna", "gateway", "trap", "sign", "barn",
     "shed", "house", "building", "office", "silo", "tank", "hive", "hives", "rock", "boulder", "stump", "parking",
     "crossing", "bridge", "landmark", "waypoint",
+})
+
+#: A line whose kind ends in one of these words is something that no robot drives across.
+_BARRIERS = frozenset({
+    "fence", "fencing", "wall", "hedge", "hedgerow", "railing", "rail", "railway", "barrier", "pipe", "pipeline",
+    "drain", "trench", "dyke", "dike", "embankment", "cliff", "boundary", "border", "perimeter", "geofence",
+    *("ditch", "canal", "creek", "stream", "river"),
 })
 
 _KEEP_OUT = frozenset({
@@ -63,21 +94,31 @@ _PLAIN_AREAS = frozenset({"zone", "area", "polygon", "region", "block", "section
 _SEPARATORS = re.compile(r"[\W_]+")
 
 
+@lru_cache(maxsize=8192)
 def phrase(text: str) -> str:
     """Lower case words with one space between: ``Keep-Out_Zone`` becomes ``keep out zone``."""
     return _SEPARATORS.sub(" ", text).strip().lower()
 
 
-def text_of(properties: Mapping[str, Value], keys: Iterable[str]) -> str:
+def text_of(properties: Mapping[str, Value], keys: tuple[str, ...]) -> str:
     """The first of these properties that holds text (or a number), as it stands in the file; else empty."""
-    named = {phrase(key): value for key, value in properties.items()}
-    for key in keys:
-        value = named.get(key)
+    for key in _spelt(tuple(properties), keys):
+        value = properties[key]
         if isinstance(value, str) and value.strip():
             return value.strip()
         if isinstance(value, float) and not isinstance(value, bool):
             return number_text(value)
     return ""
+
+
+@lru_cache(maxsize=4096)
+def _spelt(names: tuple[str, ...], keys: tuple[str, ...]) -> tuple[str, ...]:
+    """Of these property names those that are meant by the keys, in order of the keys.
+
+    Remembered, since the trees of a file have the same few sets of properties.
+    """
+    spelling = {phrase(name): name for name in names}
+    return tuple(spelling[key] for key in keys if key in spelling)
 
 
 def number_text(value: float) -> str:
@@ -98,8 +139,11 @@ def point_kind(properties: Mapping[str, Value]) -> tuple[PointKind, str]:
     if words in MARKERS:
         return MARKERS[words], said
     split = words.split()
-    if PLANTS.isdisjoint(split) and split[-1] in LANDMARKS:
-        return "landmark", said
+    if PLANTS.isdisjoint(split):
+        if split[-1] in GATES:
+            return "gate", said
+        if split[-1] in LANDMARKS:
+            return "landmark", said
     return "tree", said
 
 
@@ -119,6 +163,24 @@ def area_kind(properties: Mapping[str, Value]) -> tuple[ZoneKind, str]:
     if not words and not _BOUNDARY.isdisjoint(phrase(name).split()[-1:]):
         return "boundary", name
     return "zone", name or said
+
+
+def barrier_name(properties: Mapping[str, Value]) -> str:
+    """What a line is called that no robot drives across (a fence, a ditch); empty for any other line."""
+    said, name = text_of(properties, KIND_KEYS), text_of(properties, NAME_KEYS)
+    words = phrase(said or name)
+    if words.split()[-1:] and (words.split()[-1] in _BARRIERS or _says_keep_out(words)):
+        return name or said
+    return ""
+
+
+#: Lines that :mod:`fieldhand.site.formats.document` writes of what was understood; they say nothing new.
+DERIVED_LINES = frozenset({"row", "aisle", "headland", "gate", "link"})
+
+
+def is_derived(properties: Mapping[str, Value]) -> bool:
+    """Whether a line only says what is known from the trees."""
+    return phrase(text_of(properties, KIND_KEYS)) in DERIVED_LINES
 
 
 def row_of(properties: Mapping[str, Value]) -> str:

@@ -8,12 +8,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from types import MappingProxyType
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from shapely.geometry import Polygon
 
+from fieldhand.site.planting import Planting
 from fieldhand.site.projection import Projection
 from fieldhand.task.selectors import Value
 
@@ -21,7 +23,7 @@ PlaceKind = Literal["tree", "marker", "point"]
 ZoneKind = Literal["boundary", "keep_out", "zone"]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Place:
     """Somewhere a robot can be sent: a tree, a marker or a free point.
 
@@ -29,6 +31,8 @@ class Place:
         id: The tree's id, the marker's name, or a name of its own for a point.
         x, y: Metres east and north in the site's projection.
         lat, lon: Degrees, WGS 84.
+        stand: Where the robot stands, or will stand, to be at the place, in metres; None while that is open
+            (:mod:`fieldhand.site.drives` chooses). A tree is worked on from the aisle beside it.
     """
 
     kind: PlaceKind
@@ -37,6 +41,7 @@ class Place:
     y: float
     lat: float
     lon: float
+    stand: tuple[float, float] | None = field(default=None, compare=False)
 
     @property
     def xy(self) -> tuple[float, float]:
@@ -44,13 +49,13 @@ class Place:
         return (self.x, self.y)
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Tree:
     """A tree (or vine, or plant) with what the file says about it.
 
     Attributes:
         index: Position among the file's trees, counted from 0; row of :attr:`Site.xy`.
-        feature: Position among the file's features, counted from 1, for error messages.
+        feature: Position among the file's features (in a table the line), counted from 1, for error messages.
         row: The row's name where the file gives one, else empty.
     """
 
@@ -59,6 +64,10 @@ class Tree:
     feature: int
     properties: Mapping[str, Value] = field(default_factory=dict)
     row: str = ""
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.properties, MappingProxyType):
+            object.__setattr__(self, "properties", MappingProxyType(dict(self.properties)))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,13 +80,26 @@ class Zone:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Gate:
+    """An opening in a fence: where a robot passes from one fenced part of the site to the next.
+
+    Attributes:
+        width_m: Of the opening, along the fence.
+    """
+
+    place: Place
+    width_m: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class Site:
     """A site, immutable.
 
     Attributes:
         name: The file's name without its ending, or the collection's own ``name``.
-        sha256: Of the bytes it was read from.
+        sha256: Of the bytes it was read from: what an approval is given for.
         source: Where it was read from, for messages.
+        gates: Openings in fences.
         notes: What the reader left out of the file or took otherwise than it stands there, a sentence each.
     """
 
@@ -89,16 +111,45 @@ class Site:
     sha256: str
     source: str = ""
     notes: tuple[str, ...] = ()
+    gates: tuple[Gate, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.markers, MappingProxyType):
+            object.__setattr__(self, "markers", MappingProxyType(dict(self.markers)))
+
+    @cached_property
+    def content_sha256(self) -> str:
+        """Of what the site holds: trees in their order with their properties, markers, zones, gates.
+
+        The same for the same orchard in another format or layout of the file; :attr:`sha256` is of the file's bytes.
+        """
+        from fieldhand.site.content import content_sha256
+
+        return content_sha256(self)
 
     @cached_property
     def xy(self) -> NDArray[np.float64]:
         """Trees in local metres, shape (n, 2)."""
-        return np.array([t.place.xy for t in self.trees], dtype=np.float64).reshape(-1, 2)
+        xy = np.array([t.place.xy for t in self.trees], dtype=np.float64).reshape(-1, 2)
+        xy.flags.writeable = False
+        return xy
+
+    @cached_property
+    def planting(self) -> Planting:
+        """Blocks and rows: the file's own where it names them, else as they can be seen in how the trees stand."""
+        from fieldhand.site.rows import planting_of
+
+        return planting_of(self)
+
+    @cached_property
+    def memory(self) -> dict[object, object]:
+        """What others computed of the site and keep with it, so that it is computed once."""
+        return {}
 
     @cached_property
     def by_id(self) -> Mapping[str, Tree]:
         """Trees by id."""
-        return {t.place.id: t for t in self.trees}
+        return MappingProxyType({t.place.id: t for t in self.trees})
 
     @cached_property
     def spacing_m(self) -> float:
@@ -118,7 +169,9 @@ class Site:
         for tree in self.trees:
             for key, value in tree.properties.items():
                 found.setdefault(key, set()).add(value)
-        return {key: tuple(sorted(values, key=lambda v: (isinstance(v, str), v))) for key, values in found.items()}
+        return MappingProxyType(
+            {key: tuple(sorted(values, key=lambda v: (isinstance(v, str), v))) for key, values in found.items()}
+        )
 
     def zones_of(self, kind: ZoneKind) -> tuple[Zone, ...]:
         """The zones of one kind."""

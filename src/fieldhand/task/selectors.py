@@ -18,6 +18,13 @@ CornerName = Literal["nw", "ne", "se", "sw"]
 MarkerName = Literal["start", "end", "charger"]
 Test = Literal["lt", "le", "gt", "ge", "eq", "ne"]
 Value = str | float | bool
+#: Which end rows, or trees in a row, are counted from: ``usual`` is west, or north where that is the way of the row.
+CountedFrom = Literal["usual", "north", "east", "south", "west"]
+Towards = Literal["down", "up", "north", "east", "south", "west"]
+Order = Literal[
+    "west_to_east", "east_to_west", "north_to_south", "south_to_north", "nearest_first", "farthest_first", "rows",
+    "attribute",
+]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -226,6 +233,130 @@ class Take:
 
 
 @dataclass(frozen=True, kw_only=True)
+class InBlock:
+    """Trees of one block, by the block's name or number."""
+
+    block: str
+    of: Selector = Trees()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rows:
+    """Trees of row ``first`` (empty: the first) to row ``last`` (empty: the last), of every ``every``-th of these.
+
+    A row is called by its name, or by its number in the block; -1 is the last row. Numbers count from west, or from
+    north where rows run east-west, or from the side ``counted_from``. Where several blocks have such rows, ``of`` says
+    which block (InBlock).
+    """
+
+    first: str = ""
+    last: str = ""
+    every: int = 1
+    counted_from: CountedFrom = "usual"
+    of: Selector = Trees()
+
+
+@dataclass(frozen=True, kw_only=True)
+class RowOf:
+    """Trees in the same row as ``origin``, or ``over`` rows from it (1 the next higher number, -1 the next lower)."""
+
+    origin: Selector = Here()
+    over: int = 0
+    of: Selector = Trees()
+
+
+@dataclass(frozen=True, kw_only=True)
+class InRow:
+    """Trees ``first`` to ``last`` along each row of ``of``; negative numbers count from the row's other end.
+
+    They count from north, or from west where rows run east-west, or from the side ``counted_from``. What stands is
+    counted, but for whole rows to whose trees the file gives numbers.
+    """
+
+    first: int
+    last: int
+    counted_from: CountedFrom = "usual"
+    of: Selector = Trees()
+
+
+@dataclass(frozen=True, kw_only=True)
+class EveryNth:
+    """Every ``nth`` tree along each row of ``of``, beginning with the ``start``-th of the row."""
+
+    nth: int
+    start: int = 1
+    of: Selector = Trees()
+
+
+@dataclass(frozen=True, kw_only=True)
+class AlongRow:
+    """The tree that many ``trees`` along the row of ``origin``: down is away from the start marker, up towards it.
+
+    Where the row ends before, its last tree.
+    """
+
+    trees: int
+    towards: Towards = "down"
+    origin: Selector = Here()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Across:
+    """The tree abreast of ``origin`` in the next row: the nearer one, or the one on ``side``."""
+
+    origin: Selector = Here()
+    side: CountedFrom = "usual"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Successive:
+    """``count`` trees of one row, one after the other: of the rows that have as many, the nearest to ``near``."""
+
+    count: int
+    near: Selector = Here()
+    of: Selector = Trees()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ordered:
+    """``of`` in an order that is to be kept: by the compass, by distance from the place in hand, row by row
+    (``rows``), or by an ``attribute``, from its lowest value or ``descending``."""
+
+    by: Order
+    attribute: str = ""
+    descending: bool = False
+    of: Selector = Trees()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Nth:
+    """The ``nth`` place of ``of`` in its order; -1 is the last ("the second northernmost tree")."""
+
+    nth: int
+    of: Selector
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spaced:
+    """``count`` free points ``apart_m`` metres apart (0: as many as fit) on a line beside a row of ``of``, the row
+    nearest to ``near``; without rows, or inside a ``zone``, on a straight line. Points are not trees."""
+
+    apart_m: float
+    count: int = 0
+    near: Selector = Here()
+    zone: str = ""
+    of: Selector = Trees()
+
+
+@dataclass(frozen=True, kw_only=True)
+class PointsIn:
+    """``count`` free points spread evenly over a zone; one point is its middle. Points are not trees."""
+
+    zone: str
+    count: int = 1
+
+
+@dataclass(frozen=True, kw_only=True)
 class Union:
     """All places of the parts, in their order, each once."""
 
@@ -258,6 +389,18 @@ Selector = (
     | InZone
     | Within
     | Take
+    | InBlock
+    | Rows
+    | RowOf
+    | InRow
+    | EveryNth
+    | AlongRow
+    | Across
+    | Successive
+    | Ordered
+    | Nth
+    | Spaced
+    | PointsIn
     | Union
 )
 
@@ -283,17 +426,24 @@ def walk(selector: Selector) -> Iterator[Selector]:
 
 def is_relative(selector: Selector) -> bool:
     """Whether the selector can resolve only when the robot gets there."""
-    return any(isinstance(s, RELATIVE) or (isinstance(s, Nearest) and s.fresh) for s in walk(selector))
+    return any(
+        isinstance(s, RELATIVE)
+        or (isinstance(s, Nearest) and s.fresh)
+        or (isinstance(s, Ordered) and s.by in ("nearest_first", "farthest_first"))
+        for s in walk(selector)
+    )
 
 
 def is_single(selector: Selector) -> bool:
     """Whether the selector's form promises at most one place ("the northernmost tree", not "trees in the north")."""
     match selector:
-        case TreeIs() | Marker() | Here() | First() | Last():
+        case TreeIs() | Marker() | Here() | First() | Last() | AlongRow() | Across() | Nth():
             return True
         case Corners(which=which):
             return len(which) == 1
         case Extreme() | Middle() | EdgeMiddle() | Nearest() | Farthest() | Adjacent() | Top() | Take():
+            return selector.count == 1
+        case Successive() | Spaced() | PointsIn():
             return selector.count == 1
         case Union(parts=inner):
             return len(inner) == 1 and is_single(inner[0])

@@ -1,0 +1,60 @@
+"""Lines that no robot drives across, as thin keep-outs, and the gates that open them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import shapely
+from shapely.geometry.base import BaseGeometry
+
+from fieldhand.site.features import BarrierFeature, PointFeature, gate_width_m
+from fieldhand.site.kinds import NAME_KEYS, text_of
+from fieldhand.site.model import Gate, Place, Zone
+from fieldhand.site.projection import Projection
+
+#: Half the thickness of the keep-out that a line becomes.
+HALF_THICK_M = 0.05
+#: A gate this far from a fence still belongs to it: both were drawn by hand or measured without correction.
+_GATE_REACH_M = 2.0
+
+
+def gates_of(points: Sequence[PointFeature], projection: Projection) -> tuple[Gate, ...]:
+    """The gates, by their names, else ``gate 1``, ``gate 2`` ..."""
+    gates: list[Gate] = []
+    for number, p in enumerate(points, start=1):
+        (x, y), *_ = projection.metres([p.lat], [p.lon]).tolist()
+        name = text_of(p.properties, NAME_KEYS)[:80] or f"gate {number}"
+        place = Place(kind="point", id=name, x=x, y=y, lat=p.lat, lon=p.lon)
+        gates.append(Gate(place=place, width_m=gate_width_m(p.properties)))
+    return tuple(gates)
+
+
+def barrier_zones(
+    barriers: Sequence[BarrierFeature], gates: Sequence[Gate], projection: Projection
+) -> tuple[tuple[Zone, ...], list[str]]:
+    """Keep-outs along the lines with an opening at each gate, and what there is to say of gates far from any line."""
+    lines = [
+        shapely.LineString(projection.metres([lat for _, lat in b.positions], [lon for lon, _ in b.positions]))
+        for b in barriers
+    ]
+    zones: list[Zone] = []
+    for barrier, line in zip(barriers, lines, strict=True):
+        opened: BaseGeometry = line
+        for gate in gates:
+            at = shapely.Point(gate.place.xy)
+            if line.distance(at) <= max(_GATE_REACH_M, gate.width_m / 2):
+                middle = line.interpolate(line.project(at))
+                opened = opened.difference(middle.buffer(gate.width_m / 2, quad_segs=64))
+        thick = shapely.buffer(opened, HALF_THICK_M, cap_style="flat", join_style="mitre")
+        zones.extend(
+            Zone(name=barrier.name[:80], kind="keep_out", polygon=part)
+            for part in shapely.get_parts(thick)
+            if isinstance(part, shapely.Polygon) and not part.is_empty
+        )
+    idle = [g.place.id for g in gates if not _opens(g, lines)] if lines else []
+    return tuple(zones), [f"the gate {name!r} stands at no fence, so it opens none" for name in idle[:5]]
+
+
+def _opens(gate: Gate, lines: Sequence[shapely.LineString]) -> bool:
+    at = shapely.Point(gate.place.xy)
+    return any(line.distance(at) <= max(_GATE_REACH_M, gate.width_m / 2) for line in lines)

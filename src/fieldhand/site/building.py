@@ -1,0 +1,293 @@
+"""A site from what was gathered of a file: in one projection, checked as a whole."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from fieldhand.errors import SiteError
+from fieldhand.site.barriers import barrier_zones, gates_of
+from fieldhand.site.extent import middle_of, sound_extent
+from fieldhand.site.features import AreaFeature, Gathered, PointFeature, clean
+from fieldhand.site.formats.faults import Faults, numbered
+from fieldhand.site.kinds import row_of
+from fieldhand.site.model import Place, Site, Tree, Zone
+from fieldhand.site.projection import Projection
+
+SAME_TREE_M = 0.2
+#: A boundary is often drawn from tree to tree; a tree between two others is then off the line by its curvature.
+ON_BOUNDARY_M = 0.05
+_MOST_PAIRS = 5
+
+
+def build(gathered: Gathered, faults: Faults, *, name: str, sha256: str, notes: Sequence[str] = ()) -> Site:
+    """The site; in a lenient reading without what cannot be used.
+
+    Args:
+        gathered: The features that can be read, each for itself.
+        faults: Those that cannot; what shows only among the others is added.
+        name: Of the site.
+        sha256: Of the bytes that were read.
+        notes: What the reader of the format has to say.
+
+    Raises:
+        SiteError: There are no trees, or there are faults that must not be left out.
+    """
+    numbering = _numbering([p for p in gathered.points if p.kind == "tree"])
+    sound = sound_extent(gathered, faults)
+    planted = [p for p in sound.points if p.kind == "tree"]
+    if not planted:
+        faults.check()
+        raise _no_trees(gathered, faults.source)
+    projection = middle_of(planted)
+    zones = _zones(sound.areas, projection, faults)
+    gates = gates_of([p for p in sound.points if p.kind == "gate"], projection)
+    fences, opens_nothing = barrier_zones(sound.barriers, gates, projection)
+    trees, about_trees = _trees(planted, numbering, projection, zones + fences, faults)
+    markers = _markers(
+        [p for p in sound.points if p.kind not in ("tree", "gate", "landmark")], projection, zones + fences, faults
+    )
+    faults.check()
+    if not trees:
+        raise _no_trees(gathered, faults.source, left_out=True)
+    return Site(
+        name=clean(name.strip())[:100],
+        trees=trees,
+        markers=markers,
+        zones=zones + fences,
+        projection=projection,
+        sha256=sha256,
+        source=faults.source,
+        notes=(
+            *faults.notes(),
+            *notes,
+            *_notes(gathered, faults),
+            *numbering.notes,
+            *about_trees,
+            *opens_nothing,
+        ),
+        gates=gates,
+    )
+
+
+class _Numbering:
+    """The id of each tree of the file, whether it is left out later or not."""
+
+    def __init__(self, ids: Mapping[int, str], notes: tuple[str, ...]) -> None:
+        self._ids, self.notes = ids, notes
+
+    def id_of(self, tree: PointFeature) -> str:
+        return self._ids[id(tree)]
+
+
+def _numbering(planted: Sequence[PointFeature]) -> _Numbering:
+    """The file's own ids if every tree has one and all differ, else the position among its trees from 1."""
+    notes: tuple[str, ...] = ()
+    ids = [p.own_id for p in planted]
+    if not _all_differ(ids):
+        if any(ids):
+            notes = ("the trees' own ids are not complete or not unique, so trees are numbered in file order from 1",)
+        ids = [p.feature_id for p in planted]
+        if _all_differ(ids):
+            notes = ()
+        else:
+            ids = [str(k) for k in range(1, len(planted) + 1)]
+    return _Numbering({id(p): tree_id for p, tree_id in zip(planted, ids, strict=True)}, notes)
+
+
+def _all_differ(ids: Sequence[str]) -> bool:
+    return all(ids) and len(set(ids)) == len(ids)
+
+
+def _trees(
+    planted: Sequence[PointFeature],
+    numbering: _Numbering,
+    projection: Projection,
+    zones: Sequence[Zone],
+    faults: Faults,
+) -> tuple[tuple[Tree, ...], list[str]]:
+    """The trees, and what there is to say of them."""
+    metres = projection.metres([p.lat for p in planted], [p.lon for p in planted])
+    numbers = [p.feature for p in planted]
+    stays = _inside_boundary(metres, numbers, zones, faults)
+    points = shapely.STRtree(np.asarray(shapely.points(metres)))
+    again, notes = _entered_twice(points, numbers, stays, faults)
+    stays &= ~again
+    notes.extend(_in_keep_outs(points, numbers, stays, zones, faults))
+    kept = np.flatnonzero(stays).tolist()
+    xy = metres.tolist()
+    trees = []
+    for index, k in enumerate(kept):
+        p, (x, y) = planted[k], xy[k]
+        trees.append(
+            Tree(
+                place=Place(kind="tree", id=numbering.id_of(p), x=x, y=y, lat=p.lat, lon=p.lon),
+                index=index,
+                feature=p.feature,
+                properties=MappingProxyType(p.properties),
+                row=row_of(p.properties),
+            )
+        )
+    return tuple(trees), notes
+
+
+def _inside_boundary(
+    metres: NDArray[np.float64], numbers: Sequence[int], zones: Sequence[Zone], faults: Faults
+) -> NDArray[np.bool_]:
+    """Trees outside the boundary can never be reached: either the tree or the boundary is wrong."""
+    boundaries = [z.polygon for z in zones if z.kind == "boundary"]
+    inside = np.full(len(metres), not boundaries)
+    for polygon in boundaries:
+        shapely.prepare(polygon)
+        inside |= shapely.dwithin(polygon, shapely.points(metres), ON_BOUNDARY_M)
+    for k in np.flatnonzero(~inside).tolist():
+        faults.add(numbers[k], "the tree stands outside the boundary", "correct the tree or draw the boundary wider")
+    return inside
+
+
+def _entered_twice(
+    points: shapely.STRtree, numbers: Sequence[int], stays: NDArray[np.bool_], faults: Faults
+) -> tuple[NDArray[np.bool_], list[str]]:
+    """Trees that stand within 0.2 m of an earlier one: real surveys hold a few, so they are told and kept unless
+    only what is sound was asked for.
+    """
+    one, other = points.query(points.geometries, predicate="dwithin", distance=SAME_TREE_M)
+    later = one > other
+    again = np.zeros(len(numbers), dtype=bool)
+    pairs: list[tuple[int, int]] = []
+    for k, before in sorted(zip(one[later].tolist(), other[later].tolist(), strict=True)):
+        if stays[k] and stays[before] and not again[before] and not again[k]:
+            again[k] = True
+            pairs.append((numbers[before], numbers[k]))
+    if not pairs:
+        return again, []
+    if faults.lenient:
+        for before, number in pairs:
+            faults.add(
+                number,
+                f"the tree stands within {SAME_TREE_M:g} m of that of {faults.unit} {before}, so is probably the same",
+                "",
+            )
+        return again, []
+    said = ", ".join(f"{a} and {b}" for a, b in pairs[:_MOST_PAIRS])
+    more = f" and {len(pairs) - _MOST_PAIRS} more pairs" if len(pairs) > _MOST_PAIRS else ""
+    return np.zeros_like(again), [
+        f"trees within {SAME_TREE_M:g} m of one another, probably entered twice: {faults.unit}s {said}{more}"
+    ]
+
+
+def _in_keep_outs(
+    points: shapely.STRtree,
+    numbers: Sequence[int],
+    stays: NDArray[np.bool_],
+    zones: Sequence[Zone],
+    faults: Faults,
+) -> list[str]:
+    """Trees in a keep-out are there, but no robot gets to them."""
+    notes = []
+    for zone in zones:
+        if zone.kind != "keep_out":
+            continue
+        inside = [k for k in sorted(points.query(zone.polygon, predicate="contains").tolist()) if stays[k]]
+        if inside:
+            which = numbered(faults.unit, [numbers[k] for k in inside])
+            one = len(inside) == 1
+            notes.append(
+                f"the tree{'s' * (not one)} of {which} stand{'s' * one} inside the keep-out {zone.name!r}"
+                f" and cannot be visited"
+            )
+    return notes
+
+
+def _markers(
+    points: Sequence[PointFeature], projection: Projection, zones: Sequence[Zone], faults: Faults
+) -> Mapping[str, Place]:
+    """Start, end and charger, each once, where a robot may stand: another makes every mission impossible."""
+    markers: dict[str, Place] = {}
+    numbers: dict[str, int] = {}
+    boundaries = [z.polygon for z in zones if z.kind == "boundary"]
+    keep_outs = [z for z in zones if z.kind == "keep_out"]
+    metres = projection.metres([p.lat for p in points], [p.lon for p in points]).tolist() if points else []
+    for p, (x, y) in zip(points, metres, strict=True):
+        if p.kind in markers:
+            faults.add(
+                p.feature,
+                f"it is a second {p.kind} marker (the first is {faults.unit} {numbers[p.kind]})",
+                "keep one of them",
+            )
+            continue
+        within = next((z for z in keep_outs if shapely.contains_xy(z.polygon, x, y)), None)
+        if within is not None:
+            faults.add(p.feature, f"the {p.kind} marker lies inside the keep-out {within.name!r}", "move one of them")
+        elif boundaries and not any(shapely.intersects_xy(b, x, y) for b in boundaries):
+            faults.add(p.feature, f"the {p.kind} marker lies outside the boundary", "move one of them")
+        else:
+            numbers[p.kind] = p.feature
+            markers[p.kind] = Place(kind="marker", id=p.kind, x=x, y=y, lat=p.lat, lon=p.lon)
+    return markers
+
+
+def _zones(areas: Sequence[AreaFeature], projection: Projection, faults: Faults) -> tuple[Zone, ...]:
+    zones: list[Zone] = []
+    unnamed = 0
+    for area in areas:
+        rings = [projection.metres([lat for _, lat in ring], [lon for lon, _ in ring]) for ring in area.rings]
+        polygon = shapely.Polygon(rings[0], rings[1:])
+        if not polygon.is_valid or polygon.area <= 0.0:
+            faults.add(
+                area.feature,
+                f"its polygon crosses or touches itself ({_where_invalid(polygon, projection)})",
+                "redraw it so that its edges do not cross",
+                needed=area.kind != "zone",
+            )
+            continue
+        unnamed += not area.name
+        zones.append(Zone(name=area.name[:80] or f"zone {unnamed}", kind=area.kind, polygon=polygon))
+    return tuple(zones)
+
+
+def _where_invalid(polygon: shapely.Polygon, projection: Projection) -> str:
+    reason = shapely.is_valid_reason(polygon)
+    words, _, spot = reason.partition("[")
+    try:
+        east, north = (float(v) for v in spot.rstrip("]").split()[:2])
+    except ValueError:
+        return "it encloses no area" if polygon.is_valid else words.lower()
+    lat, lon = projection.degrees([[east, north]])[0]
+    return f"{words.lower()} near latitude {lat:.6f}, longitude {lon:.6f}"
+
+
+def _notes(gathered: Gathered, faults: Faults) -> list[str]:
+    notes: list[str] = []
+    if gathered.closed:
+        notes.append(f"a polygon that was not closed was closed: {numbered(faults.unit, gathered.closed)}")
+    landmarks = Counter(p.word.lower()[:30] for p in gathered.points if p.kind == "landmark")
+    if landmarks:
+        said = ", ".join(f"{n} x {word}" for word, n in landmarks.most_common(5))
+        notes.append(f"points that are no trees were left out: {said}")
+    if gathered.lines:
+        notes.append(
+            f"{gathered.lines} line{'s' * (gathered.lines > 1)} left out: of lines only those are used"
+            " that no robot drives across (a fence, a ditch)"
+        )
+    if gathered.heights:
+        notes.append(
+            f"heights are not used ({gathered.heights} {faults.unit}{'s' * (gathered.heights > 1)} "
+            f"{'have' if gathered.heights > 1 else 'has'} them)"
+        )
+    return notes
+
+
+def _no_trees(gathered: Gathered, at: str, *, left_out: bool = False) -> SiteError:
+    if left_out:
+        what = "none of its trees can be used"
+    elif not gathered.points:
+        what = "it has no points"
+    else:
+        what = "it has no trees, only markers and landmarks"
+    return SiteError(what, where=at, advice="a site needs at least one tree, given as a Point")

@@ -1,0 +1,83 @@
+"""Where a site lies: what is far from its trees is stray, and the projection stands in their middle."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.site.features import Gathered, PointFeature
+from fieldhand.site.formats.faults import Faults
+from fieldhand.site.projection import Projection
+
+MAX_EXTENT_M = 20_000.0
+_EARTH_RADIUS_M = 6_371_000.0
+
+
+def sound_extent(gathered: Gathered, faults: Faults) -> Gathered:
+    """What lies within 20 km of the middle tree; what is farther is stray, or has its coordinates swapped."""
+    planted = [(p.lon, p.lat) for p in gathered.points if p.kind == "tree"]
+    if not planted:
+        return gathered
+    middle = np.median(_unwrapped(np.array(planted)), axis=0)
+    away = _great_circle_m(np.array([(p.lon, p.lat) for p in gathered.points]), middle)
+    strays = _Strays(middle, faults)
+    for k in np.flatnonzero(away > MAX_EXTENT_M).tolist():
+        p = gathered.points[k]
+        strays.add(p.feature, (p.lon, p.lat), float(away[k]), needed=False)
+    near = away <= MAX_EXTENT_M
+    points = gathered.points if near.all() else [gathered.points[k] for k in np.flatnonzero(near).tolist()]
+    areas = [a for a in gathered.areas if strays.near(a.feature, a.rings[0], needed=a.kind != "zone")]
+    barriers = [b for b in gathered.barriers if strays.near(b.feature, b.positions, needed=True)]
+    return replace(gathered, points=points, areas=areas, barriers=barriers)
+
+
+def middle_of(planted: Sequence[PointFeature]) -> Projection:
+    """The projection about the middle of the trees' extent."""
+    degrees = _unwrapped(np.array([(p.lon, p.lat) for p in planted]))
+    lon, lat = (degrees.min(axis=0) + degrees.max(axis=0)) / 2
+    return Projection(lat=float(lat), lon=float((lon + 180.0) % 360.0 - 180.0))
+
+
+class _Strays:
+    def __init__(self, middle: NDArray[np.float64], faults: Faults) -> None:
+        self._middle = middle
+        self._add: Callable[..., None] = faults.add
+
+    def near(self, number: int, positions: Sequence[tuple[float, float]], *, needed: bool) -> bool:
+        away = _great_circle_m(np.array(positions), self._middle)
+        worst = int(np.argmax(away))
+        if away[worst] <= MAX_EXTENT_M:
+            return True
+        self.add(number, positions[worst], float(away[worst]), needed=needed)
+        return False
+
+    def add(self, number: int, position: tuple[float, float], away_m: float, *, needed: bool) -> None:
+        lon, lat = position
+        swapped = abs(lon) <= 90 and _great_circle_m(np.array([(lat, lon)]), self._middle)[0] <= MAX_EXTENT_M
+        self._add(
+            number,
+            f"it lies {away_m / 1000:,.0f} km from the middle of the trees"
+            + (": its latitude and longitude are swapped" if swapped else ""),
+            "write [longitude, latitude]"
+            if swapped
+            else "correct its coordinates [longitude, latitude] or take it out",
+            needed=needed,
+        )
+
+
+def _unwrapped(degrees: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Longitudes without the jump from 180 to -180, for sites across the date line."""
+    out = degrees.copy()
+    if np.ptp(out[:, 0]) > 180.0:
+        out[out[:, 0] < 0.0, 0] += 360.0
+    return out
+
+
+def _great_circle_m(degrees: NDArray[np.float64], middle: NDArray[np.float64]) -> NDArray[np.float64]:
+    lon, lat = np.radians(degrees[:, 0]), np.radians(degrees[:, 1])
+    lon0, lat0 = np.radians(middle)
+    h = np.sin((lat - lat0) / 2) ** 2 + np.cos(lat) * np.cos(lat0) * np.sin((lon - lon0) / 2) ** 2
+    return np.asarray(2 * _EARTH_RADIUS_M * np.arcsin(np.sqrt(np.clip(h, 0.0, 1.0))), dtype=np.float64)

@@ -1,0 +1,133 @@
+"""A site as GeoJSON (RFC 7946), with what was understood of it: rows, aisles, headlands and where a robot drives.
+
+Reading the document again gives the same site: trees, markers, gates and zones stand in it as they were read, and rows
+as properties of the trees. The lines are for people and maps; a reader reads over them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+from shapely.geometry.polygon import orient
+
+from fieldhand.site.kinds import BLOCK_KEYS, COLUMN_KEYS, POSITION_KEYS, area_kind, row_of, text_of
+from fieldhand.site.model import Site, Tree, Zone
+from fieldhand.task.selectors import Value
+
+if TYPE_CHECKING:
+    from fieldhand.site.driving.network import Network
+
+Feature = dict[str, Any]
+
+#: Of a degree, for lines that were computed: a millimetre.
+_DECIMALS = 8
+_ZONE_WORDS = {"boundary": ("boundary",), "keep_out": ("keep-out",), "zone": ("zone", "named zone")}
+
+
+def site_document(site: Site, network: Network | None = None) -> dict[str, Any]:
+    """The site as a GeoJSON FeatureCollection.
+
+    Trees have ``row``, ``block`` and ``position`` as properties where they stand in a row. Rows, aisles, headlands and
+    the drivable lines are LineStrings whose ``kind`` says what they are; a row has its ``confidence``.
+
+    Args:
+        site: Its rows are inferred where the file does not name them.
+        network: Where the robot drives, if that is to be in it.
+    """
+    features = [
+        *_trees(site),
+        *(_point(p.lon, p.lat, {"kind": name}) for name, p in site.markers.items()),
+        *(
+            _point(g.place.lon, g.place.lat, {"kind": "gate", "name": g.place.id, "width_m": g.width_m})
+            for g in site.gates
+        ),
+        *(_area(site, zone) for zone in site.zones),
+        *_rows(site),
+        *(_drivable(site, network) if network is not None else ()),
+    ]
+    return {"type": "FeatureCollection", "name": site.name, "features": features}
+
+
+def _trees(site: Site) -> Iterator[Feature]:
+    planting = site.planting
+    several = len(planting.blocks) > 1
+    where: dict[int, dict[str, Value]] = {}
+    for row in planting.rows:
+        said: dict[str, Value] = {"row": row.name}
+        if several:
+            said["block"] = planting.blocks[row.block].name
+        for tree, slot in zip(row.trees.tolist(), row.slots.tolist(), strict=True):
+            where[tree] = {**said, "position": slot}
+    for tree in site.trees:
+        properties = {**tree.properties, **_unsaid(tree, where.get(tree.index, {}))}
+        yield {**_point(tree.place.lon, tree.place.lat, properties), "id": tree.place.id}
+
+
+def _unsaid(tree: Tree, where: dict[str, Value]) -> dict[str, Value]:
+    """What the file does not say of where the tree stands; what it says stays as it is."""
+    said = {
+        "row": row_of(tree.properties),
+        "block": text_of(tree.properties, BLOCK_KEYS),
+        "position": text_of(tree.properties, POSITION_KEYS),
+    }
+    if not said["row"] and text_of(tree.properties, COLUMN_KEYS):
+        said["row"] = said["position"] = "its column"  # beside a row it would mean the position in it
+    return {name: value for name, value in where.items() if not said[name]}
+
+
+def _rows(site: Site) -> Iterator[Feature]:
+    planting = site.planting
+    for row in planting.rows:
+        if len(row.trees) < 2:
+            continue  # a line needs two ends
+        properties = {
+            "kind": "row",
+            "name": row.name,
+            "number": row.number,
+            "block": planting.blocks[row.block].name,
+            "trees": len(row.trees),
+            "known": row.known,
+            "confidence": round(row.confidence, 3),
+        }
+        yield _line(site, site.xy[row.trees], properties)
+
+
+def _drivable(site: Site, network: Network) -> Iterator[Feature]:
+    for line in network.lines:
+        properties = {"kind": line.kind, "name": line.name, "length_m": round(line.length_m, 2)}
+        yield _line(site, line.points, properties)
+
+
+def _area(site: Site, zone: Zone) -> Feature:
+    properties = next(
+        p for word in _ZONE_WORDS[zone.kind] if area_kind(p := {"kind": word, "name": zone.name})[0] == zone.kind
+    )
+    polygon = orient(zone.polygon)  # counterclockwise outside, clockwise holes
+    rings = [_positions(site, ring.coords) for ring in (polygon.exterior, *polygon.interiors)]
+    return _feature("Polygon", [_closed(ring) for ring in rings], properties)
+
+
+def _closed(ring: list[list[float]]) -> list[list[float]]:
+    return [*ring[:-1], ring[0]]
+
+
+def _line(site: Site, points: ArrayLike, properties: dict[str, Any]) -> Feature:
+    positions = _positions(site, points)
+    return _feature("LineString", [[round(v, _DECIMALS) for v in p] for p in positions], properties)
+
+
+def _positions(site: Site, points: ArrayLike | Sequence[Any]) -> list[list[float]]:
+    """Longitude and latitude of points in metres."""
+    xy = np.asarray(points, dtype=np.float64)[:, :2]
+    return [[lon, lat] for lat, lon in site.projection.degrees(xy).tolist()]
+
+
+def _point(lon: float, lat: float, properties: dict[str, Any]) -> Feature:
+    return _feature("Point", [lon, lat], properties)
+
+
+def _feature(kind: str, coordinates: Any, properties: dict[str, Any]) -> Feature:
+    return {"type": "Feature", "properties": properties, "geometry": {"type": kind, "coordinates": coordinates}}

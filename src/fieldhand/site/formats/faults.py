@@ -1,0 +1,99 @@
+"""What cannot be used in a site file, collected: all of it told at once, or left out where that was asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from fieldhand.errors import SiteError
+from fieldhand.site.formats.records import Unit
+
+MOST_TOLD = 10
+_MOST_NUMBERS = 5
+
+
+class Unsound(Exception):  # never leaves the reader
+    """A feature that cannot be used.
+
+    Args:
+        what: What is wrong with it, in words that follow "feature 7: ".
+        advice: What to do.
+    """
+
+    def __init__(self, what: str, advice: str) -> None:
+        self.what, self.advice = what, advice
+        super().__init__(what)
+
+
+class Faults:
+    """The features that cannot be used, each with its reason.
+
+    Args:
+        source: Where the file was read from.
+        unit: What its features are counted in.
+        lenient: Leave them out and go on. What keeps a robot out of somewhere is never left out.
+    """
+
+    def __init__(self, source: str, unit: Unit = "feature", *, lenient: bool = False) -> None:
+        self.source = source
+        self.unit = unit
+        self.lenient = lenient
+        self._found: dict[tuple[str, str], list[int]] = {}
+        self._needed: dict[tuple[str, str], list[int]] = {}
+
+    def add(self, number: int, what: str, advice: str, *, needed: bool = False) -> None:
+        """A feature cannot be used; ``needed`` where the site must not be used without it."""
+        for told in (self._found, self._needed) if needed else (self._found,):
+            numbers = told.setdefault((what, advice), [])
+            if number not in numbers[-1:]:
+                numbers.append(number)
+
+    def check(self) -> None:
+        """Refuse the file if something in it cannot be used and must not be left out.
+
+        Raises:
+            SiteError: With the first faults, each with its feature.
+        """
+        told = self._needed if self.lenient else self._found
+        if not told:
+            return
+        (what, advice), numbers = next(iter(told.items()))
+        if len(told) == 1 and len(numbers) == 1:
+            raise SiteError(what, where=f"{self.source}, {self.unit} {numbers[0]}", advice=advice)
+        if len(told) == 1:
+            raise SiteError(f"{numbered(self.unit, numbers)} cannot be used: {what}", where=self.source, advice=advice)
+        count = len({n for numbers in told.values() for n in numbers})
+        said = [
+            f"{numbered(self.unit, numbers)}: {what} ({advice})"
+            for (what, advice), numbers in list(told.items())[:MOST_TOLD]
+        ]
+        more = len(told) - MOST_TOLD
+        raise SiteError(
+            f"{count} {self.unit}{'s' * (count > 1)} cannot be used: "
+            + "; ".join(said)
+            + (f"; and {more} more kinds of fault" if more > 0 else ""),
+            where=self.source,
+            advice=self._way_out(),
+        )
+
+    def notes(self) -> list[str]:
+        """What was left out and why, a sentence each; the first few."""
+        said = [
+            f"left out {numbered(self.unit, numbers)}: {what}"
+            for (what, _), numbers in list(self._found.items())[:MOST_TOLD]
+        ]
+        more = sum(len(numbers) for numbers in list(self._found.values())[MOST_TOLD:])
+        return [*said, f"left out {more} more {self.unit}s that cannot be used"] if more else said
+
+    def _way_out(self) -> str:
+        if self.lenient:
+            return "correct them: what keeps a robot out of somewhere is never left out, not even with --lenient"
+        return "correct them or take them out, or load what is sound with --lenient"
+
+
+def numbered(unit: Unit, numbers: Sequence[int]) -> str:
+    """``feature 3``, ``features 3, 4 and 9``, ``features 3, 4, 9, 12, 14 and 88 more``."""
+    if len(numbers) == 1:
+        return f"{unit} {numbers[0]}"
+    shown = [str(n) for n in numbers[:_MOST_NUMBERS]]
+    last = shown.pop() if len(numbers) <= _MOST_NUMBERS else f"{len(numbers) - _MOST_NUMBERS} more"
+    return f"{unit}s {', '.join(shown)} and {last}"

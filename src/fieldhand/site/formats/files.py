@@ -1,0 +1,135 @@
+"""Which format a file has, by its ending and by how it begins, and its records."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Literal
+
+from fieldhand.errors import SiteError
+from fieldhand.site.features import clean
+from fieldhand.site.formats.geojson import geojson_records
+from fieldhand.site.formats.records import MAX_BYTES, Records, too_big
+from fieldhand.site.formats.table import table_records
+
+Format = Literal["geojson", "table", "shapefile", "geopackage", "kml", "zip"]
+
+_ENDINGS: dict[str, Format] = {
+    ".geojson": "geojson",
+    ".json": "geojson",
+    ".csv": "table",
+    ".tsv": "table",
+    ".txt": "table",
+    ".shp": "shapefile",
+    ".gpkg": "geopackage",
+    ".kml": "kml",
+    ".kmz": "zip",
+    ".zip": "zip",
+}
+#: How files begin that can be nothing else.
+_MAGIC: dict[bytes, Format] = {
+    b"SQLite format 3\0": "geopackage",
+    b"PK\x03\x04": "zip",
+    b"\x00\x00\x27\x0a": "shapefile",
+}
+#: Parts of a Shapefile, the main one first.
+SHAPEFILE_PARTS = (".shp", ".shx", ".dbf", ".prj", ".cpg")
+
+
+def read_records(path: Path, *, lenient: bool = False) -> tuple[Records, str]:
+    """The records of a file and the SHA-256 of its bytes (for a Shapefile of its parts, one after the other).
+
+    Raises:
+        SiteError: It is missing, no file, too big, or has no format that can be read.
+    """
+    at = clean(str(path))
+    parts = [path]
+    data = read_bytes(path, at)
+    form = format_of(path.name, data, at)
+    if form == "shapefile":
+        parts = _shapefile_parts(path)
+    if form == "geojson":
+        records = geojson_records(data, at, lenient=lenient)
+    elif form == "table":
+        records = table_records(data, at)
+    else:
+        from fieldhand.site.formats.gis import gis_records
+
+        held = {part.name: data if part == path else read_bytes(part, clean(str(part))) for part in parts}
+        return gis_records(form, held, at, lenient=lenient), _digest(held.values())
+    return records, _digest([data])
+
+
+def read_bytes(path: Path, at: str) -> bytes:
+    """The bytes of a file that is not too big.
+
+    Raises:
+        SiteError: It is missing, no file, too big or cannot be read.
+    """
+    try:
+        if not path.is_file():
+            if path.exists():
+                raise SiteError("this is not a file", where=at, advice="give the file of the site itself")
+            raise SiteError(
+                "there is no such file",
+                where=at,
+                advice="check the path, or use 'demo' for the built-in orchard",
+            )
+        if path.stat().st_size > MAX_BYTES:
+            raise too_big(at, path.stat().st_size)
+        return path.read_bytes()
+    except OSError as fault:
+        reason = fault.strerror or type(fault).__name__
+        raise SiteError(f"the file cannot be read ({reason})", where=at, advice="check its permissions") from None
+
+
+def format_of(name: str, data: bytes, at: str) -> Format:
+    """The format of a file; a beginning that can mean only one thing counts more than the ending of the name.
+
+    Raises:
+        SiteError: It is none that can be read.
+    """
+    for magic, form in _MAGIC.items():
+        if data.startswith(magic):
+            return form
+    ending = Path(name).suffix.lower()
+    known = _ENDINGS.get(ending)
+    if ending in SHAPEFILE_PARTS[1:]:
+        raise SiteError("this is a part of a Shapefile", where=at, advice="give the .shp file that it belongs to")
+    if known in ("geopackage", "zip", "shapefile"):
+        raise SiteError(
+            f"the file is no {ending[1:]} file, whatever its name says" if data else "the file is empty",
+            where=at,
+            advice="export it again",
+        )
+    if known is not None:
+        return known
+    start = data[:200].removeprefix(b"\xef\xbb\xbf").lstrip()
+    if start[:1] in (b"{", b"["):
+        return "geojson"
+    if start[:1] == b"<":
+        return "kml"
+    if start and b"\0" not in start and any(mark in start.splitlines()[0] for mark in (b",", b";", b"\t")):
+        return "table"
+    raise SiteError(
+        "the file has no format of a site" if start else "the file is empty",
+        where=at,
+        advice="give GeoJSON or a CSV table; with the extra gis also Shapefile, GeoPackage, KML or KMZ",
+    )
+
+
+def _shapefile_parts(path: Path) -> list[Path]:
+    """The parts that lie beside the main file, however their endings are written."""
+    try:
+        beside = {p.suffix.lower(): p for p in sorted(path.parent.iterdir()) if p.stem == path.stem and p.is_file()}
+    except OSError:
+        beside = {}
+    return [path, *(beside[part] for part in SHAPEFILE_PARTS[1:] if part in beside)]
+
+
+def _digest(parts: Iterable[bytes]) -> str:
+    digest = hashlib.sha256()
+    for part in parts:
+        digest.update(part)
+    return digest.hexdigest()

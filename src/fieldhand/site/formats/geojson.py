@@ -1,0 +1,90 @@
+"""GeoJSON (RFC 7946) to records."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from fieldhand.errors import SiteError
+from fieldhand.site.formats.records import Records
+
+_DEGREES_CRS = ("crs84", "4326")
+_AGAIN = "export it again as GeoJSON"
+
+
+def geojson_records(data: bytes, at: str, *, lenient: bool = False) -> Records:
+    """The features of a GeoJSON FeatureCollection in UTF-8.
+
+    Args:
+        data: The document.
+        at: Where it was read from, for messages.
+        lenient: Read over a ``crs`` member that says WGS 84.
+
+    Raises:
+        SiteError: It is not JSON, no FeatureCollection, or has a ``crs`` member, which RFC 7946 took out.
+    """
+    document = _document(data, at)
+    features = _features(document, at)
+    notes = _crs(document, at, lenient=lenient)
+    own_name = document.get("name")
+    return Records(features=features, name=own_name if isinstance(own_name, str) else "", notes=notes)
+
+
+def _document(data: bytes, at: str) -> Mapping[str, Any]:
+    if not data.strip():
+        raise SiteError("the file is empty", where=at, advice="give a GeoJSON FeatureCollection")
+    try:
+        document = json.loads(data.decode("utf-8-sig"))
+    except UnicodeDecodeError as fault:
+        raise SiteError(
+            f"the file is not UTF-8 text (byte {fault.start + 1})", where=at, advice="save it as GeoJSON in UTF-8"
+        ) from None
+    except json.JSONDecodeError as fault:
+        raise SiteError(
+            f"the file is not JSON: {fault.msg}", where=f"{at}, line {fault.lineno}", advice=_AGAIN
+        ) from None
+    except RecursionError:
+        raise SiteError("the file is nested too deeply", where=at, advice=_AGAIN) from None
+    except ValueError:
+        raise SiteError("a number in the file has thousands of digits", where=at, advice=_AGAIN) from None
+    if not isinstance(document, dict):
+        raise SiteError(
+            "this is JSON, but not GeoJSON", where=at, advice='give an object of "type": "FeatureCollection"'
+        )
+    return document
+
+
+def _features(document: Mapping[str, Any], at: str) -> Sequence[Any]:
+    kind, features = document.get("type"), document.get("features")
+    if kind != "FeatureCollection" or not isinstance(features, list):
+        what = f"it is one {kind}" if kind in ("Feature", "Point", "Polygon", "MultiPoint") else "it is not GeoJSON"
+        raise SiteError(
+            f"{what}, not a FeatureCollection",
+            where=at,
+            advice='give an object with "type": "FeatureCollection" and a list "features"',
+        )
+    return features
+
+
+def _crs(document: Mapping[str, Any], at: str, *, lenient: bool) -> tuple[str, ...]:
+    """Any ``crs`` member is refused: programs differ in whether they obey it, so a site could lie in two places."""
+    if "crs" not in document:
+        return ()
+    named = document["crs"]
+    said = str(named.get("properties", "")).lower() if isinstance(named, dict) else ""
+    if not any(known in said for known in _DEGREES_CRS):
+        raise SiteError(
+            'it has a "crs" member that does not say WGS 84, and GeoJSON is always WGS 84 (RFC 7946)',
+            where=at,
+            advice="export it as WGS 84 (EPSG:4326) without that member: in QGIS, Save As GeoJSON with RFC7946 set to "
+            "YES; or ogr2ogr -t_srs EPSG:4326 -lco RFC7946=YES",
+        )
+    if not lenient:
+        raise SiteError(
+            'it has a "crs" member, which GeoJSON no longer has (RFC 7946)',
+            where=at,
+            advice="it says WGS 84, so delete that member and keep the coordinates (in QGIS, Save As GeoJSON with "
+            "RFC7946 set to YES), or read over it with --lenient",
+        )
+    return ('the "crs" member was read over: GeoJSON is always WGS 84, and it says so',)

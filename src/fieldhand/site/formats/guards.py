@@ -1,0 +1,86 @@
+"""A look into a file before GDAL gets it: no entities, no references to elsewhere, no queries in place of tables."""
+
+from __future__ import annotations
+
+import re
+import sqlite3
+from contextlib import closing
+from pathlib import Path
+from xml.parsers import expat
+
+from fieldhand.errors import SiteError
+from fieldhand.site.features import clean
+
+MAX_DEPTH = 100
+_VIRTUAL = re.compile(r"\s*CREATE\s+VIRTUAL", re.IGNORECASE)
+_INDEX = re.compile(r"\bUSING\s+[\"'`\[]?(?:rtree|fts[345])\b", re.IGNORECASE)
+#: How files begin that GDAL takes for lists of other files, whatever they are called.
+_LISTS = (b"<OGRVRT", b"<VRTDataset", b"<GDALTileIndex", b"<OGRWFS", b"<WFS_Capabilities", b'"gdal_streamed_alg"')
+
+
+def check_kml(path: Path, at: str) -> None:
+    """Refuse what is no plain KML.
+
+    Raises:
+        SiteError: It is not well-formed, no KML, nested too deeply, or has a document type (with which entities come).
+    """
+    data = path.read_bytes()
+    if any(mark in data for mark in _LISTS):
+        raise SiteError("the file refers to other files", where=at, advice="export it again as plain KML")
+    depth = 0
+
+    def begin(name: str, _: object) -> None:
+        nonlocal depth
+        if depth == 0 and name.rpartition(":")[2] != "kml":
+            raise SiteError(f"this is XML, but not KML (its root is {clean(name)[:40]!r})", where=at, advice="give KML")
+        depth += 1
+        if depth > MAX_DEPTH:
+            raise SiteError("the file is nested too deeply", where=at, advice="export it again as KML")
+
+    def end(_: str) -> None:
+        nonlocal depth
+        depth -= 1
+
+    def refuse(*_: object) -> None:
+        raise SiteError(
+            "the file has a document type or entities", where=at, advice="export it again as plain KML without them"
+        )
+
+    parser = expat.ParserCreate()
+    parser.StartElementHandler, parser.EndElementHandler = begin, end
+    parser.StartDoctypeDeclHandler = refuse
+    parser.EntityDeclHandler = refuse
+    try:
+        parser.Parse(data, True)
+    except expat.ExpatError as fault:
+        raise SiteError(
+            f"the file is not well-formed XML ({expat.ErrorString(fault.code)})",
+            where=f"{at}, line {fault.lineno}",
+            advice="export it again as KML",
+        ) from None
+    except (LookupError, ValueError) as fault:  # an encoding that expat does not have
+        raise SiteError(f"the file cannot be read ({fault})", where=at, advice="save it in UTF-8") from None
+
+
+def check_geopackage(path: Path, at: str) -> frozenset[str]:
+    """Names of the layers that are views: they are queries that would be run, so they are not read.
+
+    Raises:
+        SiteError: It is no GeoPackage, one of its own tables is a view, or a table is virtual (spatial and text indexes
+            are, and are fine; others may stand for any file of this machine).
+    """
+    try:
+        with closing(sqlite3.connect(f"{path.as_uri()}?mode=ro&immutable=1", uri=True)) as database:
+            database.text_factory = lambda text: text.decode(errors="replace")
+            found = database.execute(
+                "SELECT name, type, coalesce(sql, '') FROM sqlite_master WHERE type IN ('table', 'view')"
+            ).fetchall()
+    except (sqlite3.Error, UnicodeDecodeError) as fault:  # its messages quote what is damaged
+        raise SiteError(f"the file cannot be read ({fault})", where=at, advice="export it again") from None
+    tables = {str(name).lower() for name, kind, _ in found if kind == "table"}
+    views = {str(name) for name, kind, _ in found if kind == "view"}
+    if any(_VIRTUAL.match(str(sql)) and not _INDEX.search(str(sql)) for _, _, sql in found):
+        raise SiteError("the file has tables that stand for something else", where=at, advice="export the site again")
+    if "gpkg_contents" not in tables or any(name.lower().startswith(("gpkg_", "rtree_")) for name in views):
+        raise SiteError("this is an SQLite database, but no GeoPackage", where=at, advice="export the site again")
+    return frozenset(views)

@@ -1,0 +1,75 @@
+"""How the trees of a site are planted: the rows that its file names, else those that can be seen in the bare points.
+
+- ``named``: what the file says about rows, blocks and positions, and whether that makes sense on the ground.
+- ``infer``: rows from bare points. ``patches`` finds which way rows run in small patches of trees, ``regions`` puts
+  patches that agree together, ``tracing`` follows lines of trees there, ``grouping`` makes blocks of them,
+  ``evidence`` throws out what scattered trees would show as well, ``settle`` gives trees on their own a home.
+- ``draw`` puts both together, and ``assemble`` numbers blocks, rows and planting positions.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.site.model import Site
+from fieldhand.site.planting import Planting
+from fieldhand.site.rows.assemble import assemble
+from fieldhand.site.rows.draw import draw
+from fieldhand.site.rows.named import named_rows
+from fieldhand.site.rows.settle import SeenBlock
+
+#: Trees nearer to each other than this, in metres, are one tree entered twice.
+_TWICE_M = 0.2
+
+__all__ = ["planting_of"]
+
+
+def planting_of(site: Site) -> Planting:
+    """Blocks and rows of the site, and the trees along each row with their planting positions.
+
+    The file's own rows, blocks and positions win where they make sense; the other trees are in the rows that can be
+    seen in how they stand. Where none can, the planting has no blocks and says why.
+    """
+    xy = site.xy
+    named = named_rows(site.trees, xy)
+    seen = _seen(xy) if (named.row_of < 0).any() else []
+    return assemble(xy, draw(xy, named, seen))
+
+
+def _seen(xy: NDArray[np.float64]) -> list[SeenBlock]:
+    """Rows from the points; trees entered twice are seen once, and stand where the other does."""
+    from fieldhand.site.rows.infer import seen_blocks
+
+    first = _first_entry(xy)
+    kept = np.unique(first)
+    copies = np.flatnonzero(first != np.arange(len(xy)))
+    blocks = seen_blocks(xy[kept])
+    found = []
+    for block in blocks:
+        rows = [kept[trees] for trees in block.rows]
+        if len(copies):
+            rows = [np.concatenate([trees, copies[np.isin(first[copies], trees)]]) for trees in rows]
+        found.append(replace(block, rows=rows))
+    return found
+
+
+def _first_entry(xy: NDArray[np.float64]) -> NDArray[np.intp]:
+    """Of each tree the first of the file that stands in the same place."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
+    tree = cKDTree(xy)
+    apart = np.asarray(tree.query(xy, k=2)[0])[:, 1] if len(xy) > 1 else np.ones(len(xy))
+    usual = float(np.median(apart[apart > 0])) if (apart > 0).any() else _TWICE_M
+    pairs = tree.query_pairs(min(_TWICE_M, 0.25 * usual), output_type="ndarray")
+    if not len(pairs):
+        return np.arange(len(xy), dtype=np.intp)
+    graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(xy), len(xy)))
+    label = connected_components(graph, directed=False)[1]
+    first = np.full(int(label.max()) + 1, len(xy), dtype=np.intp)
+    np.minimum.at(first, label, np.arange(len(xy)))
+    return np.asarray(first[label])

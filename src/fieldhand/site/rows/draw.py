@@ -1,0 +1,219 @@
+"""Rows and blocks drawn together from what the file says and what can be seen."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Hashable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.site.planting import Known
+from fieldhand.site.rows.assemble import Drawn, along_of, bearing, groups
+from fieldhand.site.rows.grouping import lines_of, row_spacing, together
+from fieldhand.site.rows.named import Named
+from fieldhand.site.rows.settle import SeenBlock
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+#: Rows that run in directions this many degrees apart are in different blocks, where the file does not say.
+_OTHER_WAY = 8.0
+
+
+def draw(xy: Floats, named: Named, seen: Sequence[SeenBlock]) -> Drawn:
+    """The file's rows, with the trees that it names no row for added to them, or in rows that were seen.
+
+    Args:
+        xy: Trees in metres.
+        named: What the file says; it wins.
+        seen: Blocks of trees, of all or of some.
+    """
+    seen_row, seen_block, sure = _flat(len(xy), seen)
+    row_of, names, known, confidence = _rows(named, seen_row, sure)
+    members = groups(row_of, len(names))
+    block_key = _block_keys(xy, named, members, seen_row, seen_block, list(seen))
+    blocks = list(dict.fromkeys(block_key))
+    said = [isinstance(key, str) for key in blocks]
+    return Drawn(
+        row_of=row_of,
+        block_of=np.array([blocks.index(key) for key in block_key], dtype=np.intp),
+        names=names,
+        known=known,
+        sure=confidence,
+        block_names=[str(key) if own else "" for key, own in zip(blocks, said, strict=True)],
+        block_known=["file" if own else "inferred" for own in said],
+        block_sure=_block_sure(blocks, block_key, known, members, seen_row, seen_block, list(seen)),
+        positions=named.positions,
+        why=_why(row_of),
+    )
+
+
+def _flat(count: int, seen: Sequence[SeenBlock]) -> tuple[Indices, list[int], list[float]]:
+    """Of each tree the row it was seen in, -1 for none; of each of these rows its block and confidence."""
+    row_of = np.full(count, -1, dtype=np.intp)
+    block_of: list[int] = []
+    sure: list[float] = []
+    for k, block in enumerate(seen):
+        for trees, confidence in zip(block.rows, block.rows_sure, strict=True):
+            row_of[trees] = len(block_of)
+            block_of.append(k)
+            sure.append(confidence)
+    return row_of, block_of, sure
+
+
+def _rows(
+    named: Named, seen_row: Indices, sure: Sequence[float]
+) -> tuple[Indices, list[str], list[Known], list[float]]:
+    """The file's rows first, then those that were seen and hold no tree of these."""
+    row_of = named.row_of.copy()
+    names: list[str] = list(named.names)
+    known: list[Known] = ["file"] * len(names)
+    confidence = [1.0] * len(names)
+    for k, trees in enumerate(groups(seen_row, len(sure))):
+        without = trees[named.row_of[trees] < 0]
+        if not len(without):
+            continue
+        own = Counter(named.row_of[trees][named.row_of[trees] >= 0].tolist())
+        pieces = [without]
+        if own:
+            row = own.most_common(1)[0][0]
+            row_of[without] = row
+            confidence[row] = min(confidence[row], sure[k])
+            continue
+        pieces = _by_block(trees, named.block_names)
+        for piece in pieces:
+            row_of[piece] = len(names)
+            names.append("")
+            known.append("inferred")
+            confidence.append(sure[k])
+    return row_of, names, known, confidence
+
+
+def _by_block(trees: Indices, block_names: Sequence[str]) -> list[Indices]:
+    """A row that was seen, parted where the file says that its trees, in their order, go on in another block."""
+    said = [block_names[k] for k in trees]
+    changes = [k for k in range(1, len(said)) if said[k] != said[k - 1]]
+    if not changes or len(changes) + 1 > len(set(said)):
+        return [trees]
+    return np.split(trees, changes)
+
+
+def _block_keys(
+    xy: Floats,
+    named: Named,
+    members: Sequence[Indices],
+    seen_row: Indices,
+    seen_block: Sequence[int],
+    seen: list[SeenBlock],
+) -> list[Hashable]:
+    """Of each row what tells its block from others: the file's name, else a number."""
+    keys: list[Hashable] = [_said(named, trees) for trees in members]
+    if all(keys):
+        return keys
+    # Rows without a name for their block are in that of the rows they were seen with, ...
+    blocks = np.array([*seen_block, -1], dtype=np.intp)[seen_row]
+    spoken: dict[int, Counter[str]] = {}
+    for key, trees in zip(keys, members, strict=True):
+        own = blocks[trees]
+        if key and (own >= 0).any():
+            spoken.setdefault(int(np.bincount(own[own >= 0]).argmax()), Counter())[str(key)] += len(trees)
+    beside: list[int] = []
+    for k, trees in enumerate(members):
+        own = blocks[trees]
+        if keys[k]:
+            continue
+        if not (own >= 0).any():
+            beside.append(k)
+            continue
+        block = int(np.bincount(own[own >= 0]).argmax())
+        keys[k] = spoken[block].most_common(1)[0][0] if block in spoken else block
+    # ... or beside, where they were not looked for.
+    for k, label in zip(beside, _beside(xy, [members[k] for k in beside]), strict=True):
+        keys[k] = len(seen) + label
+    return keys
+
+
+def _said(named: Named, trees: Indices) -> str:
+    """The block that the file says these trees are in; empty where it says none, or several."""
+    said = {named.block_names[k] for k in trees}
+    return said.pop() if len(said) == 1 else ""
+
+
+def _beside(xy: Floats, rows: Sequence[Indices]) -> list[int]:
+    """Label rows by the block they are in, from where they stand."""
+    if not rows:
+        return []
+    label = np.zeros(len(rows), dtype=np.intp)
+    ways = np.array(
+        [bearing(xy[trees], np.zeros(len(trees), dtype=np.intp)) if len(trees) > 2 else np.nan for trees in rows]
+    )
+    first = 0
+    for same in _one_way(ways):
+        own = np.full(len(xy), -1, dtype=np.intp)
+        for place, k in enumerate(same):
+            own[rows[k]] = place
+        way = along_of(bearing(xy, own))
+        local = np.column_stack([xy @ np.array([way[1], -way[0]]), xy @ way])
+        lines = lines_of(local, own)
+        guess = _usual_step(np.sort([float(line.across.mean()) for line in lines]))
+        label[same] = first + together(lines, row_spacing(lines, guess), trusted=True)
+        first = int(label.max()) + 1
+    return [int(k) for k in label]
+
+
+def _usual_step(middles: Floats) -> float:
+    steps = np.diff(middles)
+    steps = steps[steps > 0.2]
+    return float(np.median(steps)) if len(steps) else 1.0
+
+
+def _one_way(ways: Floats) -> list[Indices]:
+    """Rows by direction; those too short to have one go with the first."""
+    short = np.flatnonzero(np.isnan(ways))
+    long = np.flatnonzero(~np.isnan(ways))
+    if not len(long):
+        return [short]
+    order = long[np.argsort(ways[long], kind="stable")]
+    turned = ways[order]
+    cuts = np.flatnonzero(np.diff(turned) > _OTHER_WAY) + 1
+    parts = list(np.split(order, cuts))
+    if len(parts) > 1 and turned[0] + 180.0 - turned[-1] <= _OTHER_WAY:
+        parts[0] = np.concatenate([parts.pop(), parts[0]])
+    parts.sort(key=len, reverse=True)
+    parts[0] = np.concatenate([parts[0], short])
+    return parts
+
+
+def _block_sure(
+    blocks: Sequence[Hashable],
+    block_key: Sequence[Hashable],
+    known: Sequence[Known],
+    members: Sequence[Indices],
+    seen_row: Indices,
+    seen_block: Sequence[int],
+    seen: list[SeenBlock],
+) -> list[float]:
+    """As sure as the blocks that were seen there; where the file names rows of it, those run as it says."""
+    found = []
+    for key in blocks:
+        rows = [k for k, own in enumerate(block_key) if own == key]
+        if any(known[k] == "file" for k in rows):
+            found.append(1.0)
+            continue
+        trees = np.concatenate([members[k] for k in rows])
+        inside = {seen_block[r] for r in np.unique(seen_row[trees]).tolist() if r >= 0}
+        found.append(min((seen[b].sure for b in inside), default=1.0))
+    return found
+
+
+def _why(row_of: Indices) -> str:
+    lost, count = int((row_of < 0).sum()), len(row_of)
+    if not lost:
+        return ""
+    if lost < count:
+        verb = "stands" if lost == 1 else "stand"
+        return f"{lost} of the {count} trees {verb} in no row"
+    if count < 3:
+        return "it takes three trees or more to see a row"
+    return f"the {count} trees stand scattered: no rows can be seen in how they stand"

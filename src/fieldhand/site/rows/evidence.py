@@ -1,0 +1,121 @@
+"""How much speaks for rows, against trees that stand anyhow; and how sure a row is."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+#: Scattered trees in line by chance are spread over this width, and off their planting position by this much, in tree
+#: spacings; and the least spread that is believed.
+_LOOSE_ACROSS, _LOOSE_ALONG, _LEAST = 0.9, 1.2, 0.01
+#: For each tree that the lane beside the row is free, and against each that stands in it.
+_FREE, _IN_THE_LANE = 0.5, 1.5
+#: The lane, from its row, in tree spacings.
+_LANE = (0.5, 0.85)
+#: Missing trees, as a part of those that stand, that speak against nothing; and what each further one does.
+_OFTEN_MISSING, _MISSING = 0.3, 0.8
+
+
+def for_rows(xy: Floats, rows: Sequence[Indices], way: Floats, spacing: float) -> float:
+    """The logarithm of how much likelier trees stand like this in rows than anyhow.
+
+    Four things speak for rows: trees stand close to the row's line, a whole number of tree spacings from each other,
+    with few missing, and with a free lane beside them.
+
+    Args:
+        xy: All trees of the site.
+        rows: Trees of each row, in their order.
+        way: The unit vector along the rows.
+        spacing: From tree to tree.
+    """
+    across = np.array([way[1], -way[0]])
+    off = along = 0.0
+    trees = steps = missing = 0
+    for own in rows:
+        trees += len(own)
+        if len(own) < 2:
+            continue
+        u, v = xy[own] @ across, np.sort(xy[own] @ way)
+        off += _about_its_line(u)
+        step = np.diff(v) / spacing
+        whole = np.maximum(np.rint(step), 1.0)
+        along += float(((step - whole) ** 2).sum())
+        missing += int((whole - 1).sum())
+        steps += len(step)
+    free = max(trees - len(rows) - 1, 1)
+    spread = math.sqrt(2 * math.pi * math.e)
+    straight = math.log(_LOOSE_ACROSS / (spread * max(math.sqrt(off / free) / spacing, _LEAST)))
+    even = math.log(_LOOSE_ALONG / (spread * max(math.sqrt(along / max(steps, 1)), _LEAST)))
+    gaps = _MISSING * max(missing - _OFTEN_MISSING * trees, 0.0)
+    lane = _FREE * (trees - len(rows)) - _IN_THE_LANE * _in_the_lanes(xy, rows, way, spacing)
+    return (trees - len(rows) - 1) * (straight + even) + lane - gaps
+
+
+def needed(trees: int) -> float:
+    """How much must speak for rows among so many trees: more trees line up by chance in more ways."""
+    return 5.0 + 0.9 * math.log(max(trees, 1))
+
+
+def _about_its_line(across: Floats) -> float:
+    """Sum of squares about the row's line; where the row curves, about the middle of the trees next to each."""
+    flat = float(((across - across.mean()) ** 2).sum())
+    if len(across) < 12:
+        return flat
+    window = 7
+    total = np.cumsum(np.concatenate([[0.0], across]))
+    low = np.clip(np.arange(len(across)) - window // 2, 0, len(across) - window)
+    middle = (total[low + window] - total[low]) / window
+    return min(flat, float(((across - middle) ** 2).sum()) * window / (window - 1))
+
+
+def _in_the_lanes(xy: Floats, rows: Sequence[Indices], way: Floats, spacing: float) -> int:
+    """Trees, of the site, that stand in the lane beside a tree of the rows."""
+    from scipy.spatial import cKDTree
+
+    own = np.concatenate(rows)
+    row_of = np.full(len(xy), -1, dtype=np.intp)
+    row_of[own] = np.repeat(np.arange(len(rows)), [len(r) for r in rows])
+    local = xy @ np.array([[way[1], way[0]], [-way[0], way[1]]])
+    low, high = local[own].min(axis=0) - 2 * spacing, local[own].max(axis=0) + 2 * spacing
+    about = np.flatnonzero(((local >= low) & (local <= high)).all(axis=1))
+    scaled = local / (spacing * np.array([_LANE[1], 0.6]))
+    pairs = about[cKDTree(scaled[about]).query_pairs(1.0, p=np.inf, output_type="ndarray")]
+    i, j = pairs[:, 0], pairs[:, 1]
+    beside = (np.abs(local[i, 0] - local[j, 0]) > _LANE[0] * spacing) & (row_of[i] != row_of[j])
+    return int((row_of[i][beside] >= 0).sum() + (row_of[j][beside] >= 0).sum())
+
+
+def sure_of_way(evidence: float, enough: float, wider: float, walked: float) -> float:
+    """That rows run this way, 0 to 1: that they are rows at all, and that the lines across them are not the rows.
+
+    Args:
+        evidence: :func:`for_rows`.
+        enough: :func:`needed`.
+        wider: How many times as far apart the rows are as the lines of trees across them; inf where there are none.
+        walked: Part of the steps from tree to tree, in the order of the file, that go along the rows, of those that go
+            along or across; 0.5 where that says nothing.
+    """
+    rows_at_all = 1.0 / (1.0 + math.exp(-min((evidence - enough) / 2.0 + 0.5, 50.0)))
+    square = math.exp(-(((max(wider, 1.0) - 1.0) / 0.05) ** 2)) if math.isfinite(wider) else 0.0
+    which = 1.0 - 0.5 * square * (1.0 - abs(2 * walked - 1.0) * 0.9)
+    return rows_at_all * which
+
+
+def sure_of_row(xy: Floats, trees: Indices, way: Floats, tree_spacing: float, row_spacing: float, off: float) -> float:
+    """That these trees are a row and no others are in it, 0 to 1, where the rows run this way.
+
+    Each tree's chance to be nearer to its own row than to the next one, from how far trees stand beside their rows
+    (``off``, metres, one standard deviation) and the row spacing;
+    times, for each gap of k missing trees, ``1 - k^2/200``.
+    """
+    each = math.erf(0.5 * row_spacing / max(off, 1e-6) / math.sqrt(2.0)) if math.isfinite(row_spacing) else 1.0
+    steps = np.rint(np.diff(np.sort(xy[trees] @ way)) / max(tree_spacing, 1e-9)) - 1.0
+    gaps = np.prod(1.0 - np.minimum(np.maximum(steps, 0.0) ** 2 / 200.0, 0.5))
+    few = 1.0 if len(trees) > 2 else 0.8
+    return float(each ** len(trees) * gaps * few)

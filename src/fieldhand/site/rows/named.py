@@ -1,0 +1,154 @@
+"""What the file itself says about rows, blocks and positions, and whether it makes sense on the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.site.kinds import BLOCK_KEYS, COLUMN_KEYS, POSITION_KEYS, text_of
+from fieldhand.site.model import Tree
+from fieldhand.site.rows.assemble import groups
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+#: Trees of a row stand this close to its line, as a part of the spacing from row to row or from tree to tree.
+_ON_LINE = 0.35
+#: Part of the named trees that must stand in rows that are lines, for the names to be those of rows.
+_MOST = 0.8
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Named:
+    """What the file says.
+
+    Attributes:
+        row_of: Of each tree the row that the file names, counted from 0; -1 where it names none. Shape (n,).
+        names: Of these rows.
+        block_names: The block of each tree, empty where the file has none.
+        positions: Of each tree in its row; nan where the file has none. Shape (n,).
+    """
+
+    row_of: Indices
+    names: tuple[str, ...]
+    block_names: tuple[str, ...]
+    positions: Floats
+
+
+def named_rows(trees: Sequence[Tree], xy: Floats) -> Named:
+    """Rows, blocks and positions of the file, as far as they make sense.
+
+    A name is a row's if the trees that share it stand on a line. Trees that share it and stand on several are several
+    rows: those of different blocks.
+    """
+    rows = [tree.row for tree in trees]
+    blocks = [text_of(tree.properties, BLOCK_KEYS) for tree in trees]
+    columns = [text_of(tree.properties, COLUMN_KEYS) for tree in trees]
+    positions = np.array([_number(text_of(tree.properties, POSITION_KEYS)) for tree in trees], dtype=np.float64)
+    for names, along in ((rows, columns), (columns, rows)):
+        if not any(names):
+            continue
+        for within in (blocks, [""] * len(trees)):
+            row_of, kept = _lines(xy, names, within)
+            if kept is not None:
+                own = positions if np.isfinite(positions).any() else _numbers(along)
+                if not _restarts(own, row_of):
+                    own = np.full(len(trees), np.nan)
+                return Named(row_of=row_of, names=kept, block_names=tuple(within), positions=own)
+    none = np.full(len(trees), -1, dtype=np.intp)
+    return Named(row_of=none, names=(), block_names=tuple(blocks), positions=np.full(len(trees), np.nan))
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return float("nan")
+
+
+def _numbers(texts: Sequence[str]) -> Floats:
+    return np.array([_number(text) if text else np.nan for text in texts], dtype=np.float64)
+
+
+def _restarts(own: Floats, row_of: Indices) -> bool:
+    """Whether numbers begin anew in each row, as positions do and numbers of trees through the whole file do not."""
+    inside = np.isfinite(own) & (row_of >= 0)
+    if not inside.any():
+        return False
+    values, rows = own[inside], row_of[inside]
+    if len(np.unique(rows)) == 1:
+        return bool(values.min() <= 3)
+    return bool(len(np.unique(values)) <= 0.6 * len(values))
+
+
+def _lines(xy: Floats, names: Sequence[str], within: Sequence[str]) -> tuple[Indices, tuple[str, ...] | None]:
+    """Rows of these names; None in place of their names where most of them are no lines."""
+    number: dict[tuple[str, str], int] = {}
+    label = np.array(
+        [number.setdefault(key, len(number)) if key[1] else -1 for key in zip(within, names, strict=True)],
+        dtype=np.intp,
+    )  # fmt: skip
+    members = groups(label, len(number))
+    named = int((label >= 0).sum())
+    if len(number) > max(0.6 * named, 1) and named > 2:
+        return label, None  # nearly every tree has a name of its own
+    spacing = _nearest(xy)
+    row_of, kept = np.full(len(xy), -1, dtype=np.intp), list[str]()
+    lines = 0
+    for (_, name), own in zip(number, members, strict=True):
+        for piece in [own] if is_line(xy[own], spacing) else _pieces(xy, own, spacing):
+            if is_line(xy[piece], spacing):
+                row_of[piece] = len(kept)
+                kept.append(name)
+                lines += len(piece) if len(piece) > 2 or len(own) <= 2 else 0
+    if lines < _MOST * named:
+        return label, None
+    return row_of, tuple(kept)
+
+
+def _nearest(xy: Floats) -> float:
+    """The middle of the distances to the nearest tree; 1 where there is none."""
+    from scipy.spatial import cKDTree
+
+    if len(xy) < 2:
+        return 1.0
+    apart = np.asarray(cKDTree(xy).query(xy, k=2)[0])[:, 1]
+    apart = apart[apart > 0.01]
+    return float(np.median(apart)) if len(apart) else 1.0
+
+
+def is_line(points: Floats, spacing: float) -> bool:
+    """Whether points stand on a line, straight or gently curved, for trees that far apart."""
+    if len(points) <= 2:
+        return True
+    off = points - points.mean(axis=0)
+    values, vectors = np.linalg.eigh(off.T @ off)
+    along, aside = off @ vectors[:, 1], off @ vectors[:, 0]
+    if np.sqrt(values[0] / len(points)) < _ON_LINE * spacing:
+        return True
+    if len(points) < 5 or values[0] > 0.05 * values[1]:
+        return False
+    steps = np.diff(np.sort(along))
+    if steps.max() > 6 * spacing:  # rows of two blocks look like one bend
+        return False
+    bend = np.polynomial.polynomial.polyfit(along, aside, 2 if len(points) < 12 else 3)
+    left = aside - np.polynomial.polynomial.polyval(along, bend)
+    return bool(np.sqrt(np.mean(left**2)) < _ON_LINE * spacing)
+
+
+def _pieces(xy: Floats, own: Indices, spacing: float) -> list[Indices]:
+    """Trees of one name on several lines: those that a chain of steps leads to from each other."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
+    points = xy[own]
+    tree = cKDTree(points)
+    step = max(float(np.median(np.asarray(tree.query(points, k=2)[0])[:, 1])), spacing)
+    pairs = tree.query_pairs(3.0 * step, output_type="ndarray")
+    graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(own), len(own)))
+    count, label = connected_components(graph, directed=False)
+    return [own[label == k] for k in range(count)]

@@ -1,0 +1,215 @@
+"""Which way rows run in small patches of trees, from their spectrum.
+
+Trees in rows a distance d apart are in step with a wave of that length across the rows. The power of the wave,
+``|sum exp(2 pi i k.x)|^2 / n`` with k pointing across the rows and 1/d long, is about 1 for scattered trees and about n
+for rows, whatever trees are missing; a tree beside its place only weakens it. Of the waves that a lattice of
+trees is in step with, the longest is the one between the lines of trees that stand farthest apart: the rows.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+#: Trees in a patch: about seven by seven; and where blocks are small.
+PATCH, SMALL_PATCH = 44, 14
+#: Trees that are asked whether they stand on one line; how far beside it, in units of the distance to the nearest;
+#: and the length of a wave that stands for it.
+ON_LINE, _BESIDE_LINE, _LINE_WAVE = 9, 0.36, 3.0
+#: Patches at once; more trees than this many patches hold are seen by samples.
+MOST_PATCHES = 128
+#: Fewer trees are looked at where less than this part of all is in step.
+_FEWER, _IN_STEP = (26, 15), 0.75
+_ANGLES = np.radians(np.arange(0.0, 180.0, 3.0))
+#: Wave lengths in units of the median distance to the nearest tree; trees beside their places make that too short.
+_LENGTHS = np.geomspace(0.8, 5.2, 34)
+#: Part of the strongest wave's contrast that a longer wave needs to be taken for the rows.
+_LONGER = 0.55
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Patches:
+    """Waves that patches of trees are in step with.
+
+    Attributes:
+        centre: Tree in the middle of each patch, shape (p,).
+        members: Its trees by distance, shape (p, k).
+        wave: Across the rows, 1/d long, per metre, shape (p, 2); nan where there is none.
+        second: The next one that is not parallel to it; nan where there is none.
+        power: Of the first, as part of its greatest possible value, 0 to 1.
+        second_power: Of the second.
+        count: Of trees that the waves are of: those nearest to the middle. Shape (p,).
+        line: Across the line that the nearest trees stand on, where they stand on one; else nan. Shape (p, 2).
+    """
+
+    centre: Indices
+    members: Indices
+    wave: Floats
+    second: Floats
+    power: Floats
+    second_power: Floats
+    line: Floats
+    count: Indices
+
+
+def patches_of(xy: Floats, trees: Indices, most: int = PATCH) -> Patches:
+    """Patches of so many trees at most, spread over these trees (at least two), of these trees only."""
+    from scipy.spatial import cKDTree
+
+    points = xy[trees]
+    tree = cKDTree(points)
+    size = min(most, len(points))
+    middle = _spread(points, MOST_PATCHES)
+    near = np.asarray(tree.query(points[middle], k=size)[1])
+    apart = np.asarray(tree.query(points[near.ravel()], k=2)[0])[:, 1].reshape(near.shape)
+    unit = np.maximum(np.median(apart, axis=1), 1e-6)
+    offsets = (points[near] - points[middle][:, None, :]) / unit[:, None, None]
+    first, second, power, second_power, count = _clearest(offsets)
+    line = _lines(offsets[:, :ON_LINE])
+    # Trees on one line are in step with many waves along it, which are no rows across it.
+    turn = np.abs(first[:, 0] * line[:, 1] - first[:, 1] * line[:, 0])
+    along = turn > np.sin(np.radians(25.0)) * np.hypot(*first.T) * np.hypot(*line.T)
+    power = np.where(along, 0.0, power)
+    return Patches(
+        centre=trees[middle],
+        members=trees[near],
+        wave=first / unit[:, None],
+        second=second / unit[:, None],
+        power=power,
+        second_power=second_power,
+        count=count,
+        line=line / unit[:, None],
+    )
+
+
+def _lines(offsets: Floats) -> Floats:
+    """The direction across the line that patches of few trees stand on, as a wave; nan where they stand on none."""
+    off = offsets - offsets.mean(axis=1, keepdims=True)
+    size = offsets.shape[1]
+    values, vectors = np.linalg.eigh(np.einsum("pkx,pky->pxy", off, off) / max(size - 2, 1))
+    straight = np.sqrt(np.maximum(values[:, 0], 0.0)) < _BESIDE_LINE
+    return np.where(straight[:, None], vectors[:, :, 0] / _LINE_WAVE, np.nan)
+
+
+def _spread(points: Floats, most: int) -> Indices:
+    """About so many of the points, spread evenly: of each square of a raster the point nearest to its middle."""
+    n = len(points)
+    if n <= most:
+        return np.arange(n)
+    low, extent = points.min(axis=0), np.maximum(np.ptp(points, axis=0), 1e-9)
+    side = float(np.sqrt(extent.prod() / most))
+    side = max(side, float(extent.max()) / most)
+    for _ in range(12):
+        cell = np.floor((points - low) / side).astype(np.int64)
+        key = cell[:, 0] * (int(cell[:, 1].max()) + 1) + cell[:, 1]
+        if len(np.unique(key)) >= 0.75 * most:
+            break
+        side *= 0.85
+    off = np.hypot(*((points - low) / side - cell - 0.5).T)
+    order = np.lexsort((off, key))
+    first = np.concatenate([[True], np.diff(key[order]) != 0])
+    return np.asarray(order[first])
+
+
+def power_at(offsets: Floats, wave: Floats) -> Floats:
+    """Power of waves (p, w, 2) in patches of offsets (p, k, 2), 0 to 1. Shape (p, w)."""
+    phase = (2 * np.pi * np.einsum("pkx,pwx->pwk", offsets, wave)).astype(np.float32)
+    return np.asarray((np.cos(phase).mean(axis=2) ** 2 + np.sin(phase).mean(axis=2) ** 2).astype(np.float64))
+
+
+def _clearest(offsets: Floats) -> tuple[Floats, Floats, Floats, Floats, Indices]:
+    """Waves of the patches; where the whole patch is not in step, as at the edge of a block, of fewer trees."""
+    size = offsets.shape[1]
+    first, second, power, second_power = _waves(offsets)
+    count = np.full(len(offsets), size, dtype=np.intp)
+    for fewer in _FEWER:
+        unclear = np.flatnonzero(power < _IN_STEP)
+        if fewer >= size or not len(unclear):
+            continue
+        f, s, p, q = _waves(offsets[unclear, :fewer])
+        better = p**2 * fewer > power[unclear] ** 2 * count[unclear]
+        at = unclear[better]
+        first[at], second[at], power[at], second_power[at], count[at] = (
+            f[better],
+            s[better],
+            p[better],
+            q[better],
+            fewer,
+        )
+    return first, second, power, second_power, count
+
+
+def _waves(offsets: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+    count = len(offsets)
+    angle, length = np.meshgrid(_ANGLES, _LENGTHS, indexing="ij")
+    grid = np.stack([np.cos(angle) / length, -np.sin(angle) / length], axis=-1)
+    flat = grid.reshape(-1, 2)
+    shape = (count, *angle.shape)
+    power = _on_grid(offsets, flat).reshape(shape)
+    half = _on_grid(offsets, flat / 2).reshape(shape)
+    contrast = np.where(_is_peak(power), power - half, -1.0)
+    first = _longest(contrast, length)
+    first_wave = _refine(offsets, flat[first])
+    along = np.abs(np.sin(angle.ravel()[None, :] - angle.ravel()[first][:, None]))
+    others = np.where((along > np.sin(np.radians(25.0))).reshape(shape), contrast, -1.0)
+    second = _longest(others, length)
+    second_wave = _refine(offsets, flat[second])
+    p1 = power_at(offsets, first_wave[:, None, :])[:, 0]
+    p2 = power_at(offsets, second_wave[:, None, :])[:, 0]
+    none1 = contrast.reshape(count, -1).max(axis=1) <= 0
+    none2 = others.reshape(count, -1).max(axis=1) <= 0
+    first_wave[none1], second_wave[none1 | none2] = np.nan, np.nan
+    return first_wave, second_wave, np.where(none1, 0.0, p1), np.where(none1 | none2, 0.0, p2)
+
+
+def _on_grid(offsets: Floats, waves: Floats) -> Floats:
+    phase = (2 * np.pi * (offsets.reshape(-1, 2) @ waves.T)).astype(np.float32)
+    split = (len(offsets), offsets.shape[1], len(waves))
+    c = np.cos(phase).reshape(split).mean(axis=1)
+    s = np.sin(phase).reshape(split).mean(axis=1)
+    return np.asarray((c * c + s * s).astype(np.float64))
+
+
+def _is_peak(power: Floats) -> NDArray[np.bool_]:
+    """Whether no neighbour on the raster of angle (which closes) and length has more power."""
+    best = np.ones(power.shape, dtype=bool)
+    for turn in (-1, 0, 1):
+        rolled = np.roll(power, turn, axis=1)
+        for step in (-1, 0, 1):
+            if turn or step:
+                moved = np.full_like(rolled, -np.inf)
+                if step > 0:
+                    moved[:, :, 1:] = rolled[:, :, :-1]
+                elif step < 0:
+                    moved[:, :, :-1] = rolled[:, :, 1:]
+                else:
+                    moved = rolled
+                best &= power >= moved
+    best[:, :, -1] = False
+    return best
+
+
+def _longest(contrast: Floats, length: Floats) -> Indices:
+    """Position of the longest wave among those with nearly the best contrast."""
+    flat = contrast.reshape(len(contrast), -1)
+    good = flat >= np.maximum(_LONGER * flat.max(axis=1), 1e-9)[:, None]
+    return np.asarray(np.argmax(np.where(good, length.ravel()[None, :] + 0.01 * flat, -1.0), axis=1))
+
+
+def _refine(offsets: Floats, wave: Floats) -> Floats:
+    """Climb to the top of the peak by smaller and smaller steps."""
+    best = wave.copy()
+    step = 0.035
+    around = np.array([(a, b) for a in (-1.0, 0.0, 1.0) for b in (-1.0, 0.0, 1.0)])
+    for _ in range(7):
+        across = np.column_stack([-best[:, 1], best[:, 0]])
+        tried = best[:, None, :] * (1 + step * around[None, :, :1]) + across[:, None, :] * (step * around[None, :, 1:])
+        which = np.argmax(power_at(offsets, tried), axis=1)
+        best = tried[np.arange(len(best)), which]
+        step *= 0.65
+    return best

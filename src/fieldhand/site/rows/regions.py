@@ -1,0 +1,269 @@
+"""Parts of a site whose patches agree on how the rows run, and which trees are in which part."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.site.rows.patches import Patches
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+#: Waves that differ by no more than this part of their length are the same.
+_SAME_WAVE = 0.075
+#: Rows whose spacing is this much wider than that of the lines of trees across them cannot be mistaken for these.
+CLEARLY_WIDER = 1.07
+#: Rows less than this much wider are as far apart as their trees.
+_SQUARE = 1.025
+#: A step from tree to tree stays in its line if it goes no more than this part of the spacing across it.
+_SAME_LINE = 0.35
+_NEARLY_SQUARE = 1.2
+#: Neighbours whose waves say which part a tree belongs to, where it could be in several.
+_ASKED = 16
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Region:
+    """Patches that agree.
+
+    Attributes:
+        seeds: Trees in the middle of its patches, shape (p,).
+        waves: Of each patch, across the rows, all pointing to the same side, shape (p, 2).
+        wave: Their mean.
+        cross: The wave along the rows, where the trees of neighbouring rows stand in step; else nan.
+        wider: How many times as far apart the rows are as the lines of trees across them; inf where there are none.
+        power: Median power of the patches.
+    """
+
+    seeds: Indices
+    waves: Floats
+    wave: Floats
+    cross: Floats
+    wider: float
+    power: float
+
+    @property
+    def spacing(self) -> float:
+        """From row to row, in metres."""
+        return float(1.0 / np.hypot(*self.wave))
+
+    def wave_at(self, xy: Floats, places: Floats) -> Floats:
+        """The wave at each of the places, shape (n, 2): the mean where rows are straight, else that of patches near."""
+        turn = np.abs(np.sin(_angle(self.waves) - _angle(self.wave[None, :])))
+        if len(self.seeds) < 5 or np.median(turn) < np.sin(np.radians(1.5)):
+            return np.broadcast_to(self.wave, places.shape)
+        from scipy.spatial import cKDTree
+
+        distance, near = cKDTree(xy[self.seeds]).query(places, k=min(5, len(self.seeds)))
+        weight = 1.0 / (distance**2 + np.median(distance) ** 2)
+        return np.asarray(np.einsum("nk,nkx->nx", weight, self.waves[near]) / weight.sum(axis=1)[:, None])
+
+
+def regions_of(xy: Floats, patches: Patches, clear: Floats) -> list[Region]:
+    """Patches with that power or more, put together where neighbours agree, the largest region first."""
+    good = np.flatnonzero((patches.power >= clear) & np.isfinite(patches.wave[:, 0]))
+    second = np.where((patches.second_power[good] >= 0.6 * clear[good])[:, None], patches.second[good], np.nan)
+    return _agreeing(xy, patches.centre[good], patches.wave[good], second, patches.power[good])
+
+
+def line_regions(xy: Floats, patches: Patches, clear: Floats) -> list[Region]:
+    """Patches with less power whose trees stand on a line."""
+    good = np.flatnonzero((patches.power < clear) & np.isfinite(patches.line[:, 0]))
+    line = patches.line[good]
+    line = line * (np.median(np.hypot(*line.T)) / np.hypot(*line.T))[:, None] if len(good) else line
+    sure = np.full(len(good), 0.5)
+    return _agreeing(xy, patches.centre[good], line, np.full_like(line, np.nan), sure)
+
+
+def _agreeing(xy: Floats, centre: Indices, first: Floats, second: Floats, power: Floats) -> list[Region]:
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
+    good = np.arange(len(centre))
+    if not len(good):
+        return []
+    near = np.asarray(cKDTree(xy[centre]).query(xy[centre], k=min(9, len(good)))[1]).reshape(len(good), -1)
+    i, j = np.repeat(np.arange(len(good)), near.shape[1]), near.ravel()
+    # A nearly square lattice may be seen with its two waves the other way round. So may a patch across a road, which
+    # sees one wave of each side, so both must be the same, and nearly of one length.
+    swapped = _same(first[i], second[j]) & _same(second[i], first[j])
+    ratio = np.hypot(*second.T) / np.hypot(*first.T)
+    agree = _same(first[i], first[j]) | (swapped & (np.maximum(ratio[i], ratio[j]) < _NEARLY_SQUARE))
+    graph = coo_matrix((np.ones(agree.sum()), (i[agree], j[agree])), shape=(len(good), len(good)))
+    _, label = connected_components(graph, directed=False)
+    regions = [
+        _region(centre[own], first[own], second[own], power[own])
+        for own in (np.flatnonzero(label == k) for k in range(int(label.max()) + 1))
+    ]
+    return sorted(regions, key=lambda r: -len(r.seeds))
+
+
+def _region(seeds: Indices, first: Floats, second: Floats, power: Floats) -> Region:
+    """Rows are between the lines of trees that stand farther apart; patches that took the others are corrected."""
+    main = _gathered(first, second, first[int(np.argmax(power))])
+    other_start = _crossing(first, second, main)
+    if other_start is None:
+        mean = _mean(main)
+        return Region(
+            seeds=seeds, waves=_filled(main, mean), wave=mean, cross=np.full(2, np.nan), wider=float("inf"),
+            power=float(np.median(power)),
+        )  # fmt: skip
+    other = _gathered(first, second, other_start)
+    a, b = _mean(main), _mean(other)
+    if np.hypot(*a) > np.hypot(*b):
+        main, other, a, b = other, main, b, a
+    return Region(
+        seeds=seeds,
+        waves=_filled(main, a),
+        wave=a,
+        cross=b,
+        wider=float(np.hypot(*b) / np.hypot(*a)),
+        power=float(np.median(power)),
+    )
+
+
+def _gathered(first: Floats, second: Floats, start: Floats) -> Floats:
+    """Of each patch the wave that is like the one to start with, followed from near to like; nan where none is."""
+    found = np.full(first.shape, np.nan)
+    reference = start
+    for tolerance in (_SAME_WAVE, 2 * _SAME_WAVE):
+        for wave in (second, first):
+            turned = _towards(wave, reference)
+            like = np.hypot(*(turned - reference).T) < tolerance * np.hypot(*reference)
+            found[like] = turned[like]
+        reference = np.nanmean(found, axis=0)
+    # What curves on: take what is like the patches next to it.
+    left = np.isnan(found[:, 0])
+    for wave in (first,):
+        turned = _towards(wave, reference)
+        like = left & (np.abs(np.hypot(*turned.T) / np.hypot(*reference) - 1) < _SAME_WAVE)
+        like &= np.hypot(*(turned - reference).T) < 0.6 * np.hypot(*reference)
+        found[like] = turned[like]
+    return found
+
+
+def _crossing(first: Floats, second: Floats, main: Floats) -> Floats | None:
+    """A wave of these patches that is another than the main one, the middle of those that there are; else None."""
+    mean = _mean(main)
+    waves = np.vstack([first, second])
+    waves = waves[np.isfinite(waves[:, 0])]
+    turn = np.abs(np.sin(_angle(waves) - _angle(mean[None, :])))
+    others = waves[turn > np.sin(np.radians(25.0))]
+    if len(others) < max(0.3 * len(main), 1):
+        return None
+    length = np.hypot(*others.T)
+    return np.asarray(others[int(np.argsort(length)[len(length) // 2])])
+
+
+def _mean(waves: Floats) -> Floats:
+    there = waves[np.isfinite(waves[:, 0])]
+    middle = np.median(there, axis=0)
+    close = np.hypot(*(there - middle).T) <= max(_SAME_WAVE * float(np.hypot(*middle)), 1e-12)
+    return np.asarray(there[close].mean(axis=0) if close.any() else middle)
+
+
+def _filled(waves: Floats, mean: Floats) -> Floats:
+    return np.where(np.isnan(waves), mean, waves)
+
+
+def _towards(wave: Floats, reference: Floats) -> Floats:
+    return np.where((wave @ reference < 0)[:, None], -wave, wave)
+
+
+def _same(a: Floats, b: Floats) -> NDArray[np.bool_]:
+    """Whether waves are the same, whichever way they point."""
+    size = np.minimum(np.hypot(*a.T), np.hypot(*b.T))
+    apart = np.minimum(np.hypot(*(a - b).T), np.hypot(*(a + b).T))
+    return np.asarray(apart < _SAME_WAVE * size)  # false for nan
+
+
+def _angle(waves: Floats) -> Floats:
+    return np.arctan2(waves[:, 1], waves[:, 0])
+
+
+def rows_run(xy: Floats, trees: Indices, region: Region) -> tuple[Region, float]:
+    """Which way rows run that are as far apart as their trees: the region, turned if it is the other way.
+
+    It is the way in which the file goes from tree to tree, else the one in which the lines of trees are longer.
+
+    Returns:
+        The region, and the part of the steps of the file that go along its rows, of those along or across; 0.5 where
+        there are few such steps.
+    """
+    if not np.isfinite(region.cross[0]):
+        return region, 0.5
+    next_to = np.flatnonzero(np.diff(trees) == 1)
+    step = xy[trees[next_to + 1]] - xy[trees[next_to]]
+    across, along = np.abs(step @ region.wave), np.abs(step @ region.cross)
+    down = int(((across < _SAME_LINE) & (along > 1 - _SAME_LINE) & (along < 2 + _SAME_LINE)).sum())
+    over = int(((along < _SAME_LINE) & (across > 1 - _SAME_LINE) & (across < 2 + _SAME_LINE)).sum())
+    walked = (down + 2) / (down + over + 4)
+    if down + over < max(8, 0.2 * len(next_to)):
+        walked = 0.5
+    if region.wider >= CLEARLY_WIDER:
+        return region, walked
+    off = xy[trees] - xy[trees].mean(axis=0)
+    wide, long = np.ptp(off @ region.wave), np.ptp(off @ region.cross)
+    if walked < 0.35 or (walked < 0.65 and region.wider < _SQUARE and long < 0.9 * wide):
+        return _swapped(region), 1.0 - walked
+    return region, walked
+
+
+def _swapped(region: Region) -> Region:
+    return Region(
+        seeds=region.seeds,
+        waves=np.broadcast_to(region.cross, region.waves.shape).copy(),
+        wave=region.cross,
+        cross=region.wave,
+        wider=1.0 / region.wider,
+        power=region.power,
+    )
+
+
+def assign(xy: Floats, trees: Indices, regions: list[Region]) -> Indices:
+    """The region of each of the trees, shape (n,): of the seeds next to it, and where they differ the one whose waves
+    the trees around it are most in step with."""
+    from scipy.spatial import cKDTree
+
+    points = xy[trees]
+    seeds = np.concatenate([r.seeds for r in regions])
+    owner = np.repeat(np.arange(len(regions)), [len(r.seeds) for r in regions])
+    k = min(6, len(seeds))
+    near = np.asarray(cKDTree(xy[seeds]).query(points, k=k)[1]).reshape(len(points), k)
+    candidates = owner[near]
+    chosen = candidates[:, 0].copy()
+    contested = np.flatnonzero((candidates != candidates[:, :1]).any(axis=1))
+    if not len(contested):
+        return np.asarray(chosen)
+    size = min(_ASKED, len(points))
+    tree = cKDTree(points)
+    distance, around = tree.query(points[contested], k=size)
+    distance, around = np.asarray(distance).reshape(-1, size), np.asarray(around).reshape(-1, size)
+    weight = 1.0 / (1.0 + (distance / np.maximum(distance[:, size // 2, None], 1e-9)) ** 2)
+    scores = np.full((len(contested), len(regions)), -1.0)
+    for k_, region in enumerate(regions):
+        asked = np.flatnonzero((candidates[contested] == k_).any(axis=1))
+        if len(asked):
+            offsets = points[around[asked]] - points[contested[asked]][:, None, :]
+            scores[asked, k_] = _in_step(offsets, weight[asked], region, xy, points[contested[asked]])
+    chosen[contested] = np.argmax(scores, axis=1)
+    # A tree between trees of another region is one of them.
+    votes = np.stack([(chosen[around[:, :9]] == k_).sum(axis=1) for k_ in range(len(regions))], axis=1)
+    chosen[contested] = np.argmax(votes + 2.0 * scores, axis=1)
+    return np.asarray(chosen)
+
+
+def _in_step(offsets: Floats, weight: Floats, region: Region, xy: Floats, places: Floats) -> Floats:
+    total = weight.sum(axis=1)
+    waves = [region.wave_at(xy, places)]
+    if np.isfinite(region.cross[0]):
+        waves.append(np.broadcast_to(region.cross, places.shape))
+    found = []
+    for wave in waves:
+        phase = 2 * np.pi * np.einsum("nkx,nx->nk", offsets, wave)
+        found.append(((np.cos(phase) * weight).sum(axis=1) ** 2 + (np.sin(phase) * weight).sum(axis=1) ** 2) / total**2)
+    return np.asarray(np.mean(found, axis=0))

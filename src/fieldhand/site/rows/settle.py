@@ -1,0 +1,249 @@
+"""The last word on who stands in which row: pieces of a row put together, and trees on their own given a home."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+#: In tree spacings: how far beside a row's line a tree of it may stand, and how far from the next tree of it.
+_BESIDE, _BEYOND = 0.42, 2.6
+#: Nearer than this along the row there is room for no other tree, but for one on the very line.
+_ROOM, _ON_IT = 0.5, 0.2
+#: Trees next to the place that say where a row runs there.
+_NEXT_TO = 8
+#: A tree farther than this from its row, in tree spacings, may rather be of another.
+_DOUBTFUL = 1.4
+#: Pieces in line are one row up to this gap, in tree spacings; up to the longer one where one is on its own.
+_JOINED, _JOINED_ALONE = 1.65, 3.6
+_ONE_WAY = np.cos(np.radians(9.0))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SeenBlock:
+    """A block found in the points.
+
+    Attributes:
+        rows: Trees of each row.
+        row_spacing, tree_spacing: Metres.
+        way: The unit vector along the rows, of all of them together.
+        power: How much in step its trees are, 0 to 1.
+        wider: How many times as far apart its rows are as the lines of trees across them.
+    """
+
+    rows: list[Indices]
+    row_spacing: float
+    tree_spacing: float
+    way: Floats
+    power: float
+    wider: float
+    walked: float = 0.5
+    sure: float = 1.0
+    rows_sure: list[float] = field(default_factory=list)
+
+
+class Settling:
+    """Rows that trees come to and go from.
+
+    Args:
+        xy: Trees in metres.
+        blocks: As they were found.
+    """
+
+    def __init__(self, xy: Floats, blocks: list[SeenBlock]) -> None:
+        self._xy = xy
+        self._blocks = blocks
+        self._rows: list[Indices] = []
+        self._block_of: list[int] = []
+        for k, block in enumerate(blocks):
+            for trees in block.rows:
+                self._rows.append(self._ordered(trees, block.way))
+                self._block_of.append(k)
+        self._gone: dict[int, int] = {}
+        self._row_of = np.full(len(xy), -1, dtype=np.intp)
+        for k, trees in enumerate(self._rows):
+            self._row_of[trees] = k
+
+    def settled(self) -> list[SeenBlock]:
+        """The blocks afterwards; those left without a row are gone."""
+        self._take_in_the_lone()
+        self._hand_over_the_doubtful()
+        self._join()
+        self._fill_gaps()
+        self._take_in_the_lone()
+        found = []
+        for k, block in enumerate(self._blocks):
+            rows = [r for r, b in zip(self._rows, self._block_of, strict=True) if b == k and len(r)]
+            if rows:
+                found.append(replace(block, rows=rows))
+        return found
+
+    def _ordered(self, trees: Indices, way: Floats) -> Indices:
+        return trees[np.argsort(self._xy[trees] @ way, kind="stable")]
+
+    def _fit(self, row: int, tree: int) -> tuple[float, float]:
+        """How far the tree is beside the row's line, and from its nearest other tree along it, in tree spacings."""
+        block = self._blocks[self._block_of[row]]
+        others = self._rows[row][self._rows[row] != tree]
+        if not len(others):
+            return np.inf, np.inf
+        off = self._xy[others] - self._xy[tree]
+        along = off @ block.way
+        near = np.argsort(np.abs(along), kind="stable")[:_NEXT_TO]
+        way = _way(off[near], block.way) if len(near) == _NEXT_TO else block.way
+        middle = off[near].mean(axis=0)
+        beside = abs(float(middle[0] * way[1] - middle[1] * way[0]))
+        return beside / block.tree_spacing, float(np.abs(off @ way).min()) / block.tree_spacing
+
+    def _homes(self, tree: int, near: Indices) -> list[tuple[float, int]]:
+        """Rows that a tree could be of, the best first, with what speaks against each."""
+        found = []
+        for row in {int(self._row_of[k]) for k in near} - {-1}:
+            if len(self._rows[row]) < 2:
+                continue
+            beside, gap = self._fit(row, tree)
+            if beside < _BESIDE and gap < _BEYOND and (gap > _ROOM or beside < _ON_IT):
+                found.append(((beside / 0.2) ** 2 + 2 * max(gap - 1.0, 0.0) ** 2, row))
+        return sorted(found)
+
+    def _near(self, trees: Indices) -> list[Indices]:
+        from scipy.spatial import cKDTree
+
+        size = min(24, len(self._xy))
+        return list(np.asarray(cKDTree(self._xy).query(self._xy[trees], k=size)[1]).reshape(len(trees), size))
+
+    def _move(self, tree: int, row: int) -> None:
+        old = int(self._row_of[tree])
+        if old >= 0:
+            self._rows[old] = self._rows[old][self._rows[old] != tree]
+        way = self._blocks[self._block_of[row]].way
+        self._rows[row] = self._ordered(np.append(self._rows[row], tree), way)
+        self._row_of[tree] = row
+
+    def _take_in_the_lone(self) -> None:
+        """Trees in no row go to the row that they are in line with; those that this makes a way for follow."""
+        lone = np.flatnonzero(self._row_of < 0)
+        around = self._near(lone) if len(lone) else []
+        for _ in range(4):
+            moved = False
+            for tree, near in zip(lone.tolist(), around, strict=True):
+                if self._row_of[tree] < 0 and (homes := self._homes(tree, near)):
+                    self._move(tree, homes[0][1])
+                    moved = True
+            if not moved:
+                return
+
+    def _hand_over_the_doubtful(self) -> None:
+        """Trees at a row's end, beyond a gap, that another row's end fits better go there."""
+        doubtful: list[int] = []
+        for row, trees in enumerate(self._rows):
+            block = self._blocks[self._block_of[row]]
+            steps = np.diff(self._xy[trees] @ block.way) > _DOUBTFUL * block.tree_spacing
+            if len(trees) <= 2:
+                doubtful.extend(trees.tolist())
+                continue
+            for end, ordered in ((steps[:3], trees), (steps[::-1][:3], trees[::-1])):
+                gaps = np.flatnonzero(end)
+                if len(gaps):
+                    doubtful.extend(ordered[: int(gaps[-1]) + 1].tolist())
+        if not doubtful:
+            return
+        for tree, near in zip(doubtful, self._near(np.array(doubtful)), strict=True):
+            own = int(self._row_of[tree])
+            beside, gap = self._fit(own, tree)
+            cost = (beside / 0.2) ** 2 + 2 * max(gap - 1.0, 0.0) ** 2 if np.isfinite(gap) else 9.0
+            homes = [h for h in self._homes(tree, near) if h[1] != own]
+            if homes and homes[0][0] < 0.6 * cost and len(self._rows[homes[0][1]]) > 2:
+                self._move(tree, homes[0][1])
+
+    def _join(self) -> None:
+        """Pieces of rows of different blocks that carry each other on are one row."""
+        from scipy.spatial import cKDTree
+
+        ends, ways, rows = self._ends()
+        if len(ends) < 2:
+            return
+        spacing = np.array([self._blocks[self._block_of[r]].tree_spacing for r in rows])
+        size = Counter(b for r, b in zip(self._rows, self._block_of, strict=True) if len(r))
+        reach = _JOINED_ALONE * float(spacing.max())
+        met: Counter[tuple[int, int]] = Counter()
+        joins = []
+        for i, j in cKDTree(ends).query_pairs(reach, output_type="ndarray").tolist():
+            a, b = rows[i], rows[j]
+            if self._block_of[a] == self._block_of[b] or ways[i] @ ways[j] > -_ONE_WAY:
+                continue
+            step, wide, off = min(spacing[i], spacing[j]), max(spacing[i], spacing[j]), ends[j] - ends[i]
+            if wide > 1.4 * step:
+                continue
+            way = ways[i] - ways[j]
+            way = way / np.hypot(*way)
+            gap, beside = float(off @ way), abs(float(off[0] * way[1] - off[1] * way[0]))
+            alone = min(size[self._block_of[a]], size[self._block_of[b]]) == 1
+            if -2.5 * step < gap < (_JOINED_ALONE if alone else _JOINED) * step and beside < _BESIDE * wide:
+                joins.append((gap, a, b))
+        for _, a, b in sorted(joins):
+            met[(min(self._block_of[a], self._block_of[b]), max(self._block_of[a], self._block_of[b]))] += 1
+            self._unite(a, b)
+        for (a, b), count in met.items():
+            if a != b and count >= 2:
+                self._block_of = [a if k == b else k for k in self._block_of]
+
+    def _fill_gaps(self) -> None:
+        """Rows on their own that lie in a gap of another row are a part of it."""
+        size = Counter(b for r, b in zip(self._rows, self._block_of, strict=True) if len(r))
+        for row, trees in enumerate(self._rows):
+            if len(trees) < 2 or size[self._block_of[row]] > 1:
+                continue
+            ends = trees[[0, -1]]
+            ways = self._blocks[self._block_of[row]].way
+            for other in {int(k) for near in self._near(ends) for k in self._row_of[near]} - {-1, row}:
+                fits = [self._fit(other, int(tree)) for tree in ends]
+                one_way = abs(float(ways @ self._blocks[self._block_of[other]].way)) > _ONE_WAY
+                if one_way and all(beside < _BESIDE and gap < _JOINED_ALONE for beside, gap in fits):
+                    self._unite(other, row)
+                    break
+
+    def _unite(self, a: int, b: int) -> None:
+        a, b = self._standing(a), self._standing(b)
+        if a == b:
+            return
+        if len(self._rows[a]) < len(self._rows[b]):
+            a, b = b, a
+        way = self._blocks[self._block_of[a]].way
+        self._row_of[self._rows[b]] = a
+        self._rows[a] = self._ordered(np.concatenate([self._rows[a], self._rows[b]]), way)
+        self._gone[b] = a
+        self._rows[b] = np.empty(0, dtype=np.intp)
+
+    def _standing(self, row: int) -> int:
+        while row in self._gone:
+            row = self._gone[row]
+        return row
+
+    def _ends(self) -> tuple[Floats, Floats, list[int]]:
+        """Both ends of each row of three trees and more: place on the row's line, way outwards, row."""
+        ends, ways, rows = [], [], []
+        for row, trees in enumerate(self._rows):
+            if len(trees) < 3:
+                continue
+            block = self._blocks[self._block_of[row]]
+            for own, out in ((trees[:_NEXT_TO], -1.0), (trees[::-1][:_NEXT_TO], 1.0)):
+                points = self._xy[own]
+                way = _way(points - points[0], block.way) if len(own) == _NEXT_TO else block.way
+                middle = points.mean(axis=0)
+                ends.append(middle + way * float((points[0] - middle) @ way))
+                ways.append(way * out)
+                rows.append(row)
+        return np.array(ends).reshape(-1, 2), np.array(ways).reshape(-1, 2), rows
+
+
+def _way(points: Floats, like: Floats) -> Floats:
+    """The main axis of points, pointing as the other way does."""
+    off = points - points.mean(axis=0)
+    axis = np.linalg.eigh(off.T @ off)[1][:, 1]
+    return np.asarray(axis if axis @ like > 0 else -axis)
