@@ -8,7 +8,7 @@ import numpy as np
 
 from fieldhand.evaluation.guard import BudgetGuard
 from fieldhand.forecast.optional import reward_of
-from fieldhand.forecast.routes import drives_for
+from fieldhand.forecast.routes import beginning, drives_for, standing
 from fieldhand.forecast.service import service_of
 from fieldhand.forecast.state import Choice, MissionState, Spent, Verdict, Visit
 from fieldhand.robot.model import RobotProfile
@@ -32,7 +32,7 @@ class Paper:
         self.guard = BudgetGuard(task, site, robot, self.drives, seed)
         self.rng = np.random.default_rng([seed, 9])
         self.spent = Spent()
-        self.here: Place = site.start
+        self.here: Place = beginning(self.drives)
         self.visited: tuple[str, ...] = ()
 
     def state(self, node: str) -> MissionState:
@@ -47,16 +47,17 @@ class Paper:
     def go(self, place: Place, work: tuple[float, float] = (0.0, 0.0)) -> None:
         """Drive to a place and work there, at a cost that is drawn."""
         alpha = self.robot.leg_cost.alpha
-        metres = self.drives.between(self.here, place).length_m * (alpha + self.rng.exponential(1.0 - alpha))
+        drive = self.drives.between(self.here, place)
+        metres = drive.length_m * (alpha + self.rng.exponential(1.0 - alpha))
         seconds = metres / self.robot.speed_m_s + work[0]
         self.spent += Spent(metres=metres, seconds=seconds, percent=self.robot.percent(metres, seconds, work[1]))
-        self.here = place
+        self.here = drive.end
         if place.kind == "tree" and place.id not in self.visited:
             self.visited = (*self.visited, place.id)
 
     def optional(self, node: ForEach, places: Sequence[Place]) -> Choice | None:
         """The visits of an optional for-each; the last answer of the guard."""
-        left, choice, made = list(places), None, 0
+        left, choice, made = list(standing(self.drives, self.here, places)), None, 0
         while left and made != node.at_most:
             at_most = None if node.at_most is None else node.at_most - made
             candidates = [self.visit(p, node) for p in left]
@@ -71,6 +72,7 @@ class Paper:
 
     def mandatory(self, node: Node, place: Place, later: Sequence[Visit] = ()) -> Verdict:
         """Ask for a mandatory visit, and make it if the guard agrees."""
+        place = self.drives.between(self.here, place).end
         verdict = self.guard.admit(self.state(node.id), self.visit(place, node), later)
         if verdict.go:
             self.go(place, service_of(node, self.robot))

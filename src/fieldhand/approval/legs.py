@@ -1,4 +1,4 @@
-"""Where planned drives cross what they must not, found from the zones alone: a second opinion on the drives."""
+"""Where planned drives cross what they must not, found from the zones and the rows alone: a second opinion on the drives."""
 
 from __future__ import annotations
 
@@ -13,10 +13,14 @@ TOLERANCE_M = 0.01
 
 def driven_through(walks: Sequence[Walk], site: Site) -> tuple[tuple[str, str], ...]:
     """Each forbidden crossing as the id of the node that drives and what it crosses ("through the keep-out “pond”")."""
-    if not site.zones:
+    rows = [row for row in site.planting.rows if len(row.trees) > 1]
+    if not site.zones and not rows:
         return ()
+    from shapely import STRtree
     from shapely.geometry import LineString
     from shapely.ops import unary_union
+
+    tree_lines = STRtree([LineString(site.xy[row.trees]) for row in rows])
 
     # Driving along an edge is allowed: only what lies inside a keep-out counts, and outside the boundary.
     keep_outs = [(z.name, z.polygon.buffer(-TOLERANCE_M)) for z in site.zones_of("keep_out")]
@@ -29,6 +33,8 @@ def driven_through(walks: Sequence[Walk], site: Site) -> tuple[tuple[str, str], 
             continue
         seen.add(step.drive.points)
         line = LineString(step.drive.points)
+        for k in tree_lines.query(line, predicate="intersects").tolist():
+            found[step.node.id, f"through the trees of row {rows[k].name}"] = None
         for name, polygon in keep_outs:
             if line.intersects(polygon) and line.intersection(polygon).length > TOLERANCE_M:
                 found[step.node.id, f"through the keep-out “{name}”"] = None

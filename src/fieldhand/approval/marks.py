@@ -85,6 +85,9 @@ def disc_size(stops: Sequence[Stop]) -> float:
 def draw_stop(ax: Axes, stop: Stop, colours: dict[str, str], disc: float) -> None:
     """One disc an action, one inside the other; hollow where it is not certain that it will be done."""
     x, y = stop.place.xy
+    if stop.place.stand is not None:
+        # The robot works from the aisle: a thin line to where it stands.
+        ax.plot((x, stop.place.stand[0]), (y, stop.place.stand[1]), color=WAY, linewidth=0.9, alpha=0.7, zorder=9)
     if not stop.actions:
         ax.plot(x, y, marker="o", markersize=6, color="white", markeredgecolor=WAY, markeredgewidth=1.5, zorder=12)
     size = stop_size(stop, disc)
@@ -126,6 +129,7 @@ def draw_labels(ax: Axes, plan: Plan, markers: Sequence[XY], disc: float) -> Non
     points = 8.5 if named else 7.5
     taken: list[Box] = [_around(_at(ax, s.place.xy), stop_size(s, disc) / 2) for s in stops]
     taken += [(x - 20, y - 22, x + 20, y + 9) for x, y in (_at(ax, xy) for xy in markers)]
+    taken += _written(ax)
     taken += [_around(point, 1.5) for leg in plan.legs for point in _along(ax, leg)]
     for stop in stops:
         labels = [label for label in stop.labels if _worth_a_number(label, stops)]
@@ -159,6 +163,14 @@ def _at(ax: Axes, xy: XY) -> XY:
     dots = 72.0 / (figure.dpi if figure is not None else 100.0)
     x, y = ax.transData.transform(xy)
     return (float(x) * dots, float(y) * dots)
+
+
+def _written(ax: Axes) -> list[Box]:
+    """The names that stand on the map already."""
+    figure = ax.get_figure(root=True)
+    dots = 72.0 / (figure.dpi if figure is not None else 100.0)
+    boxes = [text.get_window_extent() for text in ax.texts if text.get_text()]
+    return [(box.x0 * dots, box.y0 * dots, box.x1 * dots, box.y1 * dots) for box in boxes]
 
 
 def _around(at: XY, half: float) -> Box:

@@ -17,6 +17,7 @@ from fieldhand.errors import ActionFault, DriveFault, FieldhandError, PlaceError
 from fieldhand.execution.conditions import Facts
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, Progress
 from fieldhand.execution.guard import Guard
+from fieldhand.forecast.routes import beginning
 from fieldhand.forecast.state import MissionState, Spent
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context
@@ -105,7 +106,7 @@ class Attempt:
         self._full = driver.charge_percent()
         self._open: OpenDrive | OpenCapture | None = None
         self.events: list[Event] = []
-        self.here = site.start
+        self.here = beginning(drives)
         self.standing = self._stands()
         self.arrived_at: Place | None = None
         self.visited: list[str] = []
@@ -139,7 +140,7 @@ class Attempt:
         self._emit(event)
 
     def resolve(self, selector: Selector) -> tuple[Place, ...]:
-        """The places of a selector, as they are now.
+        """The places of a selector, as they are now; where the robot will stand there is open.
 
         Raises:
             PlaceError: It selects nothing, or names what the site lacks.
@@ -153,6 +154,16 @@ class Attempt:
             PlaceError: It gives none or several, or names what the site lacks.
         """
         return resolve_one(selector, self.site, self._context(self.here))
+
+    def reached(self, place: Place) -> Place:
+        """The place with where the robot will stand there if it drives there now; as it stands if it is there.
+
+        Raises:
+            DriveFault: There is no way to it.
+        """
+        if (self.standing.kind, self.standing.id) == (place.kind, place.id):
+            return self.standing
+        return self.drives.between(self.standing, place).end
 
     def state(self, node: str) -> MissionState:
         """What the guard decides on. ``here`` is where the robot itself stands: from there it has to come home."""
@@ -208,6 +219,7 @@ class Attempt:
             DriveFault, PlaceError: There is no way to the place.
         """
         drive = self.drives.between(self.standing, place)
+        place = drive.end
         corners = tuple((float(x), float(y)) for x, y in drive.points)
         degrees = tuple((float(lat), float(lon)) for lat, lon in self.site.projection.degrees(corners))
         wanted = self.task.constraints.speed_m_s
@@ -316,6 +328,8 @@ class Attempt:
     def _stands(self) -> Place:
         """Where the robot is, as a place: the place in hand if it is there."""
         position = self.driver.position()
-        if math.dist((position.x, position.y), self.here.xy) <= AT_M:
+        xy = (position.x, position.y)
+        if math.dist(xy, self.here.stand or self.here.xy) <= AT_M:
             return self.here
-        return Place(kind="point", id="on the way", x=position.x, y=position.y, lat=position.lat, lon=position.lon)
+        lat, lon = position.lat, position.lon
+        return Place(kind="point", id="on the way", x=position.x, y=position.y, lat=lat, lon=lon, stand=xy)

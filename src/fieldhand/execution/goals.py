@@ -28,7 +28,7 @@ def drive(attempt: Attempt, node: str, place: Place) -> Steps:
     if attempt.is_at(place):
         return
     if (attempt.standing.kind, attempt.standing.id) == (place.kind, place.id):
-        _arrive_in_place(attempt, node, place)
+        _arrive_in_place(attempt, node, attempt.standing)
         return
     for left in reversed(range(attempt.robot.retries + 1)):
         attempt.start_drive(node, place)

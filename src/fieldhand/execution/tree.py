@@ -82,6 +82,6 @@ def say_node(node: Node) -> str:
 
 
 def _say_selector(selector: Selector) -> str:
-    from fieldhand.site.places.words import words
+    from fieldhand.site.places.words import say_selector
 
-    return words(selector)
+    return say_selector(selector)

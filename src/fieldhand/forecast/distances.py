@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 
 
 class Distances:
-    """A table of driving distances that grows with the places that are asked for.
+    """A table of driving distances that grows with the places that are asked for. Places have their stands.
 
     Args:
         drives: The ways of the site.
@@ -36,13 +36,13 @@ class Distances:
         Raises:
             DriveFault: One of them cannot be reached.
         """
-        new = list({p.xy: p for p in places if p.xy not in self._row}.values())
+        new = list({_stand(p): p for p in places if _stand(p) not in self._row}.values())
         if new:
             known = [*self._places, *new]
             self._lengths = np.asarray(self._drives.lengths(known), dtype=np.float64)
             self._places = known
-            self._row = {p.xy: i for i, p in enumerate(known)}
-        rows = [self._row[p.xy] for p in places]
+            self._row = {_stand(p): i for i, p in enumerate(known)}
+        rows = [self._row[_stand(p)] for p in places]
         return self._lengths[np.ix_(rows, rows)]
 
     def linked(self, a: Place, b: Place) -> bool:
@@ -52,3 +52,7 @@ class Distances:
         except DriveFault:
             return False
         return True
+
+
+def _stand(place: Place) -> tuple[float, float]:
+    return place.xy if place.stand is None else place.stand

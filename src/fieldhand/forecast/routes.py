@@ -22,10 +22,28 @@ if TYPE_CHECKING:
 
 
 def drives_for(site: Site, robot: RobotProfile) -> Drives:
-    """How this robot drives on this site: half its width stays clear of what it must keep out of."""
+    """How this robot drives on this site: half its width stays clear of tree lines and of what it must keep out of.
+
+    The same object for the same site and robot: it remembers the drives that it found.
+    """
     from fieldhand.site.drives import Drives
 
-    return Drives(site, robot.width_m / 2)
+    key = ("drives", robot.width_m, robot.standoff_m)
+    known = site.memory.get(key)
+    if not isinstance(known, Drives):
+        known = site.memory[key] = Drives(site, robot.width_m / 2, robot.standoff_m)
+    return known
+
+
+def beginning(drives: Drives) -> Place:
+    """Where a mission starts, with where the robot stands there."""
+    return drives.stands((drives.site.start,))[0]
+
+
+def standing(drives: Drives, here: Place, places: Sequence[Place]) -> tuple[Place, ...]:
+    """Places of a visit list, each with where the robot will stand; it stays where it is for the place in hand."""
+    at = {p.xy: here for p in (here,) if here.stand is not None and p.kind != "point"}
+    return drives.stands([at.get(p.xy, p) for p in places], here)
 
 
 def order_visits(drives: Drives, here: Place, places: Sequence[Place], home: Place | None) -> tuple[int, ...]:
@@ -34,7 +52,7 @@ def order_visits(drives: Drives, here: Place, places: Sequence[Place], home: Pla
     Args:
         drives: The ways of the site.
         here: Where the robot is.
-        places: Where it has to go, in any order.
+        places: Where it has to go, in any order, each with its stand (:func:`standing`).
         home: Where it goes afterwards; None where that is not known or something else comes first.
 
     Returns:
@@ -48,7 +66,7 @@ def order_visits(drives: Drives, here: Place, places: Sequence[Place], home: Pla
     if len(places) == 1:
         return (0,)
     around = [here, *places] if home is None else [here, *places, home]
-    lengths = np.asarray(drives.lengths(around))
+    lengths = np.asarray(drives.lengths(around), dtype=np.float64)
     order = shortest_order(lengths, 0, None if home is None else len(around) - 1)
     return tuple(v - 1 for v in order if 1 <= v <= len(places))
 
@@ -56,11 +74,11 @@ def order_visits(drives: Drives, here: Place, places: Sequence[Place], home: Pla
 def visits_in_order(
     node: ForEach, drives: Drives, here: Place, places: Sequence[Place], home: Place | None
 ) -> tuple[Place, ...]:
-    """The places that a for-each will drive to, in their order.
+    """The places that a for-each will drive to, in their order, each with its stand.
 
     ``at_most`` keeps the first of a given order; where the order is free, the nearest and from there the nearest again.
     """
-    kept = list(places)
+    kept = list(standing(drives, here, places))
     if node.at_most is not None and node.at_most < len(kept):
         if node.order == "best" and not node.optional:
             chain = _chain(np.asarray(drives.lengths([here, *kept])), node.at_most)

@@ -110,7 +110,7 @@ class Walker:
         self.charge_percent, self.optional = charge_percent, optional
         self._holds, self._fails = holds, fails
         #: Where the walk began.
-        self.beginning = context or Context(here=site.start)
+        self.beginning = context or Context(here=routes.beginning(drives))
         self._context = self.beginning
         self._speed = speed_of(task.constraints, robot)
         self._steps: list[Step] = []
@@ -140,9 +140,7 @@ class Walker:
         except Ended as end:
             last, taken = end.node, end.node.exit
             then = then if taken == "nominal" else exit_of(self.task, "action_failed")
-        if then != "stay":
-            self.stops.append(self.site.home(then, self._context.here))
-        self._exit(last, self.site.home(then, self._context.here))
+        self._exit(last, self.site.home(then, self._context.here), goes=then != "stay")
         return Walk(steps=tuple(self._steps), end=self._context.here, exit=taken, decisions=tuple(self._decisions))
 
     def _node(self, node: Node) -> None:
@@ -187,7 +185,7 @@ class Walker:
         places = self._all(node, node.select)
         shed: tuple[Place, ...] = ()
         if node.optional:
-            places, shed = self._affordable(node, places)
+            places, shed = self._affordable(node, routes.standing(self.drives, self._context.here, places))
         else:
             home = routes.home_if_last(self.task, self.site, node.id, self._context.here)
             places = routes.visits_in_order(node, self.drives, self._context.here, places, home)
@@ -195,6 +193,7 @@ class Walker:
         self._visit_all(node, places)
 
     def _visit_rest(self, node: ForEach, places: tuple[Place, ...]) -> None:
+        places = routes.standing(self.drives, self._context.here, places)
         if node.order == "best":
             order = routes.order_visits(self.drives, self._context.here, places, None)
             places = tuple(places[i] for i in order)
@@ -256,19 +255,28 @@ class Walker:
             raise Failed(node.id)
 
     def _drive_to(self, node: Node, place: Place) -> None:
-        self.stops.append(place)
         if place.xy != self._context.here.xy:
-            self._note(self._leg(node, "drive", place))
+            leg = self._leg(node, "drive", place)
+            self._note(leg)
+            (place,) = leg.places
+        else:
+            place = self._context.here
+        self.stops.append(place)
         visited = self._context.visited
         if place.kind == "tree" and place.id not in visited:
             visited = (*visited, place.id)
         self._context = Context(here=place, visited=visited, bound=self._context.bound)
 
-    def _exit(self, node: Node, home: Place) -> None:
+    def _exit(self, node: Node, home: Place, *, goes: bool) -> None:
         if home.xy == self._context.here.xy:
+            if goes:
+                self.stops.append(self._context.here)
             self._note(Step(node=node, kind="exit", context=self._context, places=(home,)))
             return
-        self._note(self._leg(node, "exit", home))
+        leg = self._leg(node, "exit", home)
+        self._note(leg)
+        (home,) = leg.places
+        self.stops.append(home)
         self._context = Context(here=home, visited=self._context.visited, bound=self._context.bound)
 
     def _leg(self, node: Node, kind: StepKind, place: Place) -> Step:
@@ -277,7 +285,7 @@ class Walker:
             node=node,
             kind=kind,
             context=self._context,
-            places=(place,),
+            places=(drive.end,),
             drive=drive,
             seconds=drive.length_m / self._speed,
             joules=drive.length_m * self.robot.energy.drive_j_per_m,

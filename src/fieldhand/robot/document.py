@@ -188,11 +188,21 @@ class ProfileDocument(Keyed):
     description: str = ""
     speed_m_s: Positive
     width_m: Positive
+    standoff_m: Positive | None = None
     retries: Annotated[int, BeforeValidator(_no_bool), Field(ge=0, le=10)] = 1
     energy: EnergyDocument
     leg_cost: LegCostDocument
     quantities: dict[Name, QuantityDocument] = {}
     actions: Annotated[dict[Name, ActionDocument], Field(min_length=1)]
+
+    @model_validator(mode="after")
+    def _stands_beside_the_tree(self) -> ProfileDocument:
+        if self.standoff_m is not None and self.standoff_m < self.width_m / 2:
+            raise ValueError(
+                f"standoff_m {self.standoff_m:g} is less than half of width_m ({self.width_m / 2:g}): the robot would"
+                " stand in the tree"
+            )
+        return self
 
     @model_validator(mode="after")
     def _measured(self) -> ProfileDocument:

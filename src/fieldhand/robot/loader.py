@@ -26,6 +26,9 @@ from fieldhand.robot.model import Action, Energy, LegCost, Level, Parameter, Qua
 #: A profile is a page or two; a file beyond this is something else.
 MAX_BYTES = 1_000_000
 
+#: A profile that gives no standoff: the robot's side stays this far from the trunk, about a young tree's canopy.
+CANOPY_M = 1.0
+
 GUIDE = "docs/add-a-robot.md shows a whole profile"
 
 
@@ -191,6 +194,7 @@ def _profile(document: ProfileDocument, *, sha256: str, source: str) -> RobotPro
         quantities=tuple(_quantity(name, q) for name, q in document.quantities.items()),
         speed_m_s=document.speed_m_s,
         width_m=document.width_m,
+        standoff_m=document.width_m / 2 + CANOPY_M if document.standoff_m is None else document.standoff_m,
         energy=Energy(
             capacity_j=energy.capacity_j,
             drive_j_per_m=energy.drive_j_per_m,

@@ -104,7 +104,15 @@ class Energy:
 
 @dataclass(frozen=True, kw_only=True)
 class RobotProfile:
-    """A robot: what it can do and what that costs."""
+    """A robot: what it can do and what that costs.
+
+    Attributes:
+        speed_m_s: Of driving.
+        width_m: Over all; it keeps half of it from tree lines, keep-outs and the boundary.
+        standoff_m: From a trunk to the middle of the robot when it works on that tree from the aisle; in a narrower
+            aisle it stands in the middle.
+        retries: Of a failed action.
+    """
 
     name: str
     description: str
@@ -112,6 +120,7 @@ class RobotProfile:
     quantities: tuple[Quantity, ...]
     speed_m_s: float
     width_m: float
+    standoff_m: float
     energy: Energy
     leg_cost: LegCost
     retries: int

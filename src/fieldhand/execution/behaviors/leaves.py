@@ -73,7 +73,7 @@ class GoToPlace(Leaf):
 
     def work(self) -> Steps:
         node, attempt = self._goto, self.attempt
-        place = attempt.resolve_one(node.place)
+        place = attempt.reached(attempt.resolve_one(node.place))
         yield from self.permission(place, node)
         yield from drive(attempt, node.id, place)
         attempt.bind(node.label, (place,))
@@ -94,7 +94,7 @@ class DoAction(Leaf):
         node, attempt = self._act, self.attempt
         # A reading of an earlier round must not decide anything if this one fails.
         attempt.readings.pop(node.reading, None)
-        place = attempt.here if node.at is None else attempt.resolve_one(node.at)
+        place = attempt.here if node.at is None else attempt.reached(attempt.resolve_one(node.at))
         yield from self.permission(place, node)
         if node.at is not None or attempt.standing != place:
             yield from drive(attempt, node.id, place)

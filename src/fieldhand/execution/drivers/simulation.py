@@ -13,6 +13,7 @@ from fieldhand.clock import Clock
 from fieldhand.execution.drivers.groundtruth import GroundTruth, Point
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, GoalState, Position, Progress
 from fieldhand.execution.world import World
+from fieldhand.forecast.routes import beginning, drives_for
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
@@ -78,7 +79,8 @@ class SimulatedDriver:
         self._begun_s = clock.now()
         self._charge = world.charge_percent
         self._charged_s = self._begun_s
-        self._xy: Point = site.start.xy
+        start = beginning(drives_for(site, robot))
+        self._xy: Point = start.stand or start.xy
         self._course: _Course | None = None
         self._result = Progress(state="idle")
 

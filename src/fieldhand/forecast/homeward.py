@@ -1,0 +1,46 @@
+"""Whether a way home that nobody asked for is worth its share of a budget."""
+
+from __future__ import annotations
+
+from fieldhand.errors import DriveFault
+from fieldhand.forecast.limits import resources_of
+from fieldhand.forecast.routes import beginning, drives_for
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.task.frames import Task, Then
+from fieldhand.task.plan import ForEach, walk
+
+#: The way home may take this part of a budget before it is left out of a mission that did not ask for it.
+MOST = 0.5
+
+
+def costs_too_much(task: Task, site: Site, robot: RobotProfile, then: Then) -> float | None:
+    """Metres of the way home from the start, where that alone takes most of a budget for optional visits.
+
+    A mission that visits as many trees as a budget allows would spend the budget on the way home in place of trees.
+
+    Args:
+        task: With its budgets; only one with optional visits is looked at.
+        then: The exit that is assumed.
+
+    Returns:
+        None where the way home is worth it, or leads nowhere.
+    """
+    optional = any(isinstance(n, ForEach) and n.optional for n in walk(task.composition.plan))
+    if not task.constraints.budgets or not optional:
+        return None
+    drives = drives_for(site, robot)
+    start = beginning(drives)
+    home = site.home(then, start)
+    if home.xy == start.xy:
+        return None
+    try:
+        metres = drives.between(start, home).length_m
+    except DriveFault:
+        return None
+    for resource in resources_of(task.constraints, robot):
+        if resource.kind == "reserve":
+            continue
+        if metres * resource.per_metre > MOST * resource.limit:
+            return metres
+    return None

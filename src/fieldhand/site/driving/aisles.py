@@ -1,0 +1,292 @@
+"""Moves within one aisle: the strip between two neighbouring rows, from mouth to mouth."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+import shapely
+from shapely.geometry import Polygon
+from shapely.geometry.base import BaseGeometry
+from shapely.ops import unary_union
+
+from fieldhand.site.driving.bodies import Body
+from fieldhand.site.driving.free import Free, with_edge
+from fieldhand.site.driving.ground import Ground
+from fieldhand.site.driving.rowlines import Line, Points, RowLine, simplified_above
+from fieldhand.site.driving.taut import taut
+
+#: How a robot moves in it: along straight lines; along bent rows; around something that is in it; not at all.
+Course = Literal["straight", "bent", "obstructed", "closed"]
+
+#: An aisle in which something stands has sides with at most so many corners, or gives up this part of its width.
+_MANY_CORNERS = 120
+_SIDES = (0.0, 0.01, 0.03, 0.1)
+_MOST_ROOM = 0.7
+
+#: The middle of bent rows is drawn with this tolerance, part of the aisle's width.
+_MIDDLE = 0.05
+
+#: A mouth that is not free in its middle is looked for at so many points across.
+_MOUTHS = 21
+
+#: One row is longer than the next by this many widths of the aisle.
+_ASLANT = 0.7
+
+
+@dataclass(frozen=True, eq=False)
+class Aisle:
+    """The strip between two neighbouring rows of a body.
+
+    Attributes:
+        number: Of the aisle on the site.
+        body_number: Position of its body.
+        low, high: v between which the robot is clear of both rows all the way; ``low > high`` where rows are not
+            straight enough for that.
+    """
+
+    number: int
+    body_number: int
+    body: Body
+    below: RowLine
+    above: RowLine
+    free: Free
+    course: Course
+
+    @property
+    def low(self) -> float:
+        """Above this v the robot is clear of the row below all the way."""
+        return self.below.top
+
+    @property
+    def high(self) -> float:
+        """Below this v the robot is clear of the row above all the way."""
+        return self.above.bottom
+
+    @cached_property
+    def sides(self) -> tuple[Points, Points, Points]:
+        """u, and the least and greatest v there at which the robot is clear of the rows; whole length of the aisle."""
+        (lu, lv), (hu, hv) = self.below.upper, self.above.lower
+        (_, start), (_, end) = self.body.start_outline, self.body.end_outline
+        u = np.unique(np.concatenate([[start.min()], lu, hu, [end.max()]]))
+        return u, np.interp(u, lu, lv), np.interp(u, hu, hv)
+
+    def bounds(self, u: float) -> tuple[float, float]:
+        """The least and greatest v at which the robot is clear of the rows there."""
+        return float(np.interp(u, *self.below.upper)), float(np.interp(u, *self.above.lower))
+
+    def width(self, u: float) -> float:
+        """Metres from row to row there."""
+        return float(np.interp(u, self.above.u, self.above.low) - np.interp(u, self.below.u, self.below.high))
+
+    def middle(self, u: float) -> float:
+        """v halfway between the rows."""
+        return float(np.interp(u, self.above.u, self.above.low) + np.interp(u, self.below.u, self.below.high)) / 2.0
+
+    @property
+    def middle_line(self) -> Points:
+        """(u, v) halfway between the rows, from outline to outline, with few points; shape (n, 2)."""
+        v0, v1 = self.middle(float("-inf")), self.middle(float("inf"))
+        start, end = self.body.reaches(v0)[0], self.body.reaches(v1)[1]
+        if self.low <= self.high:
+            return np.array([[start, (self.low + self.high) / 2.0], [end, (self.low + self.high) / 2.0]])
+        u = self.sides[0]
+        u = np.concatenate([[start], u[(u > start) & (u < end)], [end]])
+        line = np.column_stack([u, [self.middle(at) for at in u.tolist()]])
+        return shapely.get_coordinates(
+            shapely.simplify(shapely.linestrings(line), _MIDDLE * abs(self.width(float(u[len(u) // 2]))))
+        )
+
+    def way(self, a: Points, b: Points) -> Points | None:
+        """The points of the shortest way within the aisle between two of its spots (u, v); None if there is none.
+
+        A spot nearer to a row than the robot's clearance is left straight across the aisle.
+        """
+        if self.course == "closed":
+            return None
+        if self.course == "obstructed":
+            ends = self.body.frame.world(np.array([a, b])).tolist()
+            points = self._ground.way((ends[0][0], ends[0][1]), (ends[1][0], ends[1][1]))
+            return None if points is None else self.body.frame.local(np.array(points))
+        one, two = self._clear_of_rows(a), self._clear_of_rows(b)
+        inner = np.array([one, two]) if self._straight(one[1], two[1]) else self._taut(one, two)
+        return np.vstack([a[None, :], inner, b[None, :]])
+
+    def metres(self, a: Points, b: Points) -> float:
+        """Of :meth:`way`; inf if there is none."""
+        if self.course == "straight" and self._straight(a[1], b[1]):
+            return math.hypot(*(a - b))
+        points = self.way(a, b)
+        return math.inf if points is None else float(np.hypot(*np.diff(points, axis=0).T).sum())
+
+    def lengths(self, spots: Points) -> Points:
+        """Metres of the ways between every two of these spots, shape (n, n); inf where there is none."""
+        if self.course == "obstructed":
+            return self._ground.lengths(self.body.frame.world(spots))
+        found = np.full((len(spots), len(spots)), np.inf)
+        inside = (spots[:, 1] >= self.low) & (spots[:, 1] <= self.high)
+        if self.course == "straight":
+            found[np.ix_(inside, inside)] = np.hypot(*(spots[inside, None] - spots[None, inside]).transpose(2, 0, 1))
+        for i in range(len(spots)):
+            for j in range(i):
+                if math.isinf(found[i, j]):
+                    found[i, j] = found[j, i] = self.metres(spots[i], spots[j])
+        return found
+
+    def mouths(self, end: Literal[0, 1]) -> Points:
+        """Where the robot drives in and out at an end (0: that of least u), (u, v), shape (n, 2); none if it is closed.
+
+        In the middle of the opening; where one row is longer than the next, so that the opening is aslant, also at its
+        sides.
+        """
+        v_out, u_out = self.body.start_outline if end == 0 else self.body.end_outline
+        k = -1 * end
+        if self.low <= self.high:
+            low, high = self.low, self.high
+        else:
+            low = float(self.below.high[k]) + self.free.clearance_m
+            high = float(self.above.low[k]) - self.free.clearance_m
+        if low > high:
+            return np.empty((0, 2))
+        across = np.linspace(low, high, _MOUTHS)
+        across = across[np.argsort(np.abs(across - (low + high) / 2.0), kind="stable")]
+        spots = np.column_stack([np.interp(across, v_out, u_out), across])
+        if self.course == "obstructed":
+            open_ = shapely.intersects_xy(self._soft_edged, *self.body.frame.world(spots).T)
+            spots = spots[open_]
+        if len(spots) < 2 or np.ptp(spots[:, 0]) < _ASLANT * (high - low):
+            return spots[:1]
+        return np.asarray(spots[np.unique([0, int(spots[:, 1].argmin()), int(spots[:, 1].argmax())])])
+
+    def _straight(self, one: float, two: float) -> bool:
+        """Whether the robot goes straight from one of these v to the other, wherever along the aisle they are."""
+        return self.low <= min(one, two) and max(one, two) <= self.high
+
+    def _clear_of_rows(self, spot: Points) -> Points:
+        """The spot itself, or the nearest straight across the aisle where the robot is clear of the rows."""
+        low, high = self.bounds(float(spot[0]))
+        return np.array([spot[0], min(max(float(spot[1]), low), high)])
+
+    def _taut(self, a: Points, b: Points) -> Points:
+        if a[0] > b[0]:
+            return self._taut(b, a)[::-1]
+        u, low, high = self.sides
+        if b[0] - a[0] < 1e-9:
+            return np.array([a, b])
+        inner = (u > a[0]) & (u < b[0])
+        return taut(
+            np.concatenate([[a[0]], u[inner], [b[0]]]),
+            np.concatenate([[a[1]], low[inner], [b[1]]]),
+            np.concatenate([[a[1]], high[inner], [b[1]]]),
+        )
+
+    # --- where something stands in the aisle --------------------------------------------------------------------
+
+    @cached_property
+    def _ground(self) -> Ground:
+        clearance = self.free.clearance_m
+        hard = self.between_rows(clear=False).intersection(self.free.hard)
+        return Ground(hard, self.soft, clearance)
+
+    @cached_property
+    def soft(self) -> BaseGeometry:
+        """Where the robot is clear of rows and of all else, in metres east and north."""
+        return _areas(self.corridor.intersection(self.free.soft))
+
+    @cached_property
+    def _soft_edged(self) -> BaseGeometry:
+        return with_edge(self.soft)
+
+    @cached_property
+    def corridor(self) -> BaseGeometry:
+        """Where the robot is clear of both rows, in metres east and north, whatever else stands there.
+
+        Sides with very many corners give up a little room: straight from mouth to mouth where that leaves most of it.
+        """
+        many = len(self.below.u) + len(self.above.u) > _MANY_CORNERS / 2
+        if many and self.low <= self.high:
+            _, low, high = self.sides
+            if self.high - self.low > _MOST_ROOM * float(np.median(high - low)):
+                return _areas(self._strip(self.low, self.high).intersection(self.body.polygon))
+        for tolerance in _SIDES[int(many) :]:
+            corridor = self.between_rows(clear=True, tolerance=tolerance)
+            if int(shapely.get_num_coordinates(corridor)) <= _MANY_CORNERS:
+                break
+        return corridor
+
+    @property
+    def hull(self) -> Polygon:
+        """A four-cornered area in which the whole aisle lies."""
+        return self._strip(float(self.below.high.min()), float(self.above.low.max()))
+
+    def _strip(self, low: float, high: float) -> Polygon:
+        """Between two v, as long as the body."""
+        (_, start), (_, end) = self.body.start_outline, self.body.end_outline
+        u0, u1 = float(start.min()), float(end.max())
+        return Polygon(self.body.frame.world(np.array([(u0, low), (u1, low), (u1, high), (u0, high)])))
+
+    def between_rows(self, *, clear: bool, tolerance: float = 0.0) -> BaseGeometry:
+        """The aisle up to the rows, or up to where the robot is clear of them; in metres east and north.
+
+        Args:
+            clear: Of the rows by the robot's clearance.
+            tolerance: Part of the width that may be left out where that makes the sides simpler.
+        """
+        (_, start), (_, end) = self.body.start_outline, self.body.end_outline
+        below, above = (self.below.u, self.below.high), (self.above.u, self.above.low)
+        if clear:
+            below, above = self.below.upper, self.above.lower
+        if tolerance > 0.0:
+            below, above = self._simplified(below, above, tolerance)
+        u = np.unique(np.concatenate([[start.min()], below[0], above[0], [end.max()]]))
+        u = u[(u >= start.min()) & (u <= end.max())]
+        low, high = np.interp(u, *below), np.interp(u, *above)
+        parts = []
+        runs = np.flatnonzero(np.diff(np.concatenate([[False], high > low, [False]]).astype(int)))
+        for first, last in runs.reshape(-1, 2).tolist():
+            if last - first > 1:
+                k = slice(first, last)
+                ring = np.vstack([np.column_stack([u[k], low[k]]), np.column_stack([u[k], high[k]])[::-1]])
+                parts.append(Polygon(self.body.frame.world(ring)).buffer(0.0))
+        return _areas(unary_union(parts).intersection(self.body.polygon)) if parts else Polygon()
+
+    def _simplified(self, below: Line, above: Line, part: float) -> tuple[Line, Line]:
+        u, low, high = self.sides
+        tolerance = part * max(float(np.median(high - low)), 0.1)
+        one, two = simplified_above(below, tolerance), simplified_above((above[0], -above[1]), tolerance)
+        if (np.interp(u, *one) > -np.interp(u, *two)).any():
+            return below, above
+        return one, (two[0], -two[1])
+
+
+def aisles_of(bodies: tuple[Body, ...], free: Free) -> tuple[Aisle, ...]:
+    """All aisles of a site, body after body, in their order across the rows."""
+    found: list[Aisle] = []
+    for number, body in enumerate(bodies):
+        for k in range(len(body.lines) - 1):
+            below, above = body.lines[k], body.lines[k + 1]
+            course: Course = "straight" if below.top <= above.bottom else "bent"
+            aisle = Aisle(len(found), number, body, below, above, free, course)
+            if course == "bent":
+                _, low, high = aisle.sides
+                course = "bent" if (low <= high).all() else "obstructed" if (low < high).any() else "closed"
+                aisle = replace(aisle, course=course)
+            found.append(aisle)
+    if not free.bounded:
+        return tuple(found)
+    # Most aisles are clear of everything by a rough look; only the others are looked at as they really are.
+    open_ = [k for k, a in enumerate(found) if a.course in ("straight", "bent")]
+    rough = free.covers(np.array([found[k].hull for k in open_]), soft=True) if open_ else np.zeros(0, dtype=bool)
+    for k in np.array(open_, dtype=int)[~rough].tolist():
+        if not free.covers(found[k].between_rows(clear=True), soft=True)[0]:
+            found[k] = replace(found[k], course="obstructed")
+    return tuple(found)
+
+
+def _areas(shape: BaseGeometry) -> BaseGeometry:
+    """The areas of an intersection, without its points and lines."""
+    parts = [p for p in getattr(shape, "geoms", [shape]) if p.area > 0.0]
+    return unary_union(parts) if parts else Polygon()

@@ -1,0 +1,164 @@
+"""Where a robot may be at all: inside the boundary and outside every keep-out, through fences only at gates."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from shapely.geometry import LineString, Point, Polygon, box
+from shapely.geometry.base import BaseGeometry
+from shapely.ops import unary_union
+
+from fieldhand.site.model import Gate, Site, Zone
+
+#: Half the thickness of the fence that stands where two fenced parts of a site touch.
+_FENCE_M = 0.02
+
+#: Boundaries that overlap in a strip narrower than this were meant to touch.
+_SLIVER_M = 0.25
+
+#: Ways run along edges, so what reaches less than this past an edge is a touch.
+TOUCH_M = 1e-6
+
+#: The arc around a corner is drawn with this many chords a quarter turn, outside the true arc.
+_CHORDS = 2
+
+#: A traced pond may have thousands of corners. More than this are thinned out, by keeping up to so much farther away.
+_MANY_CORNERS = 900
+_GIVE_M = (0.05, 0.1, 0.2, 0.4)
+
+#: Where a site has no boundary, the ground ends this far beyond everything.
+_FAR_M = 50_000.0
+
+
+@dataclass(frozen=True, eq=False)
+class Free:
+    """The ground of one site for a robot of one width.
+
+    Attributes:
+        clearance_m: That the robot keeps from edges.
+        bounded: Whether anything at all is in the way.
+        hard: Where a robot may be.
+        soft: Hard ground without the band of the clearance along its edges.
+        keep_outs: With their names, for messages.
+    """
+
+    clearance_m: float
+    bounded: bool
+    hard: BaseGeometry
+    soft: BaseGeometry
+    keep_outs: tuple[Zone, ...]
+
+    def covers(self, shapes: BaseGeometry | NDArray[np.object_], *, soft: bool) -> NDArray[np.bool_]:
+        """Which of the shapes lie on this ground."""
+        return np.atleast_1d(np.asarray(shapely.covers(self._edged(soft), np.atleast_1d(np.asarray(shapes)))))
+
+    def holds(self, xy: NDArray[np.float64], *, soft: bool) -> NDArray[np.bool_]:
+        """Which of the points, shape (n, 2), lie on this ground."""
+        return np.asarray(shapely.intersects_xy(self._edged(soft), xy[:, 0], xy[:, 1]))
+
+    def in_the_way(self, shape: BaseGeometry) -> str:
+        """What closes a line or an area: "keep-out 'pond'" or "the boundary"; empty if nothing does."""
+        for zone in self.keep_outs:
+            if zone.polygon.distance(shape) < self.clearance_m * 1.001:
+                return f"keep-out {zone.name!r}"
+        return "" if shapely.covers(self._edged(soft=True), shape) else "the boundary"
+
+    def _edged(self, soft: bool) -> BaseGeometry:
+        return self._soft_edged if soft else self._hard_edged
+
+    @cached_property
+    def _soft_edged(self) -> BaseGeometry:
+        return with_edge(self.soft)
+
+    @cached_property
+    def _hard_edged(self) -> BaseGeometry:
+        return with_edge(self.hard)
+
+
+def with_edge(ground: BaseGeometry) -> BaseGeometry:
+    """Ground with its edge, prepared: what only touches the edge from inside is covered whatever the rounding."""
+    edged = ground.buffer(TOUCH_M, join_style="mitre")
+    shapely.prepare(edged)
+    return edged
+
+
+def free_ground(site: Site, clearance_m: float) -> Free:
+    """Boundary without keep-outs; boundaries that touch are parted by a fence with the site's gates in it."""
+    keep_outs = site.zones_of("keep_out")
+    boundaries = [z.polygon for z in site.zones_of("boundary")]
+    taken = unary_union([z.polygon for z in keep_outs])
+    ground = _fenced(boundaries, site.gates) if boundaries else _endless(site, taken)
+    hard = ground.difference(taken) if keep_outs else ground
+    return Free(
+        clearance_m=clearance_m,
+        bounded=bool(keep_outs or boundaries),
+        hard=hard,
+        soft=soft_ground(hard, clearance_m),
+        keep_outs=keep_outs,
+    )
+
+
+def soft_ground(hard: BaseGeometry, clearance_m: float) -> BaseGeometry:
+    """The ground without the band of the clearance. Of very many corners some are given up, with their ground."""
+    soft = _shrunk(hard, clearance_m)
+    for give in _GIVE_M:
+        if int(shapely.get_num_coordinates(soft)) <= _MANY_CORNERS:
+            break
+        # Mitred corners stay one corner each.
+        soft = hard.buffer(-give).simplify(0.9 * give).buffer(-clearance_m, join_style="mitre", mitre_limit=2.0)
+    return soft
+
+
+def _shrunk(ground: BaseGeometry, by: float) -> BaseGeometry:
+    """The ground without a band along its edges, that is nowhere narrower than ``by``."""
+    if by <= 0.0:
+        return ground
+    return ground.buffer(-by / math.cos(math.pi / (4 * _CHORDS)), quad_segs=_CHORDS)
+
+
+def _endless(site: Site, taken: BaseGeometry) -> BaseGeometry:
+    """A frame that is never in the way."""
+    everything = np.vstack([site.xy, *([p.xy] for p in site.markers.values())])
+    (west, south), (east, north) = everything.min(axis=0).tolist(), everything.max(axis=0).tolist()
+    if not taken.is_empty:
+        w, s, e, n = taken.bounds
+        west, south, east, north = min(west, w), min(south, s), max(east, e), max(north, n)
+    return box(west - _FAR_M, south - _FAR_M, east + _FAR_M, north + _FAR_M)
+
+
+def _fenced(boundaries: Sequence[Polygon], gates: Sequence[Gate]) -> BaseGeometry:
+    """All boundaries together, with a fence where two of them touch, open at the gates.
+
+    A gate also bridges a gap between two boundaries that were drawn a little apart.
+    """
+    ground = unary_union(boundaries)
+    openings = unary_union([Point(g.place.xy).buffer(g.width_m / 2.0) for g in gates])
+    fences = [f for a, b in itertools.combinations(boundaries, 2) if (f := _fence(a, b)) is not None]
+    if fences:
+        ground = ground.difference(unary_union(fences).difference(openings).buffer(_FENCE_M, cap_style="flat"))
+    bridges = [
+        opening
+        for opening in (Point(g.place.xy).buffer(g.width_m / 2.0) for g in gates)
+        if sum(b.intersects(opening) for b in boundaries) > 1
+    ]
+    return unary_union([ground, *bridges]) if bridges else ground
+
+
+def _fence(a: Polygon, b: Polygon) -> BaseGeometry | None:
+    """Where two boundaries merely touch, along a line or in a sliver."""
+    if not a.intersects(b):
+        return None
+    common = a.intersection(b)
+    if common.area > _SLIVER_M * common.length / 2.0:
+        return None
+    if common.area > 0.0:
+        common = a.exterior.intersection(common.buffer(TOUCH_M))
+    lines = [g for g in getattr(common, "geoms", [common]) if isinstance(g, LineString) and g.length > 0.0]
+    return unary_union(lines) if lines else None

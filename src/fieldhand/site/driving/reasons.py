@@ -1,0 +1,55 @@
+"""Why a robot cannot get to a place, in words that follow "tree 17 is"."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal
+
+import shapely
+
+from fieldhand.site.driving.graph import Points
+from fieldhand.site.driving.layout import Layout, Spot
+from fieldhand.site.driving.stands import Candidate
+
+
+def no_stand(candidates: Sequence[Candidate], robot_m: float) -> str:
+    """Why a robot of this width can stand at none of the candidates."""
+    widths = [c.aisle_m for c in candidates]
+    if all(width is not None for width in widths):
+        return f"out of reach: {_narrow(widths, robot_m)}"
+    reasons = [c.why_not if c.aisle_m is None else _narrow([c.aisle_m], robot_m) for c in candidates]
+    return f"out of reach: {' and '.join(dict.fromkeys(reasons))}"
+
+
+def cut_off(layout: Layout, spots: Sequence[Spot], start: Spot) -> str:
+    """Why no way leads from the start to any of the spots at which the robot could be at a place."""
+    for spot in spots:
+        if spot.aisle is not None and not len(spot.links.nodes):
+            return f"out of reach: no way out of its aisle: {_ends(layout, spot)}"
+    line = shapely.LineString([spots[0].xy, start.xy])
+    between = layout.free.in_the_way(line) if layout.free.bounded else ""
+    return f"cut off from where the robot starts{f' by {between}' if between else ''}"
+
+
+def _narrow(widths: Sequence[float | None], robot_m: float) -> str:
+    found = sorted({f"{max(width, 0.0):.2g} m" for width in widths if width is not None})
+    aisles = "the aisles beside it are" if len(widths) > 1 else "the aisle beside it is"
+    return f"{aisles} {' and '.join(found)} wide, the robot is {robot_m:.2g} m"
+
+
+def _ends(layout: Layout, spot: Spot) -> str:
+    """What closes either end of the aisle in which a spot lies."""
+    one, two = _closed_by(layout, spot, 0), _closed_by(layout, spot, 1)
+    return f"{one} closes both ends" if one == two else f"{one} closes one end and {two} the other"
+
+
+def _closed_by(layout: Layout, spot: Spot, end: Literal[0, 1]) -> str:
+    aisle, uv = spot.aisle, spot.uv
+    if aisle is None or uv is None:
+        return "nothing"
+    middle = aisle.middle_line
+    ahead: Points = middle[middle[:, 0] > uv[0]] if end == 1 else middle[middle[:, 0] < uv[0]][::-1]
+    if not len(ahead):
+        ahead = middle[[-end]]
+    line = shapely.LineString([spot.xy, *aisle.body.frame.world(ahead)])
+    return layout.free.in_the_way(line) or "another row"

@@ -1,0 +1,131 @@
+"""Rows as lines in the frame of their block: u metres along the rows, v metres across them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+Points = NDArray[np.float64]
+Line = tuple[Points, Points]
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """A block's own axes. ``along`` and ``across`` are unit vectors in metres east and north."""
+
+    along: Points
+    across: Points
+
+    @staticmethod
+    def of_bearing(bearing_deg: float) -> Frame:
+        """Rows that run this way, clockwise from true north."""
+        b = np.radians(bearing_deg)
+        return Frame(np.array([np.sin(b), np.cos(b)]), np.array([np.cos(b), -np.sin(b)]))
+
+    def turned(self, slope: float) -> Frame:
+        """With the rows' way corrected by so many metres across for each metre along."""
+        along = self.along + slope * self.across
+        along /= np.hypot(*along)
+        return Frame(along, np.array([along[1], -along[0]]))
+
+    def local(self, xy: Points) -> Points:
+        """Metres along and across, shape (n, 2)."""
+        return np.column_stack([xy @ self.along, xy @ self.across])
+
+    def world(self, uv: Points) -> Points:
+        """Metres east and north, shape (n, 2)."""
+        return np.asarray(uv[:, :1] * self.along + uv[:, 1:] * self.across)
+
+
+@dataclass(frozen=True, eq=False)
+class RowLine:
+    """The line through the trees of one row, from its first to its last.
+
+    Attributes:
+        rows: Positions in the planting's rows: one, or several that stand end to end.
+        u: Where the line is given, strictly increasing.
+        low, high: The line's least and greatest v there: one number but where the line doubles back (trees entered
+            twice).
+        clearance_m: That a robot keeps from it.
+    """
+
+    rows: tuple[int, ...]
+    u: Points
+    low: Points
+    high: Points
+    clearance_m: float
+
+    @cached_property
+    def upper(self) -> Line:
+        """(u, v) of the line above which a robot is clear of the trees; beyond its ends it goes on level."""
+        return _raised(self.u, self.high, self.clearance_m)
+
+    @cached_property
+    def lower(self) -> Line:
+        """(u, v) of the line below which a robot is clear of the trees."""
+        u, v = _raised(self.u, -self.low, self.clearance_m)
+        return u, -v
+
+    @cached_property
+    def top(self) -> float:
+        """Above this v a robot is clear of the whole line."""
+        return float(self.high.max()) + self.clearance_m
+
+    @cached_property
+    def bottom(self) -> float:
+        """Below this v a robot is clear of the whole line."""
+        return float(self.low.min()) - self.clearance_m
+
+
+def row_line(rows: tuple[int, ...], uv: Points, clearance_m: float) -> RowLine:
+    """The line of a row from its trees in order, shape (n, 2)."""
+    if len(uv) > 1 and uv[0, 0] > uv[-1, 0]:
+        uv = uv[::-1]
+    u, v = uv[:, 0], uv[:, 1]
+    if len(u) > 1 and (np.diff(u) <= 0.0).any():
+        return RowLine(rows, *_envelope(u, v), clearance_m)
+    return RowLine(rows, u, v, v, clearance_m)
+
+
+def _envelope(u: Points, v: Points) -> tuple[Points, Points, Points]:
+    """Least and greatest v of a line that doubles back, at each of its u."""
+    at = np.unique(u)
+    low, high = np.full(len(at), np.inf), np.full(len(at), -np.inf)
+    for k in range(len(u) - 1):
+        one, two = (k, k + 1) if u[k] <= u[k + 1] else (k + 1, k)
+        first, last = np.searchsorted(at, [u[one], u[two]])
+        part = np.interp(at[first : last + 1], u[[one, two]], v[[one, two]])
+        low[first : last + 1] = np.minimum(low[first : last + 1], np.minimum(part, v[two] if first == last else part))
+        high[first : last + 1] = np.maximum(high[first : last + 1], np.maximum(part, v[two] if first == last else part))
+    np.minimum.at(low, np.searchsorted(at, u), v)
+    np.maximum.at(high, np.searchsorted(at, u), v)
+    return at, low, high
+
+
+def _raised(u: Points, v: Points, by: float) -> Line:
+    """A line that is at least ``by`` above and beside this one: its greatest value within ``by``, and ``by`` more.
+
+    Between the points that are returned the exact line is convex, so theirs lies above it.
+    """
+    at = np.unique(np.concatenate([u - by, u, u + by]))
+    most = np.maximum(np.interp(at - by, u, v), np.interp(at + by, u, v))
+    first, last = np.searchsorted(u, at - by, "left"), np.searchsorted(u, at + by, "right")
+    for step in range(int((last - first).max(initial=0))):
+        inside = first + step < last
+        most = np.where(inside, np.maximum(most, v[np.minimum(first + step, len(u) - 1)]), most)
+    return at, most + by
+
+
+def simplified_above(line: Line, tolerance_m: float) -> Line:
+    """A line with few points that is nowhere below this one, and above it by at most twice the tolerance."""
+    import shapely
+
+    u, v = line
+    if len(u) < 3:
+        return line
+    kept = shapely.get_coordinates(shapely.simplify(shapely.linestrings(np.column_stack(line)), tolerance_m))
+    short = float((v - np.interp(u, kept[:, 0], kept[:, 1])).max())
+    return kept[:, 0], kept[:, 1] + max(short, 0.0)

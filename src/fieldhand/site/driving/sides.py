@@ -1,0 +1,73 @@
+"""From which side the trees of a visit list are worked on, so that the robot drives through few aisles."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from fieldhand.site.driving.stands import Candidate
+
+#: (body, line below, line above)
+Lane = tuple[int, int, int]
+#: What a choice takes: lanes to drive through, then metres to the stands from where the robot is.
+Cost = tuple[int, float]
+
+
+@dataclass(frozen=True)
+class Visited:
+    """The visits of one row: for each the candidates that can be driven to, by lane, with the metres to them."""
+
+    below: Lane
+    above: Lane
+    visits: list[Mapping[Lane, tuple[Candidate, float]]] = field(default_factory=list)
+
+
+def few_lanes(rows: Mapping[tuple[int, int], Visited], used: frozenset[Lane]) -> dict[tuple[int, int], Lane]:
+    """For each row, (body, line), the lane that is preferred for it.
+
+    Row by row across a body: what is best for the rows so far, once with the lane above the last row driven through
+    and once without (dynamic programming). A lane in which the robot already has something to do costs nothing.
+    """
+    chosen: dict[tuple[int, int], Lane] = {}
+    for body in sorted({body for body, _ in rows}):
+        lines = sorted(line for b, line in rows if b == body)
+        # What it takes so far, and the lanes chosen so far, by the lanes above the last row that are driven through.
+        best: dict[frozenset[Lane], tuple[Cost, tuple[Lane, ...]]] = {frozenset(): ((0, 0.0), ())}
+        for line in lines:
+            row = rows[body, line]
+            following: dict[frozenset[Lane], tuple[Cost, tuple[Lane, ...]]] = {}
+            for open_, ((count, metres), before) in best.items():
+                for lane in (row.below, row.above):
+                    lanes, far = _taken(row, lane)
+                    new = lanes - open_ - used
+                    cost = (count + len(new), metres + far)
+                    still = frozenset(lanes & {row.above})
+                    if still not in following or cost < following[still][0]:
+                        following[still] = (cost, (*before, lane))
+            best = following
+        _, lanes_chosen = min(best.values())
+        chosen.update({(body, line): lane for line, lane in zip(lines, lanes_chosen, strict=True)})
+    return chosen
+
+
+def _taken(row: Visited, lane: Lane) -> tuple[frozenset[Lane], float]:
+    """Which lanes the row's visits take where this one is preferred, and the metres to their stands."""
+    lanes, metres = set(), 0.0
+    for visit in row.visits:
+        at = lane if lane in visit else next(iter(visit), None)
+        if at is not None:
+            lanes.add(at)
+            metres += visit[at][1]
+    return frozenset(lanes), metres
+
+
+def pick(candidates: Sequence[Candidate], lane: Lane | None, metres: Sequence[float]) -> Candidate:
+    """The candidate in the preferred lane, else the nearest that can be driven to, else the first."""
+    able = [k for k, m in enumerate(metres) if math.isfinite(m)]
+    if not able:
+        return candidates[0]
+    return next(
+        (candidates[k] for k in able if lane is not None and candidates[k].lane == lane),
+        candidates[min(able, key=lambda k: metres[k])],
+    )
