@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
 from hypothesis import strategies as st
 from shapely.geometry import Polygon
 
 from fieldhand.site.context import Context
 from fieldhand.site.geojson import parse_site
 from fieldhand.site.model import Place, Site, Tree, Zone, ZoneKind
+from fieldhand.site.planting import Block, Planting, Row
 from fieldhand.site.projection import Projection
 from fieldhand.task.selectors import Value
 
@@ -110,3 +113,41 @@ def points(min_size: int = 1, max_size: int = 30) -> st.SearchStrategy[list[XY]]
 def sites(min_size: int = 1, max_size: int = 30) -> st.SearchStrategy[Site]:
     """Sites of bare trees."""
     return points(min_size, max_size).map(site_of)
+
+
+def planted(blocks: Sequence[tuple[str, float, Sequence[tuple[str, Sequence[XY]]]]], **more: Any) -> Site:
+    """A site whose rows are known: blocks by name and bearing, in each rows by name with trees from their usual end.
+
+    Trees count 1, 2, 3 ... block by block and row by row; ``more`` as for :func:`site_of`, and ``order``, the order of
+    the file, as positions of trees in that count.
+    """
+    points = [xy for _, _, rows in blocks for _, row in rows for xy in row]
+    order = list(more.pop("order", range(len(points))))
+    site = site_of([points[k] for k in order], **more)
+    at = {k: place for place, k in enumerate(order)}
+    made, count = [], 0
+    for number, (name, bearing, rows) in enumerate(blocks):
+        row_list = []
+        for k, (row_name, row) in enumerate(rows, start=1):
+            trees = np.array([at[count + j] for j in range(len(row))], dtype=np.intp)
+            count += len(row)
+            row_list.append(
+                Row(
+                    name=row_name, number=k, block=number, trees=trees, slots=np.arange(1, len(row) + 1), known="file",
+                    confidence=1.0,
+                )
+            )  # fmt: skip
+        made.append(
+            Block(
+                name=name, rows=tuple(row_list), bearing_deg=bearing, row_spacing_m=6.0 if len(rows) > 1 else math.nan,
+                tree_spacing_m=4.0, known="file", confidence=1.0,
+            )
+        )  # fmt: skip
+    vars(site)["planting"] = Planting(blocks=tuple(made), tree_count=len(points), why="" if made else "none are named")
+    return site
+
+
+def without_rows(site: Site) -> Site:
+    """The site with its trees scattered, whatever rows might be seen in them."""
+    vars(site)["planting"] = Planting(blocks=(), tree_count=len(site.trees), why="the trees stand in no rows")
+    return site

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.approval.clauses import say_act, say_condition
-from fieldhand.approval.phrases import say_selector
+from fieldhand.site.places.words import say_selector
 from fieldhand.task import conditions as c
 from fieldhand.task import selectors as s
 from fieldhand.task.plan import Act
@@ -71,6 +71,98 @@ SAID = [
         None,
         "the tree not visited yet that is farthest from there",
     ),
+    (s.InBlock(block="B"), 12, "the 12 trees of block B"),
+    (s.InBlock(block="Block 2", of=YELLOW), None, "the yellow trees of Block 2"),
+    (s.Rows(first="3", last="3"), None, "the trees of row 3"),
+    (s.Rows(first="3", last="3", of=s.InBlock(block="B")), 9, "the 9 trees of row 3 of block B"),
+    (s.InBlock(block="B", of=s.Rows(first="A", last="C")), None, "the trees of rows A to C of block B"),
+    (
+        s.Rows(first="2", last="5", of=s.Half(side="north", of=YELLOW)),
+        None,
+        "the yellow trees of rows 2 to 5 in the northern half",
+    ),
+    (s.Rows(every=2), None, "the trees of every other row"),
+    (s.Rows(first="2", last="8", every=3), None, "the trees of every third one of rows 2 to 8"),
+    (s.Rows(first="-1", last="-1"), None, "the trees of the last row"),
+    (s.Rows(first="2", last="2", counted_from="east"), None, "the trees of the second row from the east"),
+    (
+        s.Rows(first="1", last="3", counted_from="east"),
+        None,
+        "the trees of rows 1 to 3 from the east",
+    ),
+    (s.Rows(first="Row 7"), None, "the trees of the rows from row 7 to the last row"),
+    (s.RowOf(), None, "the trees of the same row"),
+    (s.RowOf(origin=TREE, over=-1), None, "the trees of the row before that of tree 81"),
+    (s.RowOf(over=2), None, "the trees of the row 2 rows after this one"),
+    (s.InRow(first=4, last=9, of=s.Rows(first="2", last="2")), None, "trees 4 to 9 of row 2"),
+    (s.InRow(first=-1, last=-1, of=s.Rows(first="2", last="5")), None, "the last tree of each of rows 2 to 5"),
+    (s.InRow(first=1, last=3), None, "the first 3 trees of each row"),
+    (s.InRow(first=-2, last=-1, of=s.InBlock(block="B")), None, "the last 2 trees of each row of block B"),
+    (
+        s.InRow(first=4, last=4, counted_from="south", of=s.Rows(first="2", last="2", of=YELLOW)),
+        None,
+        "tree 4 of each row among the yellow trees of row 2, counted from the south",
+    ),
+    (s.EveryNth(nth=3, of=s.Rows(first="2", last="5")), None, "every third tree of rows 2 to 5"),
+    (s.EveryNth(nth=2), None, "every other tree of each row"),
+    (s.EveryNth(nth=2, start=2, of=YELLOW), None, "every other one of the yellow trees, from the second on"),
+    (
+        s.EveryNth(
+            nth=3,
+            of=s.Where(
+                attribute="age_years", test="gt", value=10.0, of=s.Half(side="north", of=s.Rows(first="2", last="5"))
+            ),
+        ),
+        None,
+        "every third one of the trees of rows 2 to 5 whose age is above 10 years, in the northern half",
+    ),
+    (s.AlongRow(trees=5), None, "the tree 5 trees further down the row"),
+    (s.AlongRow(trees=1, towards="up", origin=TREE), None, "the next tree up the row from tree 81"),
+    (s.AlongRow(trees=3, towards="east"), None, "the tree 3 trees further along the row to the east"),
+    (s.Across(), None, "the tree abreast of that place in the next row"),
+    (s.Across(origin=TREE, side="west"), None, "the tree abreast of tree 81 in the next row to the west"),
+    (s.Successive(count=5), None, "5 successive trees of one row, as near to that place as there are"),
+    (
+        s.Successive(count=5, near=TREE, of=s.Rows(first="3", last="3")),
+        None,
+        "5 successive trees of row 3, as near to tree 81 as there are",
+    ),
+    (
+        s.Successive(count=3, of=YELLOW),
+        None,
+        "3 of the yellow trees that follow each other in one row, as near to that place as there are",
+    ),
+    (s.Ordered(by="west_to_east", of=YELLOW), 4, "the 4 yellow trees, from west to east"),
+    (s.Ordered(by="rows"), None, "every tree, row by row"),
+    (s.Ordered(by="attribute", attribute="yield_kg", descending=True), None, "every tree, by yield, the highest first"),
+    (s.Nth(nth=2, of=s.Ordered(by="north_to_south")), None, "the second northernmost tree"),
+    (s.Nth(nth=1, of=s.Ordered(by="nearest_first", of=YELLOW)), None, "the nearest of the yellow trees"),
+    (
+        s.Nth(nth=3, of=s.Ordered(by="attribute", attribute="reward", descending=True)),
+        None,
+        "the tree with the third highest reward",
+    ),
+    (s.Nth(nth=-1, of=s.Ordered(by="rows", of=YELLOW)), None, "the last of the yellow trees, row by row"),
+    (s.Nth(nth=21, of=YELLOW), None, "the 21st of the yellow trees"),
+    (
+        s.Spaced(apart_m=15.0, count=10),
+        None,
+        "10 points 15 m apart beside the nearest row, beginning at the end nearer to that place",
+    ),
+    (
+        s.Spaced(apart_m=2.5, near=TREE, of=s.Rows(first="3", last="3")),
+        None,
+        "as many points 2.5 m apart as fit beside row 3, beginning at the end nearer to tree 81",
+    ),
+    (
+        s.Spaced(apart_m=15.0, count=3, zone="wet", near=s.Marker(name="start")),
+        None,
+        "3 points 15 m apart on a line inside the zone “wet”, beginning at the end nearer to the start marker",
+    ),
+    (s.PointsIn(zone="wet"), None, "the middle of the zone “wet”"),
+    (s.PointsIn(zone="wet", count=5), None, "5 points spread over the zone “wet”"),
+    (s.Extreme(side="north", of=s.Rows(first="3", last="3")), None, "the northernmost of the trees of row 3"),
+    (s.Nearest(to=TREE, count=2, of=s.Rows(first="3", last="3")), None, "the 2 trees of row 3 nearest to tree 81"),
     (
         s.Half(side="north", of=s.InZone(zone="wet")),
         None,

@@ -13,7 +13,7 @@ from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, If, Sequence
 from fieldhand.task.selectors import Corners, TreeIs, Trees
-from orchards import husky, orchard, task_for
+from orchards import block, husky, orchard, task_for
 
 SITE, ROBOT = orchard(), husky()
 PICTURE = Act(id="", action="take_thermal_picture")
@@ -99,3 +99,17 @@ def test_a_map_that_cannot_be_written_is_one_clear_error(tmp_path):
         save_map(task, SITE, ROBOT, forecast, tmp_path / "file" / "map.png")
     with pytest.raises(OutputError, match="no kind of picture"):
         save_map(task, SITE, ROBOT, forecast, tmp_path / "map.mission")
+
+
+def test_numbers_keep_off_the_names_of_the_site():
+    site = orchard(zones=[block("zone", "wet corner", (-0.5, 3), (0.5, 4.6))])
+    task = task_for(site, CORNERS)
+    forecast = estimate(task, site, ROBOT)
+    words = read_back(task, site, ROBOT, forecast)
+    figure = draw_map(task, site, plan_of(task, [b.walk for b in forecast.branches], words.lines), words)
+    figure.draw_without_rendering()
+    texts = [t for t in figure.axes[0].texts if t.get_text()]
+    (name,) = (t for t in texts if t.get_text() == "wet corner")
+    numbers = [t for t in texts if t.get_gid() == "label"]
+    assert len(numbers) == 4
+    assert not any(t.get_window_extent().overlaps(name.get_window_extent()) for t in numbers)

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 from fieldhand.errors import PlaceError
 from fieldhand.site.context import Context
+from fieldhand.site.model import Site
 from fieldhand.site.places import resolve, resolve_one
 from fieldhand.task.selectors import (
     Adjacent,
@@ -45,11 +46,18 @@ from fieldhand.task.selectors import (
     Where,
     Within,
 )
-from sites import at_start, grid, orchard, place_at, site_of, sites
+from sites import at_start, grid, orchard, place_at, planted, site_of, without_rows
+from sites import sites as inferred_sites
 
 SIDES = ("north", "east", "south", "west")
 TOWARDS = {"north": (0, 1), "east": (1, 0), "south": (0, -1), "west": (-1, 0)}
 TINY = 2e-3
+
+
+def sites(min_size: int = 1, max_size: int = 30) -> st.SearchStrategy[Site]:
+    """Sites of scattered trees; those with rows have tests of their own."""
+    return inferred_sites(min_size, max_size).map(without_rows)
+
 
 sides = st.sampled_from(SIDES)
 counts = st.integers(1, 4)
@@ -167,20 +175,27 @@ def test_extreme_trees_are_the_farthest_to_their_side_in_order(site, side, count
     assert [p.id for p in found] == [t.place.id for t in expected]
 
 
-@given(sites(min_size=2), sides)
-def test_among_extreme_are_those_less_than_a_spacing_from_the_extreme(site, side):
-    best = max(reach(t.place, side) for t in site.trees)
-    found = set(ids(AmongExtreme(side=side), site))
-    for tree in site.trees:
-        behind = best - reach(tree.place, side)
-        if behind < site.spacing_m - 0.02:
-            assert tree.place.id in found
-        if behind > site.spacing_m:
-            assert tree.place.id not in found
+@pytest.mark.parametrize(
+    ("side", "expected"),
+    [("north", [5, 4, 10, 9, 15, 14, 20, 19]), ("east", range(16, 21)), ("south", [1, 2, 6, 7, 11, 12, 16, 17])],
+)
+def test_among_extreme_are_those_less_than_a_row_spacing_from_the_extreme(side, expected):
+    """Rows 6 m apart run north to south, trees stand 4 m apart: a row exactly one spacing behind is the next row."""
+    columns = [[(6.0 * c, 4.0 * r) for r in range(5)] for c in range(4)]
+    site = planted([("1", 0.0, [(str(k), list(reversed(row))) for k, row in enumerate(columns)])], order=_as_in_grid())
+    assert sorted(map(int, ids(AmongExtreme(side=side), site))) == sorted(expected)
 
 
-def test_the_row_exactly_one_spacing_behind_is_not_among_the_northernmost():
-    assert ids(AmongExtreme(side="north"), orchard()) == ["5", "10", "15", "20"]
+def _as_in_grid() -> list[int]:
+    """The trees of a grid in its file order, where rows are listed from their northern end."""
+    return [5 * c + 4 - r for c in range(4) for r in range(5)]
+
+
+def test_among_extreme_without_rows_goes_by_the_spacing_of_the_trees():
+    site = without_rows(site_of([(0, 0), (1, 5), (2, 9.9), (9, 10), (4, -6)]))
+    assert site.spacing_m == pytest.approx(5.099, abs=1e-3)
+    assert ids(AmongExtreme(side="north"), site) == ["2", "3", "4"]
+    assert ids(AmongExtreme(side="south"), site) == ["5"]
 
 
 @given(sites(), sides)
@@ -455,7 +470,7 @@ def test_attributes_compare_as_numbers_or_as_text_without_case(attributed, attri
         (Where(attribute="leaf_color", test="eq", value="yelow"), "did you mean.*values are.*brown"),
         (Where(attribute="leaf_color", test="lt", value="x"), "cannot be above or below"),
         (Where(attribute="leaf_color", test="lt", value=3.0), "not a number"),
-        (Where(attribute="age", test="gt", value=99.0), "nothing on this site is trees with age above 99"),
+        (Where(attribute="age", test="gt", value=99.0), "nothing on this site matches the trees whose age is above 99"),
         (Top(attribute="leaf_color", count=1), "not a number"),
         (Top(attribute="reward", count=5), "only 4"),
         (Top(attribute="age", count=0), "asked for"),
@@ -485,7 +500,7 @@ def test_zones_hold_what_stands_inside_or_on_their_edge_and_are_called_without_c
     site = orchard(zones=[("Wet Corner", "zone", square), ("pond", "keep_out", [(40, 0), (50, 0), (45, 5)])])
     assert ids(InZone(zone="wet corner"), site) == ["1", "2", "6", "7"]
     assert ids(InZone(zone="wet-corner", outside=True), site) == [str(k) for k in range(1, 21) if k not in (1, 2, 6, 7)]
-    with pytest.raises(PlaceError, match="inside zone pond"):
+    with pytest.raises(PlaceError, match="inside the zone “pond”"):
         ids(InZone(zone="pond"), site)
     with pytest.raises(PlaceError, match="did you mean 'Wet Corner'"):
         ids(InZone(zone="wet cornr"), site)
@@ -496,56 +511,3 @@ def test_one_place_is_one_place():
     assert resolve_one(TreeIs(tree="3"), site, at_start(site)).id == "3"
     with pytest.raises(PlaceError, match="20 places are meant"):
         resolve_one(Trees(), site, at_start(site))
-
-
-# Any selector
-
-leaves = st.sampled_from([Trees(), TreeIs(tree="1"), Here(), Marker(name="start"), Bound(label="b"), First(), Last()])
-
-
-def _around(inner: st.SearchStrategy[Selector]) -> st.SearchStrategy[Selector]:
-    corner = st.sampled_from(["nw", "ne", "se", "sw"])
-    return st.one_of(
-        st.builds(Half, side=sides, of=inner),
-        st.builds(Quarter, quarter=corner, of=inner),
-        st.builds(Edge, side=sides, of=inner),
-        st.builds(AmongExtreme, side=sides, of=inner),
-        st.builds(Extreme, side=sides, count=counts, of=inner),
-        st.builds(EdgeMiddle, side=sides, count=counts, of=inner),
-        st.builds(Middle, count=counts, of=inner),
-        st.builds(Corners, which=st.lists(corner, min_size=1, max_size=4).map(tuple), of=inner),
-        st.builds(Nearest, to=inner, count=counts, adjacent=st.booleans(), fresh=st.booleans(), of=inner),
-        st.builds(Farthest, origin=inner, count=counts, of=inner),
-        st.builds(Adjacent, near=inner, count=counts, of=inner),
-        st.builds(Other, of=inner),
-        st.builds(Excluding, places=inner, of=inner),
-        st.builds(Where, attribute=st.just("n"), test=st.just("ge"), value=st.just(2.0), of=inner),
-        st.builds(Top, attribute=st.just("n"), count=counts, of=inner),
-        st.builds(InZone, zone=st.just("z"), outside=st.booleans(), of=inner),
-        st.builds(Within, distance_m=st.floats(1, 100), to=inner, of=inner),
-        st.builds(Take, count=counts, of=inner),
-        st.builds(Union, parts=st.lists(inner, min_size=1, max_size=3).map(tuple)),
-    )
-
-
-@settings(max_examples=200)
-@given(
-    st.recursive(leaves, _around, max_leaves=5),
-    st.lists(st.tuples(st.integers(0, 9), st.integers(0, 9)), min_size=1, max_size=12),
-)
-def test_any_selector_gives_places_each_once_and_the_same_again_or_says_why_not(selector, points):
-    site = site_of(
-        points,
-        properties=[{"n": float(k)} for k in range(len(points))],
-        zones=[("z", "zone", [(-1, -1), (5, -1), (5, 5), (-1, 5)])],
-        markers={"start": (0, -3)},
-    )
-    bound = {"b": (site.trees[-1].place, place_at(2, 2))}
-    context = Context(here=site.start, visited=(site.trees[0].place.id,), bound=bound)
-    try:
-        found = resolve(selector, site, context)
-    except PlaceError:
-        return
-    assert found
-    assert len(set(found)) == len(found)
-    assert resolve(selector, site, context) == found

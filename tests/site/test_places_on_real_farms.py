@@ -7,21 +7,31 @@ from pathlib import Path
 
 import pytest
 
+from fieldhand.errors import PlaceError
 from fieldhand.site.geojson import load_site
 from fieldhand.site.places import resolve, resolve_one
 from fieldhand.task.selectors import (
+    Across,
     Adjacent,
+    AlongRow,
     AmongExtreme,
     Corners,
     EdgeMiddle,
+    EveryNth,
     Extreme,
     Farthest,
     First,
     Half,
+    InBlock,
+    InRow,
     Last,
     Middle,
     Nearest,
     Quarter,
+    RowOf,
+    Rows,
+    Spaced,
+    Successive,
     TreeIs,
 )
 from sites import at_start
@@ -82,3 +92,50 @@ def test_neighbours_and_far_trees_of_every_tree_hold(farm):
             first, second = ids(Adjacent(near=me, count=2), site)
             assert first == tree.place.id
             assert holds({"next_to": "A"}, second, label)
+
+
+def test_rows_hold_each_of_their_trees_once_and_count_alike_whichever_way_they_are_asked_for(farm):
+    site, _ = farm
+    planting = site.planting
+    if not planting.blocks:
+        with pytest.raises(PlaceError, match="no rows"):
+            ids(Rows(first="1", last="1"), site)
+        return
+    seen: list[str] = []
+    for block in planting.blocks:
+        for row in block.rows:
+            trees = [site.trees[k].place.id for k in row.trees]
+            alone = Rows(first=row.name, last=row.name, of=InBlock(block=block.name))
+            found = ids(alone, site)
+            seen += found
+            assert sorted(found) == sorted(trees)
+            assert sorted(ids(RowOf(origin=TreeIs(tree=trees[0])), site)) == sorted(trees)
+            assert set(ids(EveryNth(nth=3, of=alone), site)) == set(trees[::3])
+            assert set(ids(InRow(first=1, last=2, counted_from="usual", of=alone), site)) <= set(trees)
+    assert len(seen) == len(set(seen)) == sum(len(row.trees) for row in planting.rows)
+
+
+def test_relative_places_along_the_rows_are_where_a_person_would_walk(farm):
+    site, _ = farm
+    for row in site.planting.rows:
+        trees = [site.trees[k].place for k in row.trees]
+        for k, tree in enumerate(trees):
+            me = TreeIs(tree=tree.id)
+            down = resolve_one(AlongRow(trees=1, origin=me), site, at_start(site))
+            up = resolve_one(AlongRow(trees=1, towards="up", origin=me), site, at_start(site))
+            assert {down, up} == {trees[max(k - 1, 0)], trees[min(k + 1, len(trees) - 1)]} - ({tree} - {down, up})
+        block = site.planting.blocks[row.block]
+        if len(block.rows) > 1:
+            beside = resolve_one(Across(origin=TreeIs(tree=trees[0].id)), site, at_start(site))
+            assert beside.id not in {t.id for t in trees}
+        if len(trees) > 4:
+            five = ids(Successive(count=5, near=TreeIs(tree=trees[2].id)), site)
+            assert five in ([t.id for t in trees[:5]], [t.id for t in trees[4::-1]])
+
+
+def test_points_beside_a_row_stand_on_no_tree(farm):
+    site, _ = farm
+    found = resolve(Spaced(apart_m=4.0, near=TreeIs(tree=site.trees[0].place.id)), site, at_start(site))
+    assert len(found) > 1
+    if site.planting.blocks:
+        assert min(min((p.x - t.place.x) ** 2 + (p.y - t.place.y) ** 2 for t in site.trees) for p in found) > 0.7**2

@@ -57,7 +57,7 @@ def draw_map(task: Task, site: Site, plan: Plan, words: ReadBack) -> Figure:
     """The map with its words beside it, as a figure that belongs to no window."""
     figure = _two_columns(site)
     ax = figure.axes[0]
-    draw_site(ax, site, label_trees=False)
+    draw_site(ax, site)
     _close_up(figure)
     colours, size = colours_of(plan.stops), disc_size(plan.stops)
     for leg in plan.legs:

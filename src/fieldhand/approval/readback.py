@@ -6,16 +6,20 @@ will take.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fieldhand.approval.resolved import gather
 from fieldhand.approval.sentences import Line, say_exit, write_lines
 from fieldhand.forecast.estimate import BranchEstimate, Estimate, Figure
 from fieldhand.forecast.limits import reserve_percent
+from fieldhand.forecast.walk import Walk
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
+from fieldhand.site.places import notes
 from fieldhand.task.frames import Budget, Fault, Task
-from fieldhand.task.words import listed, say_count, say_duration, say_number
+from fieldhand.task.plan import selector_of
+from fieldhand.task.words import capitalised, listed, say_count, say_duration, say_number
 
 __all__ = ["Line", "ReadBack", "Totals", "read_back"]
 
@@ -53,6 +57,7 @@ class ReadBack:
         limits: Budgets and reserve, a sentence each.
         faults: What happens when something goes wrong, a sentence each.
         assumptions: What was assumed in reading the request.
+        notes: What a person may not expect of where it leads: a tie, the end of a row, trees of which nothing is known.
         totals: What it takes.
     """
 
@@ -60,6 +65,7 @@ class ReadBack:
     limits: tuple[str, ...]
     faults: tuple[str, ...]
     assumptions: tuple[str, ...]
+    notes: tuple[str, ...]
     totals: Totals
 
     def text_lines(self) -> tuple[str, ...]:
@@ -70,6 +76,7 @@ class ReadBack:
             *(f"  Limit: {text}" for text in self.limits),
             *(f"  {text}" for text in self.faults),
             *(f"  Assumed: {text}" for text in self.assumptions),
+            *(f"  Note: {text}" for text in self.notes),
             *(f"  {text}" for text in say_totals(self.totals)),
         )
 
@@ -82,12 +89,14 @@ def read_back(task: Task, site: Site, robot: RobotProfile, estimate: Estimate) -
         site, robot: Where and with what it will be carried out.
         estimate: Its estimate there; its branches tell what each selector comes to.
     """
-    found = gather(task, [branch.walk for branch in estimate.branches])
+    walks = [branch.walk for branch in estimate.branches]
+    found = gather(task, walks)
     return ReadBack(
         lines=write_lines(task, site, robot, found),
         limits=_limits(task, robot),
         faults=_faults(task, site),
         assumptions=task.command.assumptions,
+        notes=_notes(walks, site),
         totals=_totals(estimate),
     )
 
@@ -136,6 +145,19 @@ def _faults(task: Task, site: Site) -> tuple[str, ...]:
         where = "stop and wait there" if taken.then == "stay" else does[:1].lower() + does[1:]
         by_end.setdefault(where, []).append(_FAULTS[taken.fault])
     return tuple(f"If {listed(faults, 'or')}: {end}." for end, faults in by_end.items())
+
+
+def _notes(walks: Sequence[Walk], site: Site) -> tuple[str, ...]:
+    """Of each selector as it is met on the likeliest branch that has it, once a node."""
+    seen: set[str] = set()
+    found: dict[str, None] = {}
+    for step in (s for walked in walks for s in walked.steps):
+        selector = selector_of(step.node)
+        if selector is None or step.node.id in seen:
+            continue
+        seen.add(step.node.id)
+        found.update((capitalised(note).rstrip(".") + ".", None) for note in notes(selector, site, step.context))
+    return tuple(found)
 
 
 def _totals(estimate: Estimate) -> Totals:

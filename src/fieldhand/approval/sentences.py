@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from fieldhand.approval.clauses import say_act, say_condition
-from fieldhand.approval.phrases import say_places, say_selector
 from fieldhand.approval.resolved import Found
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
+from fieldhand.site.places.words import say_places, say_selector
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Task, Then
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Sequence, Stop, Try

@@ -6,7 +6,7 @@ import math
 import operator
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,7 @@ from fieldhand.site.kinds import phrase
 from fieldhand.site.model import Site
 from fieldhand.site.places.faults import no_such_attribute, no_such_value, not_a_number
 from fieldhand.site.places.spots import Spots
+from fieldhand.site.places.tell import Tell
 from fieldhand.task.selectors import Test, Top, Value, Where
 
 _COMPARE: Mapping[Test, Callable[[Any, Any], Any]] = {
@@ -34,7 +35,7 @@ class Column:
     Attributes:
         numbers: Its value where it is a number (or text that is one), else NaN.
         codes: Position of its value's text in ``texts``, -1 where the tree lacks the attribute.
-        texts: The distinct values as text, lower case.
+        texts: The distinct values as text, lower case; one that stands for all where every value is a number.
     """
 
     numbers: NDArray[np.float64]
@@ -42,7 +43,7 @@ class Column:
     texts: tuple[str, ...]
 
 
-def where(spots: Spots, selector: Where) -> Spots:
+def where(spots: Spots, selector: Where, tell: Tell) -> Spots:
     """Those whose attribute passes the test: as numbers if both sides are numbers, else as text without case."""
     column = column_of(spots.site, selector.attribute)
     mine = column_rows(column, spots)
@@ -61,18 +62,25 @@ def where(spots: Spots, selector: Where) -> Spots:
             raise no_such_value(spots.site, selector)
     elif math.isnan(wanted) or np.isnan(column.numbers).all():
         raise not_a_number(selector, "value" if math.isnan(wanted) else "attribute")
+    tell_lacking(int((mine.codes < 0).sum()), selector.attribute, tell)
     return spots.keep(passed)
 
 
-def ranked(spots: Spots, selector: Top) -> Spots:
-    """All that have a number there, the highest (or lowest) first; ties by file order."""
+def tell_lacking(count: int, attribute: str, tell: Tell) -> None:
+    """Say how many could not be judged since the file says nothing of them."""
+    if count:
+        have = "has no" if count == 1 else "have no"
+        tell.note(f"{count} {have} {attribute} and {'is' if count == 1 else 'are'} left out")
+
+
+def with_number(spots: Spots, selector: Top) -> tuple[Spots, NDArray[np.float64]]:
+    """All that have a number there, and their numbers, so that the lowest of these ranks first."""
     column = column_of(spots.site, selector.attribute)
     if np.isnan(column.numbers).all():
         raise not_a_number(selector, "attribute")
     numbers = column_rows(column, spots).numbers
-    have = spots.keep(~np.isnan(numbers))
-    numbers = numbers[~np.isnan(numbers)]
-    return have.keep(np.lexsort((have.file_order, numbers if selector.lowest else -numbers)))
+    known = ~np.isnan(numbers)
+    return spots.keep(known), numbers[known] if selector.lowest else -numbers[known]
 
 
 def column_rows(column: Column, spots: Spots) -> Column:
@@ -86,29 +94,37 @@ def column_rows(column: Column, spots: Spots) -> Column:
 
 
 def column_of(site: Site, attribute: str) -> Column:
-    """The attribute of this name, else the only one whose name differs in case, hyphens and underscores alone."""
+    """The attribute of this name, else the only one whose name differs in case, hyphens and underscores alone.
+
+    It is read from the trees when it is first asked for, and kept with the site.
+    """
     name = attribute
-    if name not in site.attributes:
+    if not any(name in tree.properties for tree in site.trees):
         alike = [known for known in site.attributes if phrase(known) == phrase(attribute)]
         if len(alike) != 1:
             raise no_such_attribute(site, attribute)
         name = alike[0]
-    columns: dict[str, Column] = vars(site).setdefault("_columns", {})
-    if name not in columns:
-        columns[name] = _column(site, name)
-    return columns[name]
+    key = ("attribute", name)
+    if key not in site.memory:
+        site.memory[key] = _column(site, name)
+    return cast(Column, site.memory[key])
 
 
 def _column(site: Site, name: str) -> Column:
-    numbers = np.full(len(site.trees), np.nan)
-    codes = np.full(len(site.trees), -1, dtype=np.intp)
+    values = [tree.properties.get(name) for tree in site.trees]
+    if all(type(value) is float for value in values):  # the usual case, and the quick one
+        numbers = np.array(values, dtype=np.float64)
+        return Column(np.where(np.isfinite(numbers), numbers, np.nan), np.zeros(len(values), dtype=np.intp), ("\0",))
+    kinds = [(type(value), value) for value in values]  # 1.0 and True are one key, and two values
+    distinct = list(dict.fromkeys(kinds))
     texts: dict[str, int] = {}
-    for k, tree in enumerate(site.trees):
-        value = tree.properties.get(name)
-        if value is not None:
-            numbers[k] = _number(value)
-            codes[k] = texts.setdefault(_text(value), len(texts))
-    return Column(numbers, codes, tuple(texts))
+    code = {kind: -1 if kind[1] is None else texts.setdefault(_text(kind[1]), len(texts)) for kind in distinct}
+    number = {kind: math.nan if kind[1] is None else _number(kind[1]) for kind in distinct}
+    return Column(
+        np.fromiter(map(number.__getitem__, kinds), dtype=np.float64, count=len(kinds)),
+        np.fromiter(map(code.__getitem__, kinds), dtype=np.intp, count=len(kinds)),
+        tuple(texts),
+    )
 
 
 def _number(value: Value) -> float:

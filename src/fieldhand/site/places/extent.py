@@ -8,11 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldhand.site.places.counted import OUTWARD
 from fieldhand.site.places.rectangle import named_corners, smallest_rectangle
 from fieldhand.site.places.spots import Spots
+from fieldhand.site.places.tell import Tell
 from fieldhand.task.selectors import CornerName, Side
 
-_OUTWARD: dict[Side, tuple[float, float]] = {"north": (0, 1), "east": (1, 0), "south": (0, -1), "west": (-1, 0)}
 _SIDE: dict[str, Side] = {"n": "north", "e": "east", "s": "south", "w": "west"}
 
 #: A tree that stands on a middle line to within a centimetre belongs to both sides.
@@ -47,7 +48,7 @@ class Extent:
 
 def outward(xy: NDArray[np.float64], side: Side) -> NDArray[np.float64]:
     """How far each point lies towards a side, in metres; only differences mean something."""
-    return np.asarray(xy @ np.array(_OUTWARD[side]))
+    return np.asarray(xy @ np.array(OUTWARD[side]))
 
 
 def half(spots: Spots, side: Side, ground: Spots) -> Spots:
@@ -61,15 +62,14 @@ def quarter(spots: Spots, name: CornerName, ground: Spots) -> Spots:
     return half(half(spots, _SIDE[name[0]], ground), _SIDE[name[1]], ground)
 
 
-def extreme(spots: Spots, side: Side, count: int) -> Spots:
-    """The ``count`` farthest to that side, the farthest first."""
-    return spots.ranked(-outward(spots.xy, side), count)
-
-
-def among_extreme(spots: Spots, side: Side) -> Spots:
-    """Less than one spacing from the farthest to that side. (A row exactly one spacing behind is the next row.)"""
+def among_extreme(spots: Spots, side: Side, tell: Tell) -> Spots:
+    """Less than one row spacing from the farthest to that side. (A row exactly one spacing behind is the next row.)"""
     reach = outward(spots.xy, side)
-    return spots.keep(reach > reach.max() - spots.site.spacing_m + _ON_THE_LINE_M) if len(spots) > 1 else spots
+    if len(spots) < 2:
+        return spots
+    spacing = _row_spacing_m(spots, int(reach.argmax()))
+    tell.rule = f"less than {spacing:.1f} m, one row spacing, from the {side}ernmost"
+    return spots.keep(reach > reach.max() - spacing + _ON_THE_LINE_M)
 
 
 def edge(spots: Spots, side: Side, ground: Spots) -> Spots:
@@ -86,17 +86,16 @@ def edge(spots: Spots, side: Side, ground: Spots) -> Spots:
     return spots.keep(outward(spots.xy, side) >= farthest - _ON_THE_LINE_M)
 
 
-def edge_middle(spots: Spots, side: Side, count: int, ground: Spots) -> Spots:
-    """On that edge of the ground, the nearest to the middle of that side of the smallest-area rectangle around it."""
+def from_edge_middle(spots: Spots, side: Side, ground: Spots) -> NDArray[np.float64]:
+    """Metres from the middle of that side of the smallest-area rectangle around the ground."""
     at = named_corners(smallest_rectangle(ground.xy))
     ends = [point for name, point in at.items() if _SIDE[name[0]] == side or _SIDE[name[1]] == side]
-    on_edge = edge(spots, side, ground)
-    return on_edge.ranked(np.hypot(*(on_edge.xy - (ends[0] + ends[1]) / 2).T), count)
+    return np.asarray(np.hypot(*(spots.xy - (ends[0] + ends[1]) / 2).T))
 
 
-def middle(spots: Spots, count: int, ground: Spots) -> Spots:
-    """Nearest to the centre of the ground's extent."""
-    return spots.ranked(np.hypot(*(spots.xy - Extent.around(ground).centre).T), count)
+def from_centre(spots: Spots, ground: Spots) -> NDArray[np.float64]:
+    """Metres from the centre of the ground's extent."""
+    return np.asarray(np.hypot(*(spots.xy - Extent.around(ground).centre).T))
 
 
 def corners(spots: Spots, which: Iterable[CornerName], ground: Spots) -> Spots:
@@ -104,6 +103,14 @@ def corners(spots: Spots, which: Iterable[CornerName], ground: Spots) -> Spots:
     at = named_corners(smallest_rectangle(ground.xy))
     found = [int(spots.ranked(np.hypot(*(spots.xy - at[name]).T), 1).index[0]) for name in which]
     return Spots(site=spots.site, index=np.array(list(dict.fromkeys(found)), dtype=np.intp), others=spots.others)
+
+
+def _row_spacing_m(spots: Spots, at: int) -> float:
+    """From row to row where that place stands; the spacing of the trees where it stands in no row or in a lone one."""
+    row = int(spots.row[at])
+    planting = spots.site.planting
+    spacing = planting.blocks[planting.rows[row].block].row_spacing_m if row >= 0 else float("nan")
+    return spacing if np.isfinite(spacing) else spots.site.spacing_m
 
 
 def _range_maximum(values: NDArray[np.float64], low: NDArray[np.intp], high: NDArray[np.intp]) -> NDArray[np.float64]:

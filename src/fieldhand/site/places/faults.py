@@ -10,7 +10,8 @@ from fieldhand.errors import PlaceError
 from fieldhand.site.features import clean
 from fieldhand.site.kinds import number_text
 from fieldhand.site.model import Site
-from fieldhand.task.selectors import InZone, Selector, Top, Value, Where
+from fieldhand.site.planting import Block
+from fieldhand.task.selectors import Rows, Selector, Top, Value, Where
 
 _MOST = 8
 _LONGEST = 40
@@ -27,12 +28,49 @@ def no_such_tree(site: Site, tree: str) -> PlaceError:
     )
 
 
-def no_such_zone(site: Site, selector: InZone) -> PlaceError:
-    """There is no zone of that name."""
-    names = list(dict.fromkeys(z.name for z in site.zones))
-    has = f"its zones are {listed(names)}" if names else "it has no zones"
+def no_such_zone(site: Site, zone: str) -> PlaceError:
+    """There is no zone of that name, nor a block."""
+    return _no_such_area(site, "zone", zone)
+
+
+def no_such_block(site: Site, block: str) -> PlaceError:
+    """There is no block of that name, nor a zone."""
+    return _no_such_area(site, "block", block)
+
+
+def no_rows(site: Site) -> PlaceError:
+    """The trees of this site stand in no rows."""
     return PlaceError(
-        f"there is no zone {short(selector.zone)!r}", where=site.name, advice=_alike(selector.zone, names) + has
+        "this site has no rows",
+        where=site.name,
+        advice=f"{site.planting.why or 'the trees stand in no rows'}; ask by ids, by the compass or by zones",
+    )
+
+
+def no_such_row(site: Site, blocks: Sequence[Block], said: str) -> PlaceError:
+    """None of these blocks has a row that is called so."""
+    from fieldhand.site.places.counted import block_words
+
+    names = list(dict.fromkeys(row.name for block in blocks for row in block.rows))
+    of = f" in {listed([block_words(b) for b in blocks])}" if len(site.planting.blocks) > 1 else ""
+    has = f"there are {len(names)} rows" if len(names) > 1 else "there is 1 row"
+    span = f": {listed(names)}" if len(names) <= _MOST else f", {short(names[0])} to {short(names[-1])}"
+    return PlaceError(
+        f"there is no row {short(said)!r}{of}",
+        where=site.name,
+        advice=("" if said.lstrip("-").isdecimal() else _alike(said, names)) + has + span,
+    )
+
+
+def row_in_several_blocks(site: Site, selector: Rows, blocks: Sequence[str]) -> PlaceError:
+    """Rows are called the same in several blocks."""
+    one = selector.first == selector.last or not (selector.first and selector.last)
+    said = f"row {short(selector.first or selector.last)}"
+    rows = said if one else f"rows {short(selector.first)} to {short(selector.last)}"
+    return PlaceError(
+        f"{rows} {'is' if one else 'are'} in {len(blocks)} blocks: {listed(blocks)}",
+        where=site.name,
+        advice=f'say of which block: "{rows} of {short(blocks[-1])}"',
     )
 
 
@@ -77,10 +115,10 @@ def not_a_number(selector: Where | Top, which: Literal["value", "attribute"]) ->
 
 def nothing(site: Site, selector: Selector, of: str = "") -> PlaceError:
     """This part of the selector leaves nothing."""
-    from fieldhand.site.places.words import words
+    from fieldhand.site.places.words import say_selector
 
     return PlaceError(
-        f"nothing on this site is {short(words(selector), 160)}" + (f" ({of})" if of else ""),
+        f"nothing on this site matches {short(say_selector(selector), 160)}" + (f" ({of})" if of else ""),
         where=site.name,
         advice="ask for other trees",
     )
@@ -88,11 +126,11 @@ def nothing(site: Site, selector: Selector, of: str = "") -> PlaceError:
 
 def too_few(site: Site, selector: Selector, wanted: int, there_are: int) -> PlaceError:
     """Fewer than were asked for."""
-    from fieldhand.site.places.words import words
+    from fieldhand.site.places.words import say_selector
 
     only = f"there {'is' if there_are == 1 else 'are'} only {there_are}" if there_are else "there are none"
     return PlaceError(
-        f"{wanted} {'is' if wanted == 1 else 'are'} asked for and {only}: {short(words(selector), 160)}",
+        f"{wanted} {'is' if wanted == 1 else 'are'} asked for and {only}: {short(say_selector(selector), 160)}",
         where=site.name,
         advice=f"ask for at most {there_are}" if there_are else "ask for other trees",
     )
@@ -115,6 +153,22 @@ def value_text(value: Value) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     return number_text(value) if isinstance(value, float) else str(value)
+
+
+def _no_such_area(site: Site, kind: Literal["zone", "block"], name: str) -> PlaceError:
+    zones = list(dict.fromkeys(z.name for z in site.zones))
+    blocks = [b.name for b in site.planting.blocks]
+    has = {
+        "zone": f"its zones are {listed(zones)}" if zones else "it has no zones",
+        "block": f"its blocks are {listed(blocks)}" if blocks else "it has no blocks",
+    }
+    other = {"zone": blocks, "block": zones}[kind]
+    others = f", its {'blocks' if kind == 'zone' else 'zones'} {listed(other)}" if other and len(blocks) != 1 else ""
+    return PlaceError(
+        f"there is no {kind} {short(name)!r}",
+        where=site.name,
+        advice=_alike(name, [*zones, *blocks] if kind == "zone" else [*blocks, *zones]) + has[kind] + others,
+    )
 
 
 def _alike(name: str, names: Iterable[str]) -> str:

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from fieldhand.site.places.spots import Spots
 
+Floats = NDArray[np.float64]
+
 #: "Next to" prefers the same row among those at most this much farther than the nearest one.
 _BAND = 1.5
 
 #: Two trees closer than this are one tree that the file holds twice.
 _SAME_SPOT_M = 0.01
+
+#: Neighbour after neighbour is looked for among this many around the first, before all others are looked at.
+_AROUND = 1_000
 
 #: Distances nearer to each other than this are a tie.
 _TIE_M = 2e-4
@@ -21,42 +28,39 @@ _TIE_M = 2e-4
 _STRAIGHT_COS = 0.87
 
 
-def distance_to(spots: Spots, origin: Spots) -> NDArray[np.float64]:
+def distance_to(spots: Spots, origin: Spots) -> Floats:
     """Metres from each place to the nearest of ``origin``, straight."""
     if len(origin) == 1:
         return np.asarray(np.hypot(*(spots.xy - origin.xy[0]).T))
-    return np.asarray(cKDTree(origin.xy).query(spots.xy)[0])
+    return np.asarray(_index(origin).query(spots.xy)[0])
 
 
 def apart_from(spots: Spots, origin: Spots) -> Spots:
     """Those that are not ``origin``, nor the same tree entered twice in the file (within a centimetre)."""
     left = spots.without(origin)
-    return left.keep(distance_to(left, origin) > _SAME_SPOT_M) if len(left) else left
-
-
-def nearest(spots: Spots, to: Spots, count: int) -> Spots:
-    """The nearest first."""
-    return spots.ranked(distance_to(spots, to), count)
+    if not len(left):
+        return left
+    if len(origin) == 1:
+        return left.keep(distance_to(left, origin) > _SAME_SPOT_M)
+    return left.keep(_index(origin).query(left.xy, distance_upper_bound=_SAME_SPOT_M)[0] > _SAME_SPOT_M)
 
 
 def next_to(spots: Spots, to: Spots, count: int) -> Spots:
     """The nearest, but of those at most half as far again as the nearest one the same row comes first."""
     away = distance_to(spots, to)
-    rows = _rows(to) - {""}
-    other_row = ~np.isin(_row_names(spots), list(rows)) if rows else np.zeros(len(spots), dtype=bool)
+    rows = to.row[to.row >= 0]
+    other_row = ~np.isin(spots.row, rows) if len(rows) else np.zeros(len(spots), dtype=bool)
     tier = np.where(away <= _BAND * away.min() + 1e-9, other_row, 2)
     order = np.lexsort((spots.file_order, np.round(away, 4), tier))
     return spots.keep(order[:count])
 
 
-def farthest(spots: Spots, origin: Spots, count: int) -> Spots:
-    """The farthest first, straight."""
-    return spots.ranked(-distance_to(spots, origin), count)
-
-
 def within(spots: Spots, to: Spots, distance_m: float) -> Spots:
     """At most that far, straight."""
-    return spots.keep(distance_to(spots, to) <= distance_m) if len(spots) else spots
+    if not len(spots) or len(to) == 1:
+        return spots.keep(distance_to(spots, to) <= distance_m) if len(spots) else spots
+    reach = distance_m + 1e-9  # the bound itself is left out
+    return spots.keep(_index(to).query(spots.xy, distance_upper_bound=reach)[0] <= distance_m)
 
 
 def side_by_side(spots: Spots, near: Spots, count: int) -> Spots:
@@ -68,35 +72,52 @@ def side_by_side(spots: Spots, near: Spots, count: int) -> Spots:
     """
     itself = np.isin(spots.index, near.index)
     seed = spots.ranked(np.where(itself, -1.0, distance_to(spots, near)), 1).index[0]
+    from_seed = np.hypot(*(spots.xy - spots.xy[np.flatnonzero(spots.index == seed)[0]]).T)
+    around = max(_AROUND, 4 * count**2)
+    if around < len(spots):  # look at those around first, and at all only where these do not decide it
+        radius = float(np.partition(from_seed, around)[around])
+        inside = np.flatnonzero(from_seed <= radius)
+        taken = _chain(spots.keep(inside), int(seed), count, radius)
+        if taken is not None:
+            return spots.keep(inside[taken])
+    taken = _chain(spots, int(seed), count, np.inf)
+    return spots.keep(taken if taken is not None else [])
+
+
+def _chain(spots: Spots, seed: int, count: int, radius: float) -> list[int] | None:
+    """Positions of neighbour after neighbour; None where one beyond the radius from the seed might come before them."""
     taken = [int(np.flatnonzero(spots.index == seed)[0])]
-    to_any = np.hypot(*(spots.xy - spots.xy[taken[0]]).T)
+    to_any = from_seed = np.hypot(*(spots.xy - spots.xy[taken[0]]).T)
     free = to_any > _SAME_SPOT_M
-    row_names = _row_names(spots)
+    row = spots.row
     while len(taken) < count and free.any():
         to_last = np.hypot(*(spots.xy - spots.xy[taken[-1]]).T)
         to_any = np.minimum(to_any, to_last)
         closest_any, closest_last = to_any[free].min(), to_last[free].min()
         away = to_last if closest_last <= _BAND * max(closest_any, spots.site.spacing_m) else to_any
-        band = np.flatnonzero(free & (away <= _BAND * away[free].min() + 1e-9))
-        other_row = row_names[band] != row_names[taken[0]]
+        reach = _BAND * away[free].min() + 1e-9
+        if from_seed[taken].max() + max(reach, closest_last) > radius:
+            return None
+        band = np.flatnonzero(free & (away <= reach))
+        other_row = row[band] != row[taken[0]]
         order = np.lexsort((band, np.round(away[band], 4), ~_straight_on(spots.xy, taken, band), other_row))
         taken.append(int(band[order[0]]))
         free &= np.hypot(*(spots.xy - spots.xy[taken[-1]]).T) > _SAME_SPOT_M
-    return spots.keep(taken)
+    return taken if len(taken) == count or np.isinf(radius) else None
 
 
 def short_drive(spots: Spots, here: NDArray[np.float64], count: int) -> Spots:
     """``count`` of them, one after another the nearest to the last, from here on."""
     xy, order = spots.xy, spots.file_order
     left = np.arange(len(spots))
-    index = cKDTree(xy)
+    index = _index(spots)
     gone = np.zeros(len(spots), dtype=bool)
     taken: list[int] = []
     at = here
     while len(taken) < count:
         if gone[left].sum() > max(32, len(left) // 2):  # else searches wade through those that are gone
             left = left[~gone[left]]
-            index = cKDTree(xy[left])
+            index = cKDTree(xy[left], balanced_tree=False, compact_nodes=False)
         found = _nearest_left(index, left, gone, at)
         away = np.round(np.hypot(*(xy[found] - at).T), 4)
         best = int(found[np.lexsort((order[found], away))[0]])
@@ -130,9 +151,6 @@ def _straight_on(xy: NDArray[np.float64], taken: list[int], band: NDArray[np.int
     return np.asarray(step @ line >= _STRAIGHT_COS * lengths)
 
 
-def _rows(spots: Spots) -> set[str]:
-    return {spots.site.trees[k].row for k in spots.index[spots.is_tree].tolist()}
-
-
-def _row_names(spots: Spots) -> NDArray[np.str_]:
-    return np.array([spots.site.trees[k].row if k >= 0 else "" for k in spots.index.tolist()])
+def _index(spots: Spots) -> Any:
+    """The places, to ask for the nearest; quickly made, since it is asked once."""
+    return cKDTree(spots.xy, balanced_tree=False, compact_nodes=False)

@@ -59,12 +59,14 @@ def _outer(xy: NDArray[np.float64]) -> NDArray[np.float64]:
     """The points without those well inside, which cannot be on the hull (Akl and Toussaint 1978)."""
     if len(xy) < 1000:
         return xy
+    x, y = np.ascontiguousarray(xy[:, 0]), np.ascontiguousarray(xy[:, 1])
     turn = np.arange(16) * (np.pi / 8)
-    frame = xy[np.argmax(xy @ np.array([np.cos(turn), np.sin(turn)]), axis=0)]
+    frame = xy[[int(np.argmax(c * x + s * y)) for c, s in zip(np.cos(turn), np.sin(turn), strict=True)]]
     inside = np.ones(len(xy), dtype=bool)
     for a, b in zip(frame, np.roll(frame, -1, axis=0), strict=True):
         if (a != b).any():
-            inside &= (b[0] - a[0]) * (xy[:, 1] - a[1]) > (b[1] - a[1]) * (xy[:, 0] - a[0])
+            east, north = b - a
+            inside &= east * y - north * x > east * a[1] - north * a[0]
     return np.asarray(xy[~inside])
 
 

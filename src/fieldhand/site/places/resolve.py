@@ -1,9 +1,9 @@
-"""Resolves a selector: each part works on the group that the part inside it left."""
+"""Resolves a selector: each part works on the group that the part inside it left, and says how."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass
 
 import numpy as np
 import shapely
@@ -12,44 +12,24 @@ from fieldhand.errors import PlaceError
 from fieldhand.site.context import Context
 from fieldhand.site.kinds import phrase
 from fieldhand.site.model import Place, Site
-from fieldhand.site.places import attributes, extent, neighbours
-from fieldhand.site.places.faults import listed, no_such_tree, no_such_zone, nothing, short, too_few
+from fieldhand.site.places import attributes, byrow, extent, hand, neighbours, ordering, points
+from fieldhand.site.places.faults import listed, no_such_block, no_such_tree, no_such_zone, nothing, short, too_few
+from fieldhand.site.places.nesting import bare_ground
 from fieldhand.site.places.spots import Spots, joined
-from fieldhand.site.places.words import words
-from fieldhand.task.selectors import (
-    Adjacent,
-    AmongExtreme,
-    Bound,
-    Corners,
-    Edge,
-    EdgeMiddle,
-    Excluding,
-    Extreme,
-    Farthest,
-    First,
-    Half,
-    Here,
-    InZone,
-    Last,
-    Marker,
-    Middle,
-    Nearest,
-    Other,
-    Quarter,
-    Selector,
-    Take,
-    Top,
-    TreeIs,
-    Trees,
-    Union,
-    Where,
-    Within,
-)
+from fieldhand.site.places.tell import Tell, rank
+from fieldhand.site.places.words import say_selector
+from fieldhand.task import selectors as s
 
-_Picks = Extreme | Middle | EdgeMiddle | Nearest | Farthest | Adjacent | Top | Take
+_Source = s.Trees | s.TreeIs | s.Marker | s.Here | s.Bound | s.Union
+_Region = s.Half | s.Quarter | s.Edge | s.AmongExtreme | s.InZone | s.InBlock | s.Within
+_Kept = s.Where | s.Other | s.Excluding | s.Rows | s.RowOf | s.InRow | s.EveryNth
+_Ranked = s.Extreme | s.Middle | s.EdgeMiddle | s.Nearest | s.Farthest | s.Top
+_Chained = s.Adjacent | s.Take | s.Successive
+
+_EXTENT_RULE = "halves and quarters go by the middle lines of the extent along true north"
 
 
-def resolve(selector: Selector, site: Site, context: Context) -> tuple[Place, ...]:
+def resolve(selector: s.Selector, site: Site, context: Context) -> tuple[Place, ...]:
     """The places that a selector names, in a fixed order, each once; never none.
 
     Args:
@@ -61,60 +41,112 @@ def resolve(selector: Selector, site: Site, context: Context) -> tuple[Place, ..
         PlaceError: A part of the selector finds nothing or too little, or names what the site does not have; the
             message says which part, and what there is.
     """
-    return _Resolution(site, context).spots(selector).places
+    return Resolution(site, context).spots(selector).places
 
 
-def resolve_one(selector: Selector, site: Site, context: Context) -> Place:
+def resolve_one(selector: s.Selector, site: Site, context: Context) -> Place:
     """The one place that a selector names.
 
     Raises:
         PlaceError: As :func:`resolve`, or the selector names several.
     """
-    places = resolve(selector, site, context)
-    if len(places) > 1:
-        raise PlaceError(
-            f"{len(places)} places are meant by {short(words(selector), 160)!r} where one is needed",
-            where=site.name,
-            advice=f"name one of them: {listed([p.id for p in places])}",
-        )
-    return places[0]
+    return Resolution(site, context).one(selector).places[0]
 
 
-class _Resolution:
-    """One call of :func:`resolve`."""
+@dataclass(frozen=True, eq=False)
+class Step:
+    """A part of a selector that was resolved."""
 
-    def __init__(self, site: Site, context: Context) -> None:
+    selector: s.Selector
+    tell: Tell
+    found: Spots
+
+
+class Resolution:
+    """One selector on one site at one moment. What comes up again, here or as a ground, is resolved once.
+
+    Attributes:
+        steps: The parts that were resolved, each after those inside it.
+    """
+
+    def __init__(self, site: Site, context: Context, known: dict[str, Step] | None = None) -> None:
         self.site = site
         self.context = context
+        self.steps: list[Step] = []
+        self._known: dict[str, Step] = {} if known is None else known
+        self._told: set[str] = set()
 
-    def spots(self, selector: Selector) -> Spots:
+    def spots(self, selector: s.Selector) -> Spots:
         """What the selector leaves; never nothing."""
-        match selector:
-            case Trees() | TreeIs() | Marker() | Here() | Bound() | Union():
-                return self._source(selector)
-            case Half() | Quarter() | Edge() | AmongExtreme() | InZone() | Within() | Where() | Other() | Excluding():
-                found = self._filtered(selector, self.spots(selector.of))
-                if not len(found):
-                    raise nothing(self.site, selector)
-                return found
-            case First() | Last() | Corners():
-                return self._named(selector, self.spots(selector.of))
-            case _:
-                return self._picked(selector, self.spots(selector.of))
+        key = repr(selector)  # not the selector: one that says 1.0 is equal to one that says True
+        if key not in self._known:
+            tell = Tell()
+            found = self._resolved(selector, tell)
+            if not len(found):
+                raise nothing(self.site, selector)
+            self._known[key] = Step(selector, tell, found)
+        if key not in self._told:
+            self._told.add(key)
+            self.steps.append(self._known[key])
+        return self._known[key].found
 
-    def _source(self, selector: Trees | TreeIs | Marker | Here | Bound | Union) -> Spots:
+    def one(self, selector: s.Selector) -> Spots:
+        """What the selector leaves, where that is to be one place."""
+        found = self.spots(selector)
+        if len(found) > 1:
+            raise PlaceError(
+                f"{len(found)} places are meant by {short(say_selector(selector), 160)!r} where one is needed",
+                where=self.site.name,
+                advice=f"name one of them: {listed([p.id for p in found.keep(slice(9)).places])}",
+            )
+        return found
+
+    def _resolved(self, selector: s.Selector, tell: Tell) -> Spots:
         match selector:
-            case Trees():
+            case s.Trees() | s.TreeIs() | s.Marker() | s.Here() | s.Bound() | s.Union():
+                return self._source(selector)
+            case s.AlongRow(origin=origin):
+                return hand.along_row(self.one(origin), selector, tell)
+            case s.Across(origin=origin):
+                return hand.across(self.one(origin), selector, tell)
+            case s.PointsIn():
+                return points.points_in(self.site, selector, tell)
+        of = self.spots(selector.of)
+        tell.candidates = len(of)
+        match selector:
+            case s.Half() | s.Quarter() | s.Edge() | s.AmongExtreme() | s.InZone() | s.InBlock() | s.Within():
+                return self._region(selector, of, tell)
+            case s.Where() | s.Other() | s.Excluding() | s.Rows() | s.RowOf() | s.InRow() | s.EveryNth():
+                return self._kept(selector, of, tell)
+            case s.First() | s.Last() | s.Corners():
+                return self._named(selector, of, tell)
+            case s.Extreme() | s.Middle() | s.EdgeMiddle() | s.Nearest() | s.Farthest() | s.Top():
+                return self._ranked(selector, of, tell)
+            case s.Adjacent() | s.Take() | s.Successive():
+                return self._chained(selector, of, tell)
+            case s.Ordered():
+                return ordering.ordered(of, selector, np.array(self.context.here.xy), tell)
+            case s.Nth(nth=number):
+                found = ordering.nth(of, number)
+                if not len(found):
+                    raise too_few(self.site, selector.of, abs(number), len(of))
+                return found
+            case s.Spaced(near=near):
+                return points.spaced(of, self.spots(near), selector, tell)
+
+    def _source(self, selector: _Source) -> Spots:
+        match selector:
+            case s.Trees():
                 return Spots.all_trees(self.site)
-            case TreeIs(tree=tree):
+            case s.TreeIs(tree=tree):
                 if tree not in self.site.by_id:
                     raise no_such_tree(self.site, tree)
                 return Spots.of(self.site, [self.site.by_id[tree].place])
-            case Marker(name=name):
+            case s.Marker(name=name):
                 return Spots.of(self.site, [self._marker(name)])
-            case Here():
+            case s.Here():
                 return Spots.of(self.site, [self.context.here])
-            case Bound(label=label):
+            case s.Bound(label=label):
                 places = self.context.bound.get(label, ())
                 if not places:
                     known = listed(list(self.context.bound)) or "nothing yet"
@@ -122,95 +154,131 @@ class _Resolution:
                         f"nothing is called {short(label)!r} at this point", advice=f"named so far: {known}"
                     )
                 return Spots.of(self.site, places)
-            case Union(parts=parts):
+            case s.Union(parts=parts):
                 if not parts:
                     raise nothing(self.site, selector, "it has no parts")
                 return joined(self.site, [self.spots(part) for part in parts])
 
-    def _filtered(
-        self,
-        selector: Half | Quarter | Edge | AmongExtreme | InZone | Within | Where | Other | Excluding,
-        of: Spots,
-    ) -> Spots:
+    def _region(self, selector: _Region, of: Spots, tell: Tell) -> Spots:
         match selector:
-            case Half(side=side):
+            case s.Half(side=side):
+                tell.rule = _EXTENT_RULE
                 return extent.half(of, side, self._ground(selector.of, of))
-            case Quarter(quarter=name):
+            case s.Quarter(quarter=name):
+                tell.rule = _EXTENT_RULE
                 return extent.quarter(of, name, self._ground(selector.of, of))
-            case Edge(side=side):
+            case s.Edge(side=side):
+                tell.rule = "no tree beside them stands farther out"
                 return extent.edge(of, side, self._ground(selector.of, of))
-            case AmongExtreme(side=side):
-                return extent.among_extreme(of, side)
-            case InZone():
-                return self._in_zone(selector, of)
-            case Within(distance_m=distance):
+            case s.AmongExtreme(side=side):
+                return extent.among_extreme(of, side, tell)
+            case s.InZone():
+                return self._in_zone(selector, of, tell)
+            case s.InBlock():
+                return self._in_block(selector, of, tell)
+            case s.Within(distance_m=distance):
                 if not (math.isfinite(distance) and distance > 0):
                     raise PlaceError(f"a distance of {distance:g} m holds no tree", advice="ask for more than 0 m")
                 to = self.spots(selector.to)
                 return neighbours.within(neighbours.apart_from(of, to), to, distance)
-            case Where():
-                return attributes.where(of, selector)
-            case Other():
-                return of.without(self._visited())
-            case Excluding(places=places):
-                return of.without(self.spots(places))
 
-    def _named(self, selector: First | Last | Corners, of: Spots) -> Spots:
+    def _kept(self, selector: _Kept, of: Spots, tell: Tell) -> Spots:
         match selector:
-            case First() | Last():
-                marker = self.site.markers.get("start" if isinstance(selector, First) else "end")
+            case s.Where():
+                return attributes.where(of, selector, tell)
+            case s.Other():
+                return of.without(self._visited())
+            case s.Excluding(places=places):
+                return of.without(self.spots(places))
+            case s.Rows():
+                return byrow.in_rows(of, selector, self._ground(selector.of, of), tell)
+            case s.RowOf(origin=origin):
+                return byrow.row_of(of, self.spots(origin), selector, tell)
+            case s.InRow():
+                return byrow.in_row(of, selector, tell)
+            case s.EveryNth():
+                return byrow.every_nth(of, selector, tell)
+
+    def _named(self, selector: s.First | s.Last | s.Corners, of: Spots, tell: Tell) -> Spots:
+        match selector:
+            case s.First() | s.Last():
+                end = "start" if isinstance(selector, s.First) else "end"
+                marker = self.site.markers.get(end)
                 if marker is not None:
-                    return neighbours.nearest(of, Spots.of(self.site, [marker]), 1)
+                    tell.rule = f"that is the tree nearest to the {end} marker"
+                    away = neighbours.distance_to(of, Spots.of(self.site, [marker]))
+                    return rank(of, away, 1, tell, f"the nearest to the {end} marker")
                 order = of.file_order
-                return of.keep([int(order.argmin() if isinstance(selector, First) else order.argmax())])
-            case Corners(which=which):
+                tell.rule = f"the site has no {end} marker, so the file's order counts"
+                return of.keep([int(order.argmin() if isinstance(selector, s.First) else order.argmax())])
+            case s.Corners(which=which):
                 if not which:
                     raise nothing(self.site, selector, "it names no corner")
-                return extent.corners(of, which, self._ground(selector.of, of, attributes_too=False))
+                tell.rule = "corners are those of the smallest rectangle around the trees"
+                return extent.corners(of, which, self._ground(selector.of, of, picks_too=False))
 
-    def _picked(self, selector: _Picks, of: Spots) -> Spots:
+    def _ranked(self, selector: _Ranked, of: Spots, tell: Tell) -> Spots:
+        """The first few by one measure."""
         candidates, to = self._candidates(selector, of)
-        if selector.count < 1 or len(candidates) < selector.count:
-            raise too_few(self.site, selector, selector.count, len(candidates))
+        tell.candidates = len(candidates)
         count = selector.count
+        if count < 1 or len(candidates) < count:
+            raise too_few(self.site, selector, count, len(candidates))
         match selector:
-            case Extreme(side=side):
-                return extent.extreme(candidates, side, count)
-            case Middle():
-                return extent.middle(candidates, count, self._ground(selector.of, of, attributes_too=False))
-            case EdgeMiddle(side=side):
-                return extent.edge_middle(candidates, side, count, self._ground(selector.of, of))
-            case Nearest(adjacent=True):
+            case s.Extreme(side=side):
+                return rank(candidates, -extent.outward(candidates.xy, side), count, tell, f"the {side}ernmost")
+            case s.Middle():
+                away = extent.from_centre(candidates, self._ground(selector.of, of, picks_too=False))
+                return rank(candidates, away, count, tell, "the nearest to the middle")
+            case s.EdgeMiddle(side=side):
+                away = extent.from_edge_middle(candidates, side, self._ground(selector.of, of))
+                return rank(candidates, away, count, tell, f"the nearest to the middle of the {side} edge")
+            case s.Nearest(adjacent=True):
+                tell.rule = "of the nearest ones those in the same row come first"
                 return neighbours.next_to(candidates, to, count)
-            case Nearest():
-                return neighbours.nearest(candidates, to, count)
-            case Farthest():
-                return neighbours.farthest(candidates, to, count)
-            case Adjacent():
-                found = neighbours.side_by_side(candidates, to, count)
-                if len(found) < count:
-                    raise too_few(self.site, selector, count, len(found))
-                return found
-            case Top():
-                return candidates.keep(np.arange(count))
-            case Take():
-                return neighbours.short_drive(candidates, np.array(self.context.here.xy), count)
+            case s.Nearest():
+                return rank(candidates, neighbours.distance_to(candidates, to), count, tell, "the nearest")
+            case s.Farthest():
+                return rank(candidates, -neighbours.distance_to(candidates, to), count, tell, "the farthest")
+            case s.Top(attribute=name, lowest=lowest):
+                known, numbers = attributes.with_number(candidates, selector)
+                attributes.tell_lacking(len(of) - len(known), name, tell)
+                return rank(known, numbers, count, tell, f"the {'lowest' if lowest else 'highest'} {phrase(name)}")
 
-    def _candidates(self, selector: _Picks, of: Spots) -> tuple[Spots, Spots]:
-        """What a pick may choose from, and what it is measured from (of no meaning where it is not)."""
+    def _candidates(self, selector: _Ranked, of: Spots) -> tuple[Spots, Spots]:
+        """What may be chosen from, and what it is measured from (of no meaning where it is not)."""
         match selector:
-            case Nearest(to=origin) | Farthest(origin=origin):
+            case s.Nearest(to=origin) | s.Farthest(origin=origin):
                 to = self.spots(origin)
                 left = neighbours.apart_from(of, to)
-                return (left.without(self._visited()) if isinstance(selector, Nearest) and selector.fresh else left), to
-            case Adjacent(near=near):
-                return of, self.spots(near)
-            case EdgeMiddle(side=side):
+                fresh = isinstance(selector, s.Nearest) and selector.fresh
+                return (left.without(self._visited()) if fresh else left), to
+            case s.EdgeMiddle(side=side):
                 return extent.edge(of, side, self._ground(selector.of, of)), of
-            case Top():
-                return attributes.ranked(of, selector), of
+            case s.Top():
+                return attributes.with_number(of, selector)[0], of
             case _:
                 return of, of
+
+    def _chained(self, selector: _Chained, of: Spots, tell: Tell) -> Spots:
+        """Several, each of which hangs on the ones before."""
+        near = of if isinstance(selector, s.Take) else self.spots(selector.near)
+        count = selector.count
+        if count < 1 or len(of) < count:
+            raise too_few(self.site, selector, count, len(of))
+        match selector:
+            case s.Take():
+                tell.rule = "from the place in hand to the nearest, from there to the next nearest"
+                return neighbours.short_drive(of, np.array(self.context.here.xy), count)
+            case s.Adjacent():
+                tell.rule = "each is a neighbour of one before it, in the same row first"
+                found = neighbours.side_by_side(of, near, count)
+            case s.Successive():
+                found = hand.successive(of, near, selector, tell)
+        if len(found) < count:
+            there_are = len(found) if isinstance(selector, s.Adjacent) else hand.longest_run(of)
+            raise too_few(self.site, selector, count, there_are)
+        return found
 
     def _marker(self, name: str) -> Place:
         """A missing start is the first tree of the file, a missing end is the start; a charger has no stand-in."""
@@ -222,42 +290,43 @@ class _Resolution:
             )
         return self.site.start if name == "start" else self.site.home("return_to_end", self.context.here)
 
-    def _in_zone(self, selector: InZone, of: Spots) -> Spots:
-        zones = [z for z in self.site.zones if phrase(z.name) == phrase(selector.zone)]
-        exact = [z for z in zones if z.name == selector.zone]
+    def _in_zone(self, selector: s.InZone, of: Spots, tell: Tell) -> Spots:
+        """By the zones of that name; where there are none, by the block of that name."""
+        inside = self._inside(selector.zone, of)
+        if inside is None:
+            if byrow.find_block(self.site, selector.zone) is None:
+                raise no_such_zone(self.site, selector.zone)
+            tell.rule = "that is a block of the site"
+            inside = byrow.in_block(of, s.InBlock(block=selector.zone))
+        return of.without(inside) if selector.outside else inside
+
+    def _in_block(self, selector: s.InBlock, of: Spots, tell: Tell) -> Spots:
+        """By the block of that name; where there is none, by the zones of that name."""
+        if byrow.find_block(self.site, selector.block) is not None:
+            return byrow.in_block(of, selector)
+        inside = self._inside(selector.block, of)
+        if inside is None:
+            raise no_such_block(self.site, selector.block)
+        tell.rule = "that is a zone of the site"
+        return inside
+
+    def _inside(self, name: str, of: Spots) -> Spots | None:
+        """Those inside the zones of that name; None where there are none."""
+        zones = [z for z in self.site.zones if phrase(z.name) == phrase(name)]
+        exact = [z for z in zones if z.name == name]
         if not zones:
-            raise no_such_zone(self.site, selector)
+            return None
         inside = np.zeros(len(of), dtype=bool)
         for zone in exact or zones:
             shapely.prepare(zone.polygon)
             inside |= shapely.intersects_xy(zone.polygon, of.xy[:, 0], of.xy[:, 1])
-        return of.keep(~inside if selector.outside else inside)
+        return of.keep(inside)
 
     def _visited(self) -> Spots:
         known = [self.site.by_id[t].index for t in self.context.visited if t in self.site.by_id]
         return Spots(site=self.site, index=np.array(known, dtype=np.intp))
 
-    def _ground(self, selector: Selector, of: Spots, *, attributes_too: bool = True) -> Spots:
+    def _ground(self, selector: s.Selector, of: Spots, *, picks_too: bool = True) -> Spots:
         """The group whose extent counts: ``of`` before visited trees (and attributes and picks) are taken out."""
-        bare = bare_ground(selector, attributes_too=attributes_too)
-        return of if bare == selector else self.spots(bare)
-
-
-def bare_ground(selector: Selector, *, attributes_too: bool = True) -> Selector:
-    """The selector without the parts that leave the geometry as it is.
-
-    Args:
-        selector: Any.
-        attributes_too: Also without attribute tests; else only without what depends on the mission so far.
-    """
-    match selector:
-        case Other() | Excluding() | Take():
-            return bare_ground(selector.of, attributes_too=attributes_too)
-        case Where() | Top() if attributes_too:
-            return bare_ground(selector.of, attributes_too=attributes_too)
-        case Where() | Half() | Quarter() | Edge() | AmongExtreme() | InZone() | Within():
-            return replace(selector, of=bare_ground(selector.of, attributes_too=attributes_too))
-        case Union(parts=parts):
-            return Union(parts=tuple(bare_ground(p, attributes_too=attributes_too) for p in parts))
-        case _:
-            return selector
+        bare = bare_ground(selector, picks_too=picks_too)
+        return of if bare == selector else Resolution(self.site, self.context, self._known).spots(bare)

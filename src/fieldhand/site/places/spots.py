@@ -69,9 +69,24 @@ class Spots:
         trees = self.site.trees
         return tuple(trees[k].place if k >= 0 else self.others[-1 - k] for k in self.index.tolist())
 
-    def keep(self, positions: ArrayLike) -> Spots:
+    def keep(self, positions: ArrayLike | slice) -> Spots:
         """Those at these positions in this order, or where a mask of booleans is true."""
-        return replace(self, index=self.index[np.asarray(positions)])
+        where = positions if isinstance(positions, slice) else np.asarray(positions)
+        if not isinstance(where, slice) and not where.size:
+            where = where.astype(np.intp)
+        return replace(self, index=self.index[where])
+
+    @property
+    def row(self) -> Indices:
+        """For each place the position of its row in the site's :attr:`~.Planting.rows`; -1 for what is in no row."""
+        planted = self.site.planting.row_of
+        return np.where(self.is_tree, planted[self.index * self.is_tree], -1)
+
+    @property
+    def rank_in_row(self) -> Indices:
+        """For each place which tree of its row it is from the row's usual end, from 0; -1 for what is in no row."""
+        planted = self.site.planting.rank
+        return np.where(self.is_tree, planted[self.index * self.is_tree], -1)
 
     def without(self, taken: Spots) -> Spots:
         """Those that are not among ``taken``."""
@@ -85,7 +100,7 @@ class Spots:
         """The ``count`` with the smallest key, smallest first; equal to a tenth of a millimetre is a tie, and ties go
         by file order."""
         rounded = np.round(key, 4)
-        if count < len(rounded) // 4:  # order only what can come first
+        if 0 < count < len(rounded) // 4:  # order only what can come first
             worst = np.partition(rounded, count - 1)[count - 1]
             few = np.flatnonzero(rounded <= worst)
         else:

@@ -99,7 +99,7 @@ const badge = (stop) => el("span", { class: stop.branch ? "badge other" : "badge
 function rest(back) {
   const part = (name, lines) =>
     lines.length ? [el("h3", {}, name), el("ul", { class: "plain" }, lines.map((line) => el("li", {}, sentence(line))))] : [];
-  return [...part("Assumed", back.assumptions), ...part("Limits", back.limits), ...part("When something goes wrong", back.faults)];
+  return [...part("Assumed", back.assumptions), ...part("To note", back.notes), ...part("Limits", back.limits), ...part("When something goes wrong", back.faults)];
 }
 
 function totals({ metres, seconds, percent, captures, branches }) {
