@@ -102,3 +102,16 @@ def test_numbers_that_are_none_and_texts_that_are_none_are_refused() -> None:
         answer = browser().call("POST", "/api/site", content=body, headers=headers)
         assert answer.status_code in (400, 422), body[:80]
         assert answer.json()["what"]
+
+
+def test_the_map_holds_the_rows_with_the_trees_that_stand_in_them() -> None:
+    site = load_demo()
+    features = browser().post("/api/site", {"site": "demo"}).json()["map"]["features"]
+    rows = [f for f in features if f["properties"]["role"] == "row"]
+    assert [r["properties"]["name"] for r in rows] == [r.name for r in site.planting.rows]
+    for feature, row in zip(rows, site.planting.rows, strict=True):
+        first = site.trees[int(row.trees[0])].place
+        assert feature["geometry"]["coordinates"][0] == pytest.approx([first.lon, first.lat], abs=1e-7)
+        assert len(feature["geometry"]["coordinates"]) == len(row.trees)
+    named = {f["properties"]["id"]: f["properties"]["row"] for f in features if f["properties"]["role"] == "tree"}
+    assert named == {t.place.id: t.row for t in site.trees}

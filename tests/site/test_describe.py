@@ -1,12 +1,14 @@
-"""The summary of a site: right figures, and lines whose number and length do not grow with the site."""
+"""What is said of a site: right figures in plain words, bounded however large the site, the same facts for programs."""
 
 from __future__ import annotations
 
+import json
 import math
 
 import pytest
 
-from fieldhand.site.describe import describe, summary_lines
+from fieldhand.site.describe import describe, report_lines, report_record, row_table, summary_lines
+from fieldhand.site.describe.rows import direction_words
 from fieldhand.site.geojson import open_site
 from sites import grid, orchard, site_of
 
@@ -58,3 +60,79 @@ def test_a_hostile_site_says_no_more_than_a_small_one():
 
 def test_a_site_of_one_tree_is_described():
     assert summary_lines(site_of([(0.0, 0.0)]))[0].startswith("Site test site: 1 tree,")
+
+
+def test_blocks_and_rows_are_told_with_their_way_and_spacing():
+    site = orchard(4, 5, row_names=[f"R{k // 5 + 1}" for k in range(20)])
+    (block,) = describe(site).blocks
+    assert (block.rows, block.trees, block.missing, block.counted_from) == (4, 20, 0, "west")
+    assert block.bearing_deg % 180 == pytest.approx(0.0, abs=1e-6)
+    assert (block.row_spacing_m, block.tree_spacing_m) == (pytest.approx(6.0), pytest.approx(4.0))
+    said = "\n".join(report_lines(site))
+    assert "4 rows running north-south, 6.0 m apart, trees 4.0 m apart, 20 trees; named in the file." in said
+    assert "ows count from west to east, trees in a row from north to south." in said
+
+
+def test_the_table_has_each_row_with_its_ends_and_its_empty_positions():
+    gone = {7, 8}  # two next to each other in the second row from the west
+    points = [xy for k, xy in enumerate(grid(3, 6)) if k not in gone]
+    site = site_of(points, row_names=[str(int(x / 6) + 1) for x, _ in points])
+    rows = row_table(site)
+    assert [(r.name, r.trees, r.missing) for r in rows] == [("1", 6, 0), ("2", 4, 2), ("3", 6, 0)]
+    for row in rows:
+        first, last = site.by_id[row.first].place, site.by_id[row.last].place
+        assert first.y > last.y
+        assert row.length_m == pytest.approx(first.y - last.y)
+    listed = [line.split() for line in report_lines(site) if line.split()[:1] == ["2"]]
+    assert listed[0][:3] == ["2", "4", "2"]
+
+
+@pytest.mark.parametrize(
+    ("bearing", "words"),
+    [
+        (0.0, "north-south"),
+        (7.0, "north-south (7 degrees east of north)"),
+        (179.2, "north-south (1 degree west of north)"),
+        (45.0, "north-east to south-west (45 degrees east of north)"),
+        (90.0, "east-west"),
+        (95.0, "east-west (5 degrees south of east)"),
+        (85.0, "east-west (5 degrees north of east)"),
+        (135.0, "north-west to south-east (45 degrees west of north)"),
+    ],
+)
+def test_the_way_of_rows_is_told_by_the_compass(bearing, words):
+    assert direction_words(bearing) == words
+
+
+def test_few_rows_are_listed_and_many_only_where_they_are_asked_for():
+    few, many = orchard(20, 5), orchard(60, 5)
+    assert len([line for line in report_lines(few) if line.startswith("  ")]) == 21
+    short, long = report_lines(many), report_lines(many, all_rows=True)
+    assert len(short) < 12
+    assert any("--rows" in line for line in short)
+    assert len([line for line in long if line.startswith("  ")]) == 61
+
+
+def test_trees_in_no_row_are_named_with_the_reason():
+    site = site_of([*grid(4, 8), (70.0, 70.0)], row_names=[str(k // 8) for k in range(32)] + [""])
+    s = describe(site)
+    assert (s.in_no_row, s.in_no_row_ids) == (1, ("33",))
+    (line,) = (line for line in report_lines(site) if "in no row" in line)
+    assert line.endswith(": 33.")
+    assert site.planting.why[1:] in line
+
+
+def test_a_site_without_rows_says_so_and_why():
+    site = site_of([(0, 0), (40, 3), (11, 29), (33, 41), (7, 60), (64, 13)])
+    assert not describe(site).blocks
+    (line,) = (line for line in report_lines(site) if line.startswith("Rows"))
+    assert line == f"Rows: none; {site.planting.why}."
+
+
+def test_programs_get_the_same_facts_as_json_without_nan():
+    site = orchard(2, 5)
+    record = json.loads(json.dumps(report_record(site), allow_nan=False))
+    assert record["rows"] == len(record["row_table"]) == len(site.planting.rows)
+    assert record["trees"] == 10
+    lone = site_of([(0.0, 4.0 * k) for k in range(6)], row_names=["only"] * 6)
+    assert json.loads(json.dumps(report_record(lone), allow_nan=False))["blocks"][0]["row_spacing_m"] is None

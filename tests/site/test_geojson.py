@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import os
 from pathlib import Path
 
 import pytest
@@ -11,7 +12,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.errors import SiteError
-from fieldhand.site import geojson
 from fieldhand.site.generate import demo_orchard, to_text
 from fieldhand.site.geojson import demo_path, load_site, open_site, parse_site
 from sites import area, collection, point, read, square
@@ -56,10 +56,10 @@ def test_markers_are_known_by_any_of_their_words(properties, marker):
 
 
 def test_landmarks_are_no_trees_and_the_site_says_so():
-    site = read(point(LON, LAT), point(LON, LAT, kind="gate"), point(LON, LAT, kind="Water Well"))
+    site = read(point(LON, LAT), point(LON, LAT, kind="Pump"), point(LON, LAT, kind="Water Well"))
     assert len(site.trees) == 1
     assert site.markers == {}
-    assert "gate" in site.notes[0]
+    assert "pump" in site.notes[0]
     assert "water well" in site.notes[0]
 
 
@@ -245,7 +245,10 @@ TREE = point(LON, LAT)
             collection(TREE, point(LON + 1e-2, LAT, kind="end"), area(square(LON, LAT), kind="fence")),
             "outside the boundary",
         ),
-        (collection(TREE, crs={"properties": {"name": "EPSG:32611"}}), "not WGS 84"),
+        (collection(TREE, crs={"properties": {"name": "EPSG:32611"}}), "does not say WGS 84"),
+        (collection(TREE, crs={"properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}}), "delete that member"),
+        (collection(TREE, crs={"properties": {"name": "EPSG:4326"}}), "RFC 7946"),
+        (collection(TREE, crs=None), "RFC 7946"),
         (b'{"type":"FeatureCollection","features":' + b"[" * 200_000, "nested too deeply"),
     ],
 )
@@ -253,14 +256,15 @@ def test_what_cannot_be_used_gets_one_line_with_where_and_what_to_do(data, says)
     assert says in fault_of(data)
 
 
-def test_a_file_that_is_too_big_is_not_read(monkeypatch, tmp_path):
+def test_a_file_of_200_megabytes_is_refused_before_it_is_read(tmp_path, monkeypatch):
     path = tmp_path / "big.geojson"
     path.write_bytes(collection(TREE))
-    monkeypatch.setattr(geojson, "MAX_BYTES", 20)
-    with pytest.raises(SiteError, match="more than"):
+    os.truncate(path, 200_000_000)
+    monkeypatch.setattr(Path, "read_bytes", lambda _: pytest.fail("it was read"))
+    with pytest.raises(SiteError, match="200 MB, more than 100 MB"):
         load_site(path)
     with pytest.raises(SiteError, match="more than"):
-        parse_site(collection(TREE), name="x")
+        parse_site(bytes(100_000_001), name="x")
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,8 @@
 """Sites, plans and driven paths as GeoJSON, in degrees WGS 84, each feature with a ``role``.
 
-``tree``, ``marker``, ``zone``: the site. ``path``, ``stop``: a plan, the legs with the node that drives them, the stops
-with their number and the nodes that go or act there. ``leg``, ``capture``, ``end``: what was driven, with times in
-seconds since the mission began.
+``zone``, ``row``, ``tree``, ``gate``, ``marker``: the site. ``path``, ``stop``: a plan, the legs with the node that
+drives them, the stops with their number and the nodes that go or act there. ``leg``, ``capture``, ``end``: what was
+driven, with times in seconds since the mission began.
 """
 
 from __future__ import annotations
@@ -26,17 +26,33 @@ _DECIMALS = 7
 
 
 def site_map(site: Site) -> Feature:
-    """A site: zones, then trees, then markers."""
+    """A site: zones, rows, trees, gates, markers."""
     zones = [
         _feature("Polygon", _rings(zone.polygon, site.projection), role="zone", name=zone.name, kind=zone.kind)
         for zone in site.zones
     ]
-    trees = [
-        _at(tree.place, role="tree", id=tree.place.id, row=tree.row, attributes=dict(tree.properties))
-        for tree in site.trees
+    planting = site.planting
+    rows = [
+        _feature(
+            "LineString",
+            _degrees(site.xy[row.trees].tolist(), site.projection),
+            role="row",
+            name=row.name,
+            block=planting.blocks[row.block].name,
+            known=row.known,
+            confidence=round(row.confidence, 3),
+        )
+        for row in planting.rows
+        if len(row.trees) > 1
     ]
+    names = [row.name for row in planting.rows] + [""]  # the last is that of trees in no row, whose row is -1
+    trees = [
+        _at(tree.place, role="tree", id=tree.place.id, row=names[row], attributes=dict(tree.properties))
+        for tree, row in zip(site.trees, planting.row_of.tolist(), strict=True)
+    ]
+    gates = [_at(gate.place, role="gate", name=gate.place.id, width_m=gate.width_m) for gate in site.gates]
     markers = [_at(place, role="marker", name=name) for name, place in site.markers.items()]
-    return _collection([*zones, *trees, *markers])
+    return _collection([*zones, *rows, *trees, *gates, *markers])
 
 
 def plan_map(site: Site, estimate: Estimate) -> Feature:

@@ -1,4 +1,4 @@
-"""Where planned drives cross what they must not, found from the zones and the rows alone: a second opinion on the drives."""
+"""Where planned drives cross what they must not, found from zones and rows alone: a second opinion on the drives."""
 
 from __future__ import annotations
 

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from fieldhand.cli.bench import bench
 from fieldhand.cli.check import check
 from fieldhand.cli.demo import demo
 from fieldhand.cli.plan import plan
@@ -28,6 +29,7 @@ def assemble(*others: Callable[..., None]) -> typer.Typer:
     commands: tuple[Callable[..., None], ...] = (plan, check, run, site, robot, demo, *others)
     for command in commands:
         app.command()(command)
+    app.add_typer(bench)
     app.callback()(_top)
     return app
 

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from fieldhand.cli.options import JsonOption, PictureOption, RobotOption, SiteOption
+from fieldhand.cli.options import JsonOption, LenientOption, PictureOption, RobotOption, SiteOption
 
 
 def check(
@@ -15,6 +15,7 @@ def check(
     site: SiteOption,
     robot: RobotOption = "husky",
     picture: PictureOption = None,
+    lenient: LenientOption = False,
     json: JsonOption = False,
 ) -> None:
     """Check a Task against a site and a robot; exit status 1 if anything forbids approval."""
@@ -22,7 +23,7 @@ def check(
     from fieldhand.cli import show
     from fieldhand.cli.inputs import open_ground
 
-    ground = open_ground(site, robot)
+    ground = open_ground(site, robot, lenient=lenient)
     read, document = mission.read_task(task, ground.robot)
     review = mission.review(read, ground.site, ground.robot, document=document)
     if picture is not None:

@@ -23,8 +23,8 @@ class Ground:
     robot: RobotProfile
 
 
-def open_ground(site: str, robot: str) -> Ground:
-    """Open both.
+def open_ground(site: str, robot: str, *, lenient: bool = False) -> Ground:
+    """Open both; of a leniently read site say what was left out.
 
     Raises:
         SiteError, ProfileError: One of them cannot be used.
@@ -32,7 +32,11 @@ def open_ground(site: str, robot: str) -> Ground:
     from fieldhand.robot.loader import load_robot
     from fieldhand.site.geojson import open_site
 
-    return Ground(site=open_site(site), robot=load_robot(robot))
+    opened = open_site(site, lenient=lenient)
+    if lenient:
+        for said in opened.notes:
+            note(said)
+    return Ground(site=opened, robot=load_robot(robot))
 
 
 def plan_or_read(words: str, ground: Ground, planner: str, transcript: Path | None) -> tuple[Task, bytes | None, str]:

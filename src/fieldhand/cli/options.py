@@ -7,8 +7,13 @@ from typing import Annotated
 
 import typer
 
-SiteOption = Annotated[
-    str, typer.Option("--site", help="GeoJSON file of the site, or 'demo' for the built-in orchard.")
+SITE_HELP = (
+    "File of the site, or 'demo' for the built-in orchard: GeoJSON or CSV; with the extra gis also"
+    " Shapefile, GeoPackage, KML, KMZ."
+)
+SiteOption = Annotated[str, typer.Option("--site", help=SITE_HELP)]
+LenientOption = Annotated[
+    bool, typer.Option("--lenient", help="Load what is sound of the site and say what was left out.")
 ]
 RobotOption = Annotated[str, typer.Option("--robot", help="Built-in robot (husky, amiga) or a profile file (YAML).")]
 PlannerOption = Annotated[

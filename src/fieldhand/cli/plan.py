@@ -7,7 +7,15 @@ from typing import Annotated
 
 import typer
 
-from fieldhand.cli.options import JsonOption, PictureOption, PlannerOption, RobotOption, SiteOption, TranscriptOption
+from fieldhand.cli.options import (
+    JsonOption,
+    LenientOption,
+    PictureOption,
+    PlannerOption,
+    RobotOption,
+    SiteOption,
+    TranscriptOption,
+)
 
 
 def plan(
@@ -18,6 +26,7 @@ def plan(
     output: Annotated[Path | None, typer.Option("-o", "--output", help="Where to write the Task (XML).")] = None,
     picture: PictureOption = None,
     transcript: TranscriptOption = None,
+    lenient: LenientOption = False,
     json: JsonOption = False,
 ) -> None:
     """Plan a request: what was understood, where, and what it will take."""
@@ -29,7 +38,7 @@ def plan(
     from fieldhand.planning.planner import Planned
     from fieldhand.task.codec import encode
 
-    ground = open_ground(site, robot)
+    ground = open_ground(site, robot, lenient=lenient)
     chosen = mission.make_planner(planner, os.environ, transcript)
     outcome = mission.plan(request, ground.site, ground.robot, chosen)
     if not isinstance(outcome, Planned):

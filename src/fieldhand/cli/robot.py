@@ -44,8 +44,8 @@ def _lines(profile: RobotProfile) -> list[str]:
     energy = profile.energy
     lines = [
         f"{profile.name}: {profile.description}",
-        f"  drives {profile.speed_m_s:g} m/s, {profile.width_m:g} m wide, works {profile.standoff_m:g} m from a trunk; battery {energy.capacity_j / 3.6e6:.2f} kWh,"
-        f" {energy.reserve_percent:g} % kept in reserve",
+        f"  drives {profile.speed_m_s:g} m/s, {profile.width_m:g} m wide, works {profile.standoff_m:g} m from a trunk",
+        f"  battery {energy.capacity_j / 3.6e6:.2f} kWh, {energy.reserve_percent:g} % kept in reserve",
         f"  a leg of d metres costs d·({profile.leg_cost.alpha:g} + Exp({1 - profile.leg_cost.alpha:g}))",
         "Actions",
     ]

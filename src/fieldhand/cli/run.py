@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from fieldhand.cli.options import JsonOption, PlannerOption, RobotOption, SiteOption, TranscriptOption
+from fieldhand.cli.options import JsonOption, LenientOption, PlannerOption, RobotOption, SiteOption, TranscriptOption
 
 
 def run(
@@ -27,6 +27,7 @@ def run(
     yes: Annotated[bool, typer.Option("--yes", "-y", help="Approve without asking.")] = False,
     by: Annotated[str | None, typer.Option("--by", help="Who approves; else the user who is logged in.")] = None,
     transcript: TranscriptOption = None,
+    lenient: LenientOption = False,
     json: JsonOption = False,
 ) -> None:
     """Plan, approve and carry out a mission in simulation, then judge it."""
@@ -36,7 +37,7 @@ def run(
     from fieldhand.execution.world import World, load_world
 
     pace = parse_speed(speed)
-    ground = open_ground(site, robot)
+    ground = open_ground(site, robot, lenient=lenient)
     given = World() if world is None else load_world(world)
     mission.check_world(given, ground.site, ground.robot)
     task, document, planned_by = plan_or_read(request, ground, planner, transcript)

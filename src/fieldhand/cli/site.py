@@ -2,34 +2,66 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fieldhand.cli.options import JsonOption, PictureOption
+from fieldhand.cli.options import SITE_HELP, JsonOption, LenientOption, PictureOption, RobotOption
+
+if TYPE_CHECKING:
+    from fieldhand.site.drives import Drives
+    from fieldhand.site.model import Site
 
 
 def site(
-    file: Annotated[str, typer.Argument(help="GeoJSON file of the site, or 'demo' for the built-in orchard.")],
+    file: Annotated[str, typer.Argument(help=SITE_HELP)],
     picture: PictureOption = None,
+    all_rows: Annotated[bool, typer.Option("--rows", help="List every row, however many there are.")] = False,
+    geojson: Annotated[
+        Path | None,
+        typer.Option("--geojson", help="Write the site with rows, aisles and drivable lines to this GeoJSON file."),
+    ] = None,
+    robot: RobotOption = "husky",
+    lenient: LenientOption = False,
     json: JsonOption = False,
 ) -> None:
-    """Say what was understood of a site: trees, markers, zones, attributes."""
-    from dataclasses import asdict
-
+    """Say what was understood of a site: blocks, rows, where a robot can drive, markers, zones, attributes."""
     from fieldhand.cli import show
-    from fieldhand.site.describe import describe, summary_lines
+    from fieldhand.robot.loader import builtin_names, load_robot
+    from fieldhand.site.describe import describe_driving, report_lines, report_record
+    from fieldhand.site.describe.figures import MOST_NOTES
+    from fieldhand.site.drives import Drives
     from fieldhand.site.geojson import open_site
 
-    opened = open_site(file)
+    opened = open_site(file, lenient=lenient)
+    profile = load_robot(robot)
+    drives = Drives(opened, profile.width_m / 2, profile.standoff_m)
+    others = {name: load_robot(name).width_m for name in builtin_names()}
+    driving = describe_driving(opened, drives, robot=profile.name, others=others)
+    if geojson is not None:
+        _write_geojson(opened, drives, geojson)
     if picture is not None:
         from fieldhand.site.drawing import save_site_picture
 
-        save_site_picture(opened, picture)
+        save_site_picture(opened, picture, drives.network(), driving)
     if json:
-        show.print_json(asdict(describe(opened)))
+        hashes = {"sha256": opened.sha256, "content_sha256": opened.content_sha256}
+        show.print_json(report_record(opened, driving) | hashes | {"notes": list(opened.notes)})
         return
-    for line in summary_lines(opened):
+    for line in report_lines(opened, driving, all_rows=all_rows):
         show.out.print(line)
+    for note in opened.notes[MOST_NOTES:] if lenient else ():
+        show.out.print(f"Note: {note}.")  # whoever loads what is sound is told of all that is not
     if picture is not None:
         show.out.print(f"Map: {picture}")
+    if geojson is not None:
+        show.out.print(f"GeoJSON: {geojson}")
+
+
+def _write_geojson(site: Site, drives: Drives, path: Path) -> None:
+    from fieldhand.cli.inputs import write_file
+    from fieldhand.site.formats.document import site_document
+    from fieldhand.site.generate import to_text
+
+    write_file(path, to_text(site_document(site, drives.network())).encode())

@@ -58,7 +58,7 @@ def draw_path_picture(site: Site, events: Sequence[Event]) -> Figure:
     figure = _figure(site, len(titles))
     ways = driven_ways(site, events)
     for k, (ax, quantity) in enumerate(zip(figure.axes, titles, strict=True)):
-        draw_site(ax, site, label_trees=False)
+        draw_site(ax, site)
         _draw_ways(ax, ways)
         if quantity:
             _draw_readings(figure, ax, site, good, quantity, _MAPS[k % len(_MAPS)])
@@ -87,7 +87,7 @@ def driven_ways(site: Site, events: Sequence[Event]) -> list[Floats]:
 def _figure(site: Site, maps: int) -> Figure:
     """A figure with one axes for each map, side by side, in two rows where there are more than three."""
     figure = site_figure(site)
-    draw_site(figure.axes[0], site, label_trees=False)
+    draw_site(figure.axes[0], site)
     (x0, x1), (y0, y1) = figure.axes[0].get_xlim(), figure.axes[0].get_ylim()
     figure.clear()
     columns = maps if maps <= 3 else math.ceil(maps / 2)

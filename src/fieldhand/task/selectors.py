@@ -22,7 +22,13 @@ Value = str | float | bool
 CountedFrom = Literal["usual", "north", "east", "south", "west"]
 Towards = Literal["down", "up", "north", "east", "south", "west"]
 Order = Literal[
-    "west_to_east", "east_to_west", "north_to_south", "south_to_north", "nearest_first", "farthest_first", "rows",
+    "west_to_east",
+    "east_to_west",
+    "north_to_south",
+    "south_to_north",
+    "nearest_first",
+    "farthest_first",
+    "rows",
     "attribute",
 ]
 

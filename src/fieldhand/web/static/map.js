@@ -12,7 +12,7 @@ export class FieldMap {
     this.root = $("map");
     this.info = $("map-info");
     this.layers = {};
-    for (const name of ["zones", "trees", "paths", "driven", "markers", "stops", "captures", "robot"]) {
+    for (const name of ["zones", "rows", "trees", "paths", "driven", "markers", "stops", "captures", "robot"]) {
       this.layers[name] = svg("g", { class: `layer-${name}` });
       this.root.append(this.layers[name]);
     }
@@ -37,6 +37,7 @@ export class FieldMap {
     for (const feature of features) {
       const { role } = feature.properties;
       if (role === "zone") this.#zone(feature);
+      if (role === "row") this.#row(feature);
       if (role === "tree") this.#tree(feature, radius);
       if (role === "marker") this.#marker(feature);
     }
@@ -171,6 +172,10 @@ export class FieldMap {
     const d = geometry.coordinates.map((ring) => `M${this.#points(ring)}Z`).join("");
     const called = properties.name || properties.kind.replaceAll("_", " ");
     this.layers.zones.append(svg("path", { d, class: `zone ${properties.kind}`, "fill-rule": "evenodd" }, svg("title", {}, called)));
+  }
+
+  #row(feature) {
+    this.layers.rows.append(svg("polyline", { class: "tree-row", points: this.#points(feature.geometry.coordinates) }));
   }
 
   #tree({ geometry, properties }, radius) {

@@ -1,0 +1,105 @@
+"""Aisles in figures: how wide the lanes between neighbouring rows are."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from shapely.geometry import LineString, Point
+from shapely.geometry.base import BaseGeometry
+
+from fieldhand.site.describe.rows import shortened
+from fieldhand.site.model import Site
+from fieldhand.site.planting import Block, Row
+
+Points = NDArray[np.float64]
+
+#: Beside a row there may be several that stand in one line, such as those that a pond cuts: so many rows are looked at.
+_AHEAD = 4
+
+
+@dataclass(frozen=True, kw_only=True)
+class AisleSummary:
+    """The lane between two neighbouring rows.
+
+    Attributes:
+        name: As the drivable network calls it.
+        block: Name of the block.
+        between: Names of the two rows.
+        width_m: From tree line to tree line, as it usually is.
+        narrowest_m: The same where they come nearest to each other.
+    """
+
+    name: str
+    block: str
+    between: tuple[str, str]
+    width_m: float
+    narrowest_m: float
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Lane:
+    """Two rows that stand abreast with nothing between them."""
+
+    block: Block
+    one: Row
+    two: Row
+
+
+def aisle_table(site: Site) -> tuple[AisleSummary, ...]:
+    """Every aisle, block after block."""
+    return tuple(aisle_summary(site, lane) for lane in lanes(site))
+
+
+def lanes(site: Site) -> Iterator[Lane]:
+    """The pairs of neighbouring rows, block after block, in the order of the rows."""
+    for block in site.planting.blocks:
+        turn = math.radians(block.bearing_deg)
+        along = np.array([math.sin(turn), math.cos(turn)])
+        at = [site.xy[row.trees] @ along for row in block.rows]
+        low, high = np.array([a.min() for a in at]), np.array([a.max() for a in at])
+        for k in range(len(block.rows)):
+            beside: list[int] = []
+            for j in range(k + 1, min(k + 1 + _AHEAD, len(block.rows))):
+                reach = np.minimum(high[[k, *beside]], high[j]) - np.maximum(low[[k, *beside]], low[j])
+                abreast = reach > -0.5 * block.tree_spacing_m
+                if abreast[0] and not abreast[1:].any():
+                    yield Lane(block=block, one=block.rows[k], two=block.rows[j])
+                if abreast[0]:
+                    beside.append(j)
+
+
+def lane_name(site: Site, lane: Lane) -> str:
+    """An aisle by the rows that it lies between, as the drivable network calls it: "aisle between rows 3 and 4"."""
+    where = f" of block {lane.block.name}" if len(site.planting.blocks) > 1 else ""
+    return f"aisle between rows {lane.one.name} and {lane.two.name}{where}"
+
+
+def lane_middle(site: Site, lane: Lane) -> Points:
+    """Points half way between the rows, one for each tree of the shorter row. Shape (n, 2)."""
+    short, long = sorted((lane.one, lane.two), key=lambda row: len(row.trees))
+    ways = shapely.shortest_line(shapely.points(site.xy[short.trees]), _line(site, long))
+    middle: Points = shapely.get_coordinates(shapely.line_interpolate_point(ways, 0.5, normalized=True))
+    return middle
+
+
+def aisle_summary(site: Site, lane: Lane) -> AisleSummary:
+    """One aisle in figures."""
+    a, b = _line(site, lane.one), _line(site, lane.two)
+    short, other = (lane.one, b) if len(lane.one.trees) <= len(lane.two.trees) else (lane.two, a)
+    return AisleSummary(
+        name=lane_name(site, lane),
+        block=shortened(lane.block.name),
+        between=(shortened(lane.one.name), shortened(lane.two.name)),
+        width_m=float(np.median(shapely.distance(shapely.points(site.xy[short.trees]), other))),
+        narrowest_m=float(shapely.distance(a, b)),
+    )
+
+
+def _line(site: Site, row: Row) -> BaseGeometry:
+    points = site.xy[row.trees]
+    return LineString(points) if len(points) > 1 else Point(points[0])

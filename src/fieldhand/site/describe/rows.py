@@ -1,0 +1,206 @@
+"""Blocks and rows in figures and in words."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from fieldhand.site.features import clean
+from fieldhand.site.model import Site
+from fieldhand.site.planting import Block, Known, Row
+
+_LONGEST = 40
+
+
+@dataclass(frozen=True, kw_only=True)
+class RowSummary:
+    """A row.
+
+    Attributes:
+        block: Name of its block.
+        number: In the block, from 1.
+        trees: That stand in it.
+        missing: Planting positions between its ends at which no tree stands.
+        length_m: From its first tree to its last.
+        first, last: Ids of its trees at its usual end and at its other end.
+        known: Whether the file names it.
+        confidence: 0 to 1.
+    """
+
+    block: str
+    name: str
+    number: int
+    trees: int
+    missing: int
+    length_m: float
+    first: str
+    last: str
+    known: Known
+    confidence: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class BlockSummary:
+    """A block.
+
+    Attributes:
+        bearing_deg: Of the rows, clockwise from true north, 0 up to 180.
+        row_spacing_m: None for a single row.
+        tree_spacing_m: Along the rows; None where no row has two trees.
+        counted_from: The side from which its rows are numbered.
+        trees: In its rows.
+        missing: Planting positions between the ends of its rows at which no tree stands.
+        shortest, longest: Its rows with the fewest and the most trees.
+        known: Whether the file names its rows.
+        confidence: That its rows run this way, 0 to 1.
+    """
+
+    name: str
+    rows: int
+    bearing_deg: float
+    row_spacing_m: float | None
+    tree_spacing_m: float | None
+    counted_from: str
+    trees: int
+    missing: int
+    shortest: RowSummary
+    longest: RowSummary
+    known: Known
+    confidence: float
+
+
+def row_table(site: Site) -> tuple[RowSummary, ...]:
+    """Every row, block after block."""
+    return tuple(_row(site, block, row) for block in site.planting.blocks for row in block.rows)
+
+
+def block_summary(site: Site, block: Block) -> BlockSummary:
+    """One block in figures."""
+    lengths = [len(row.trees) for row in block.rows]
+    shortest, longest = int(np.argmin(lengths)), int(np.argmax(lengths))
+    spacing, apart = block.row_spacing_m, block.tree_spacing_m
+    return BlockSummary(
+        name=shortened(block.name),
+        rows=len(block.rows),
+        bearing_deg=block.bearing_deg,
+        row_spacing_m=None if math.isnan(spacing) else spacing,
+        tree_spacing_m=apart if max(lengths) > 1 and math.isfinite(apart) else None,
+        counted_from="north" if block.runs_east_west else "west",
+        trees=sum(lengths),
+        missing=sum(_missing(row) for row in block.rows),
+        shortest=_row(site, block, block.rows[shortest]),
+        longest=_row(site, block, block.rows[longest]),
+        known=block.rows[0].known,
+        confidence=block.confidence,
+    )
+
+
+def block_words(block: BlockSummary, *, several: bool) -> str:
+    """A block in a sentence that a grower can check in the field."""
+    count = "a single row" if block.rows == 1 else f"{block.rows:,} rows"
+    runs = f"{count} running {direction_words(block.bearing_deg)}"
+    parts = [runs]
+    if block.row_spacing_m is not None:
+        parts.append(f"{block.row_spacing_m:.1f} m apart")
+    if block.tree_spacing_m is not None:
+        parts.append(f"trees {block.tree_spacing_m:.1f} m apart")
+    gaps = f", {_positions(block.missing)} empty" if block.missing else ""
+    parts.append(f"{block.trees:,} tree{'s' * (block.trees != 1)}{gaps}")
+    name = block_name(block.name)
+    said = f"{name}: {', '.join(parts)}" if several else _capital(", ".join(parts))
+    return f"{said}; {_known_words(block.known, block.confidence)}."
+
+
+def counting_words(block: BlockSummary) -> str:
+    """From where rows and the trees in them are counted."""
+    if block.counted_from == "north":
+        return "rows count from north to south, trees in a row from west to east"
+    return "rows count from west to east, trees in a row from north to south"
+
+
+def block_name(name: str) -> str:
+    """A block by its name, with the word where the name alone does not say what it is."""
+    return name if len(name) > 3 and not name.isdigit() else f"Block {name}"
+
+
+def direction_words(bearing_deg: float) -> str:
+    """The way of a row: "north-south (7 degrees east of north)"."""
+    bearing = bearing_deg % 180.0
+    axis = round(bearing / 45.0) % 4
+    name = ("north-south", "north-east to south-west", "east-west", "north-west to south-east")[axis]
+    if axis == 2:
+        off = round(bearing - 90.0)
+        return name if off == 0 else f"{name} ({_degrees(off)} {'south' if off > 0 else 'north'} of east)"
+    off = round(bearing if bearing <= 90.0 else bearing - 180.0)
+    return name if off == 0 else f"{name} ({_degrees(off)} {'east' if off > 0 else 'west'} of north)"
+
+
+def table_lines(rows: Sequence[RowSummary], *, several: bool) -> list[str]:
+    """Rows as a table, with a head."""
+    inferred = any(row.known == "inferred" for row in rows)
+    head = (
+        ["block"] * several + ["row", "trees", "missing", "length", "from tree", "to tree"] + ["confidence"] * inferred
+    )
+    body = [
+        [shortened(row.block, 16)] * several
+        + [
+            shortened(row.name, 16),
+            f"{row.trees:,}",
+            f"{row.missing:,}" if row.missing else "-",
+            f"{row.length_m:.1f} m",
+        ]
+        + [shortened(row.first, 16), shortened(row.last, 16)]
+        + [f"{row.confidence:.2f}" if row.known == "inferred" else "named"] * inferred
+        for row in rows
+    ]
+    widths = [max(len(line[k]) for line in [head, *body]) for k in range(len(head))]
+    return ["  ".join(cell.rjust(width) for cell, width in zip(line, widths, strict=True)) for line in [head, *body]]
+
+
+def shortened(text: str, longest: int = _LONGEST) -> str:
+    """Text from a file, printable and not longer than that."""
+    text = clean(text[: 4 * longest])
+    return text if len(text) <= longest else text[: longest - 3] + "..."
+
+
+def _row(site: Site, block: Block, row: Row) -> RowSummary:
+    first, last = int(row.trees[0]), int(row.trees[-1])
+    return RowSummary(
+        block=shortened(block.name),
+        name=shortened(row.name),
+        number=row.number,
+        trees=len(row.trees),
+        missing=_missing(row),
+        length_m=float(np.hypot(*(site.xy[last] - site.xy[first]))),
+        first=site.trees[first].place.id,
+        last=site.trees[last].place.id,
+        known=row.known,
+        confidence=row.confidence,
+    )
+
+
+def _missing(row: Row) -> int:
+    """Trees that stand in one position (one entered twice, two planted together) fill it once."""
+    taken = np.unique(row.slots)
+    return int(taken[-1] - taken[0] + 1 - len(taken))
+
+
+def _known_words(known: Known, confidence: float) -> str:
+    if known == "file":
+        return "named in the file"
+    return f"seen in how the trees stand, confidence {confidence:.2f}"
+
+
+def _positions(count: int) -> str:
+    return f"{count:,} position{'s' * (count != 1)}"
+
+
+def _degrees(off: int) -> str:
+    return f"{abs(off)} degree{'s' * (abs(off) != 1)}"
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]

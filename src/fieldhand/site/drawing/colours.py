@@ -1,0 +1,25 @@
+"""Colours of the pictures of a site."""
+
+from __future__ import annotations
+
+TREE = "#5b8c5a"
+#: Neighbouring rows stay apart for readers who see red and green, or blue and yellow, alike.
+ROWS = ("#0072b2", "#e69f00", "#117a65", "#d55e00")
+#: The same for letters, which are thin.
+ROW_INKS = ("#005f96", "#946500", "#0e6453", "#a54800")
+NO_ROW = "#a6a6a6"
+FAINT_ROW = "#9db79a"
+
+INK = "#2f2f2f"
+QUIET_INK = "#6f6f6f"
+GROUND, FENCE = "#f7f4ea", "#8a7f66"
+KEEP_OUT_FILL, KEEP_OUT_EDGE = "#bfd7e6", "#4d7c99"
+ZONE_FILL, ZONE_EDGE, ZONE_INK = "#efdcae", "#c19a3f", "#8a6a1c"
+
+LANE, HEADLAND, LINK = "#b9ad94", "#8f7f5f", "#a39a8a"
+NARROW = "#b3261e"
+GATE = "#6a3d9a"
+UNREACHABLE = "#b3261e"
+
+#: Symbol, colour and word of each marker.
+MARKERS = {"start": ("^", "#1a7f37", "start"), "end": ("s", "#b3261e", "end"), "charger": ("D", "#d48806", "charger")}

@@ -1,0 +1,169 @@
+"""Names on a picture: each where it covers no other name, no symbol and no tree, or not at all."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.backends.backend_agg import RendererAgg
+
+XY = tuple[float, float]
+Box = tuple[float, float, float, float]
+
+_GAP = 1.5
+
+
+class Labels:
+    """Writes names and remembers where they stand. Sizes are in points, measured from the lower left of the figure.
+
+    Args:
+        ax: Written on; its position and limits must not change any more.
+        dots: Where the trees are, in metres, shape (n, 2).
+        dot_radius: Of a tree's dot.
+    """
+
+    def __init__(self, ax: Axes, dots: NDArray[np.float64], dot_radius: float) -> None:
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from scipy.spatial import cKDTree
+
+        self._ax = ax
+        figure = ax.get_figure(root=True)
+        assert figure is not None  # noqa: S101  (an Axes without a figure cannot be drawn at all)
+        self._renderer: RendererAgg = FigureCanvasAgg(figure).get_renderer()  # type: ignore[no-untyped-call]
+        self._points_a_pixel = 72.0 / figure.dpi
+        self._trees = cKDTree(np.asarray(ax.transData.transform(dots)) * self._points_a_pixel)
+        self._radius = dot_radius
+        self._taken = np.empty((0, 4))
+        (west, east), (south, north) = ax.get_xlim(), ax.get_ylim()
+        self._frame = (*self.at((west, south)), *self.at((east, north)))
+
+    def at(self, xy: XY) -> XY:
+        """Where a place in metres is drawn."""
+        x, y = self._ax.transData.transform(xy)
+        return (float(x) * self._points_a_pixel, float(y) * self._points_a_pixel)
+
+    def size(self, text: str, font: float, *, bold: bool = False) -> XY:
+        """Width and height of a text on one line."""
+        from matplotlib.font_manager import FontProperties
+
+        weight = "bold" if bold else "normal"
+        width, _, _ = self._renderer.get_text_width_height_descent(  # type: ignore[no-untyped-call]
+            text.replace("$", r"\$"), FontProperties(size=font, weight=weight), False
+        )
+        return (float(width) * self._points_a_pixel, 1.05 * font)
+
+    def keep_free(self, at: XY, half: float) -> None:
+        """Let no name stand where a symbol is drawn."""
+        self._take([(at[0] - half, at[1] - half, at[0] + half, at[1] + half)])
+
+    def keep_part_free(self, x0: float, y0: float, x1: float, y1: float) -> None:
+        """Let no name stand in a part of the axes, given in parts of its width and height."""
+        left, bottom, right, top = self._frame
+        wide, tall = right - left, top - bottom
+        self._take([(left + x0 * wide, bottom + y0 * tall, left + x1 * wide, bottom + y1 * tall)])
+
+    def put(
+        self,
+        text: str,
+        spots: Sequence[XY],
+        *,
+        font: float,
+        colour: str,
+        bold: bool = False,
+        turn_deg: float = 0.0,
+        over_trees: bool = False,
+        zorder: float = 7,
+        gid: str = "name",
+    ) -> bool:
+        """Write a name about the first of the spots where there is room for it.
+
+        Args:
+            text: On one line.
+            spots: Where its middle may be, the best first.
+            font: Size of the letters.
+            colour: Of the letters.
+            bold: Their weight.
+            turn_deg: Anticlockwise.
+            over_trees: Whether it may cover trees where no spot is free of them.
+            zorder: Which of what overlaps lies on top.
+            gid: What kind of name it is, for whoever looks for it on the figure.
+
+        Returns:
+            Whether there was room.
+        """
+        size = self.size(text, font, bold=bold)
+        for trees_too in (False, True) if over_trees else (False,):
+            for spot in spots:
+                boxes = _boxes(spot, size, turn_deg)
+                if all(self._free(box, trees_too) for box in boxes):
+                    self._take(boxes)
+                    self._write(text, spot, font, colour, bold, turn_deg, zorder, gid)
+                    return True
+        return False
+
+    def _take(self, boxes: Sequence[Box]) -> None:
+        self._taken = np.vstack([self._taken, np.array(boxes)])
+
+    def _free(self, box: Box, over_trees: bool) -> bool:
+        x0, y0, x1, y1 = box
+        left, bottom, right, top = self._frame
+        if x0 < left or y0 < bottom or x1 > right or y1 > top:
+            return False
+        other = self._taken
+        apart = (
+            (other[:, 0] >= x1 + _GAP)
+            | (other[:, 2] <= x0 - _GAP)
+            | (other[:, 1] >= y1 + _GAP)
+            | (other[:, 3] <= y0 - _GAP)
+        )
+        if not apart.all():
+            return False
+        if over_trees:
+            return True
+        middle, half = ((x0 + x1) / 2, (y0 + y1) / 2), ((x1 - x0) / 2, (y1 - y0) / 2)
+        near = self._trees.query_ball_point(middle, math.hypot(*half) + self._radius)
+        away = np.maximum(np.abs(self._trees.data[near] - middle) - half, 0.0)
+        return not (np.hypot(away[:, 0], away[:, 1]) < self._radius).any()
+
+    def _write(
+        self, text: str, spot: XY, font: float, colour: str, bold: bool, turn_deg: float, zorder: float, gid: str
+    ) -> None:
+        from matplotlib.patheffects import withStroke
+
+        x, y = self._ax.transData.inverted().transform(np.array(spot) / self._points_a_pixel)
+        self._ax.text(
+            *(x, y, text.replace("$", r"\$")),
+            ha="center",
+            va="center",
+            rotation=turn_deg,
+            rotation_mode="anchor",
+            fontsize=font,
+            fontweight="bold" if bold else "normal",
+            color=colour,
+            path_effects=[withStroke(linewidth=0.28 * font, foreground="white")],
+            zorder=zorder,
+            gid=gid,
+        )
+
+
+def _boxes(spot: XY, size: XY, turn_deg: float) -> list[Box]:
+    """The room that a text takes: one box, or where it is turned a chain of boxes along it."""
+    (x, y), (width, height) = spot, size
+    if turn_deg % 180.0 == 0.0:
+        return [(x - width / 2, y - height / 2, x + width / 2, y + height / 2)]
+    c, s = math.cos(math.radians(turn_deg)), math.sin(math.radians(turn_deg))
+    count = max(1, math.ceil(width / height))
+    piece = width / count
+    half_x, half_y = (abs(c) * piece + abs(s) * height) / 2, (abs(s) * piece + abs(c) * height) / 2
+    found = []
+    for k in range(count):
+        along = (k - (count - 1) / 2) * piece
+        mx, my = x + along * c, y + along * s
+        found.append((mx - half_x, my - half_y, mx + half_x, my + half_y))
+    return found

@@ -1,0 +1,235 @@
+"""The picture of a site: what was understood of it, to be looked at by the one who knows the orchard."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from fieldhand.errors import OutputError
+from fieldhand.site.describe.driving import DrivingSummary
+from fieldhand.site.drawing import colours
+from fieldhand.site.drawing.ground import (
+    XY,
+    bounds_of,
+    draw_gates,
+    draw_markers,
+    draw_scale_and_north,
+    draw_zones,
+    marker_look,
+    named_zones,
+    open_spots,
+    tree_size,
+    zone_ink,
+)
+from fieldhand.site.drawing.labels import Labels
+from fieldhand.site.drawing.rows import LONGEST_NAME, draw_rows, name_blocks, name_rows, name_trees
+from fieldhand.site.drawing.ways import draw_closed, draw_unreachable, draw_ways
+from fieldhand.site.driving.network import Network
+from fieldhand.site.model import Site
+from fieldhand.site.places.faults import short
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+#: Inches: the map's height for an orchard and for a very large one, its least width, and the strips above and below.
+_HEIGHT_IN, _LARGE_HEIGHT_IN, _LEAST_WIDTH_IN, _HEAD_IN, _FOOT_IN, _MARGIN_IN = 9.0, 13.0, 5.5, 0.62, 0.4, 0.15
+_LARGE = 20_000
+#: Inches that an entry of the legend takes.
+_ENTRY_IN = 1.2
+#: Parts of the map (west, south, east, north) that the scale bar and the north arrow take.
+_SCALE_PART, _NORTH_PART = (0.0, 0.0, 0.31, 0.065), (0.9, 0.0, 1.0, 0.105)
+#: Points beyond the ends of the rows for their names: a letter's width, and the most for all of them.
+_LETTER, _MOST_FOR_NAMES = 5.6, 90.0
+
+
+def save_site_picture(
+    site: Site, path: Path, network: Network | None = None, driving: DrivingSummary | None = None
+) -> None:
+    """Draw the site into a picture file; the ending says which kind (``.png``, ``.svg``, ``.pdf``).
+
+    Args:
+        site: Drawn.
+        path: Written.
+        network, driving: As for :func:`site_picture`.
+
+    Raises:
+        OutputError: The file cannot be written, or its ending is of no kind of picture.
+    """
+    figure = site_picture(site, network, driving)
+    try:
+        figure.savefig(path, dpi=150)
+    except OSError as fault:
+        raise OutputError(
+            f"the picture cannot be written ({fault.strerror or fault})", where=str(path), advice="choose another place"
+        ) from None
+    except ValueError:
+        raise OutputError(
+            f"{path.suffix or 'no ending'} is no kind of picture",
+            where=str(path),
+            advice="end its name in .png, .svg or .pdf",
+        ) from None
+
+
+def site_picture(site: Site, network: Network | None = None, driving: DrivingSummary | None = None) -> Figure:
+    """The picture as a figure that belongs to no window.
+
+    Args:
+        site: Its rows coloured, with all else that is known of it.
+        network: Where a robot drives, if that is to be in it.
+        driving: The same robot: how wide it is, which aisles it cannot drive along, which trees it cannot reach.
+    """
+    figure = _figure(site)
+    ax = figure.axes[0]
+    draw_zones(ax, site)
+    if network is not None:
+        draw_ways(ax, network, driving.width_m if driving is not None else 1.0)
+    draw_rows(ax, site)
+    if driving is not None:
+        draw_closed(ax, site, driving.closed)
+        draw_unreachable(ax, site, [tree for u in driving.unreachable for tree in u.trees])
+    draw_gates(ax, site)
+    draw_markers(ax, site)
+    draw_scale_and_north(ax)
+    _write_names(ax, site)
+    _write_head(figure, site)
+    _write_legend(figure, site, network, driving)
+    return figure
+
+
+def _figure(site: Site) -> Figure:
+    """A figure whose axes have exactly the shape of the site, so that names can be measured before it is drawn."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    west, south, east, north = bounds_of(site)
+    tallest = _HEIGHT_IN if len(site.trees) < _LARGE else _LARGE_HEIGHT_IN
+    ratio = (east - west) / (north - south)
+    height = min(tallest if ratio <= 1.0 else tallest / math.sqrt(ratio), 1.6 * tallest / ratio)
+    metre_in = height / (north - south)
+    room = _room_for_names(site, 72 * metre_in) / 72 / metre_in
+    west, south, east, north = west - room, south - room, east + room, north + room
+    width, height = (east - west) * metre_in, (north - south) * metre_in
+    whole = max(width, _LEAST_WIDTH_IN) + 2 * _MARGIN_IN
+    tall = height + _HEAD_IN + _FOOT_IN
+    figure = Figure(figsize=(whole, tall), facecolor="white")
+    FigureCanvasAgg(figure)
+    ax = figure.add_axes(((whole - width) / 2 / whole, _FOOT_IN / tall, width / whole, height / tall))
+    ax.set_xlim(west, east)
+    ax.set_ylim(south, north)
+    ax.set_axis_off()
+    return figure
+
+
+def _room_for_names(site: Site, metre: float) -> float:
+    """Points that the names of rows need beside the margin that is there anyway."""
+    longest = max((len(short(row.name, LONGEST_NAME)) for row in site.planting.rows), default=0)
+    margin = 0.05 * float(np.ptp(site.xy, axis=0).max()) * metre
+    return max(0.0, min(longest * _LETTER + 10.0, _MOST_FOR_NAMES) - margin)
+
+
+def _write_names(ax: Axes, site: Site) -> None:
+    """What matters most is named first, and keeps its place."""
+    labels = Labels(ax, site.xy, math.sqrt(tree_size(ax, site)) / 2)
+    labels.keep_part_free(*_SCALE_PART)
+    labels.keep_part_free(*_NORTH_PART)
+    for place in (*site.markers.values(), *(g.place for g in site.gates)):
+        labels.keep_free(labels.at(place.xy), 6.0)
+    for name, place in site.markers.items():
+        _, colour, words = marker_look(name)
+        labels.put(
+            words, _around(labels.at(place.xy), labels.size(words, 8, bold=True)),
+            font=8, colour=colour, bold=True, over_trees=True, zorder=9,
+        )  # fmt: skip
+    for zone in named_zones(site):
+        labels.put(
+            short(zone.name, 24), [labels.at(spot) for spot in open_spots(site, zone)],
+            font=8, colour=zone_ink(zone), bold=True, over_trees=True, gid="zone",
+        )  # fmt: skip
+    for gate in site.gates:
+        words = short(gate.place.id, 24)
+        labels.put(
+            words, _around(labels.at(gate.place.xy), labels.size(words, 7)),
+            font=7, colour=colours.GATE, over_trees=True, zorder=9, gid="gate",
+        )  # fmt: skip
+    name_blocks(labels, site)
+    name_rows(ax, labels, site)
+    name_trees(ax, labels, site)
+
+
+def _around(at: XY, size: XY) -> list[XY]:
+    """Below, above, right and left of a symbol."""
+    (x, y), (width, height) = at, size
+    over, beside = 7.5 + height / 2, 8.0 + width / 2
+    return [(x, y - over), (x, y + over), (x + beside, y), (x - beside, y)]
+
+
+def _write_head(figure: Figure, site: Site) -> None:
+    width, height = figure.get_size_inches()
+    left = _MARGIN_IN / width
+    name = short(site.name, max(20, int(width * 8))).replace("$", r"\$")
+    figure.text(left, 1 - 0.12 / height, name, ha="left", va="top", fontsize=12, fontweight="bold", color=colours.INK)
+    figure.text(left, 1 - 0.36 / height, _in_short(site), ha="left", va="top", fontsize=8.5, color=colours.QUIET_INK)
+
+
+def _in_short(site: Site) -> str:
+    """The site in a line: trees, rows, blocks, and how many trees are in no row."""
+    planting = site.planting
+    words = [f"{len(site.trees):,} tree{'s' * (len(site.trees) > 1)}"]
+    if planting.rows:
+        rows, blocks = len(planting.rows), len(planting.blocks)
+        words.append(f"{rows:,} row{'s' * (rows > 1)}" + (f" in {blocks} blocks" if blocks > 1 else ""))
+        alone = int((planting.row_of < 0).sum())
+        if alone:
+            words.append(f"{alone:,} in no row")
+    else:
+        words.append("no rows")
+    return ", ".join(words)
+
+
+def _write_legend(figure: Figure, site: Site, network: Network | None, driving: DrivingSummary | None) -> None:
+    """What the marks mean, of those that are there."""
+    from matplotlib.lines import Line2D
+
+    planting = site.planting
+    kinds = {line.kind for line in network.lines} if network is not None else set()
+    robot = short(driving.robot, 16).replace("$", r"\$") if driving is not None else "robot"
+    shown: list[tuple[bool, str, dict[str, Any]]] = [
+        (
+            bool(planting.rows),
+            "row of trees",
+            {"color": colours.ROWS[0], "marker": "o", "markersize": 5, "linewidth": 1.4},
+        ),
+        (
+            bool(np.any(planting.row_of < 0)),
+            "tree in no row",
+            {"color": colours.NO_ROW, "marker": "o", "markersize": 5, "linestyle": "none"},
+        ),
+        ("aisle" in kinds, "aisle", {"color": colours.LANE, "linewidth": 4, "alpha": 0.5}),
+        ("headland" in kinds, "headland", {"color": colours.HEADLAND, "linewidth": 4, "alpha": 0.5}),
+        (
+            driving is not None and bool(driving.closed),
+            f"closed to the {robot}",
+            {"color": colours.NARROW, "linewidth": 1.2, "linestyle": (0, (4, 2))},
+        ),
+        (
+            driving is not None and bool(driving.unreachable),
+            "cannot be reached",
+            {"color": colours.UNREACHABLE, "marker": "x", "markersize": 5, "markeredgewidth": 1.4, "linestyle": "none"},
+        ),
+        (
+            bool(site.gates),
+            "gate",
+            {"color": "white", "marker": "s", "markersize": 6, "markeredgecolor": colours.GATE, "linestyle": "none"},
+        ),
+    ]
+    handles = [Line2D([], [], label=label, **style) for there, label, style in shown if there]
+    if handles:
+        across = max(1, int((figure.get_size_inches()[0] - 0.3) / _ENTRY_IN))
+        figure.legend(
+            handles=handles, loc="lower left", bbox_to_anchor=(0.01, 0.0), ncols=min(across, len(handles)),
+            frameon=False, fontsize=8, labelcolor=colours.INK, handlelength=1.6, columnspacing=1.4,
+        )  # fmt: skip

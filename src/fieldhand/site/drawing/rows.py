@@ -1,0 +1,154 @@
+"""Rows on a picture: coloured so that neighbours tell apart, with their names at both ends."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.site.drawing import colours
+from fieldhand.site.drawing.ground import draw_dots, points_a_metre, tree_size
+from fieldhand.site.drawing.labels import XY, Labels
+from fieldhand.site.model import Site
+from fieldhand.site.places.faults import short
+from fieldhand.site.planting import Block, Row
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_STEPS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
+LONGEST_NAME = 16
+_GAP = 3.0
+#: More trees than this are not named; nor are trees so near to each other that no name has room, in points.
+_MOST_IDS, _LEAST_ROOM = 400, 9.0
+
+
+def draw_rows(ax: Axes, site: Site) -> None:
+    """The trees of each row in its colour with a line through them; trees in no row grey."""
+    from matplotlib.collections import LineCollection
+    from matplotlib.colors import to_rgb
+
+    size = tree_size(ax, site)
+    palette = np.array([to_rgb(c) for c in (*colours.ROWS, colours.NO_ROW)])
+    rows = site.planting.rows
+    colour_of_row = np.array(
+        [(row.number - 1) % len(colours.ROWS) for row in rows] + [len(colours.ROWS)], dtype=np.intp
+    )
+    long = [k for k, row in enumerate(rows) if len(row.trees) > 1]
+    if long:
+        width = float(np.clip(0.12 * math.sqrt(size) + 0.5, 0.6, 1.6))
+        ax.add_collection(
+            LineCollection(
+                [site.xy[rows[k].trees] for k in long],
+                colors=palette[colour_of_row[long]],
+                linewidths=width,
+                alpha=0.55,
+                zorder=2.6,
+                gid="rows",
+            ),
+            autolim=False,
+        )
+    draw_dots(ax, site.xy, size, palette[colour_of_row[site.planting.row_of]])
+
+
+def name_blocks(labels: Labels, site: Site) -> None:
+    """The name of each block beside it, where there are several."""
+    blocks = site.planting.blocks
+    if len(blocks) < 2:
+        return
+    font = 9.0
+    for block in blocks:
+        text = block_words(block)
+        corners = _corners(labels, site, block)
+        middle = corners.mean(axis=0)
+        spots: list[XY] = []
+        width, height = labels.size(text, font, bold=True)
+        for beyond in (24.0, 38.0, 12.0):
+            for a, b in ((2, 3), (0, 1), (0, 2), (1, 3)):  # beyond the far ends, the usual ends, and at the sides
+                side = (corners[a] + corners[b]) / 2
+                out = (side - middle) / max(float(np.hypot(*(side - middle))), 1e-9)
+                away = beyond + abs(out[0]) * width / 2 + abs(out[1]) * height / 2
+                spots.append((float(side[0] + out[0] * away), float(side[1] + out[1] * away)))
+        spots.append((float(middle[0]), float(middle[1])))
+        labels.put(text, spots, font=font, colour=colours.INK, bold=True, over_trees=True, gid="block")
+
+
+def name_rows(ax: Axes, labels: Labels, site: Site) -> None:
+    """Names at both ends of the rows: of all, or where they stand too close of every second, fifth, tenth ..."""
+    for block in site.planting.blocks:
+        apart = (block.row_spacing_m if block.row_spacing_m == block.row_spacing_m else 10.0) * points_a_metre(ax)
+        font = float(np.clip(0.8 * apart, 5.5, 8.0))
+        names = [short(row.name, LONGEST_NAME) for row in block.rows]
+        turn = math.radians(90.0 - block.bearing_deg)
+        sizes = [labels.size(name, font, bold=True) for name in names]
+        room = max(abs(math.sin(turn)) * w + abs(math.cos(turn)) * h for w, h in sizes) + 2.0
+        along = room > apart and max(w for w, _ in sizes) > 1.6 * font  # long names run along their rows
+        if along:
+            room = font * 1.05 + 2.0
+        step = next((s for s in _STEPS if s * apart >= room), _STEPS[-1])
+        turn_deg = 90.0 - (90.0 - math.degrees(turn)) % 180.0 if along else 0.0
+        for k in _worth_naming(block, step):
+            for end in (0, -1):
+                spot = _beyond(ax, labels, site, block.rows[k], end, turn, sizes[k], along)
+                labels.put(
+                    names[k], [spot], font=font, turn_deg=turn_deg, gid="row",
+                    colour=colours.ROW_INKS[(block.rows[k].number - 1) % len(colours.ROWS)], bold=True,
+                )  # fmt: skip
+
+
+def name_trees(ax: Axes, labels: Labels, site: Site) -> None:
+    """The ids of trees beside them, where there are few and each has room."""
+    room = site.spacing_m * points_a_metre(ax)
+    if len(site.trees) > _MOST_IDS or room < _LEAST_ROOM:
+        return
+    font = float(np.clip(0.3 * room, 4.5, 7.0))
+    radius = math.sqrt(tree_size(ax, site)) / 2
+    planting = site.planting
+    for tree in site.trees:
+        text = short(tree.place.id, 12)
+        width, height = labels.size(text, font)
+        x, y = labels.at(tree.place.xy)
+        beside, over = radius + 1.0 + width / 2, radius + 1.0 + height / 2
+        sideways: list[XY] = [(x + beside, y), (x - beside, y)]
+        upright: list[XY] = [(x, y - over), (x, y + over)]
+        row = int(planting.row_of[tree.index])
+        lies = row >= 0 and planting.blocks[planting.rows[row].block].runs_east_west
+        spots = upright + sideways if lies else sideways + upright
+        labels.put(text, spots, font=font, colour=colours.QUIET_INK, zorder=6, gid="tree")
+
+
+def block_words(block: Block) -> str:
+    """A block by its name, with the word where the name alone does not say what it is."""
+    return short(block.name, 24) if len(block.name) > 3 and not block.name.isdigit() else f"block {block.name}"
+
+
+def _worth_naming(block: Block, step: int) -> list[int]:
+    """Positions of the rows to be named, the more important first."""
+    last = len(block.rows) - 1
+    round_ones = [k for k in range(last + 1) if block.rows[k].number % step == 0 or step == 1]
+    return list(dict.fromkeys([0, *round_ones, last]))
+
+
+def _beyond(ax: Axes, labels: Labels, site: Site, row: Row, end: int, turn: float, size: XY, along: bool) -> XY:
+    """Just beyond the last tree of a row, on its line."""
+    last = site.xy[row.trees[end]]
+    way = site.xy[row.trees[0]] - site.xy[row.trees[-1]]
+    if len(row.trees) < 2 or not way.any():
+        way = np.array([math.cos(turn), math.sin(turn)])
+        way = way if way[1] > abs(way[0]) or way[0] < -abs(way[1]) else -way
+    out = way / np.hypot(*way) * (1.0 if end == 0 else -1.0)
+    width, height = size
+    radius = math.sqrt(tree_size(ax, site)) / 2
+    reach = width / 2 if along else abs(out[0]) * width / 2 + abs(out[1]) * height / 2
+    x, y = labels.at((float(last[0]), float(last[1])))
+    away = radius + _GAP + reach
+    return (x + float(out[0]) * away, y + float(out[1]) * away)
+
+
+def _corners(labels: Labels, site: Site, block: Block) -> NDArray[np.float64]:
+    """The ends of the first and of the last row as they are drawn: usual end of both, then other end of both."""
+    first, last = block.rows[0].trees, block.rows[-1].trees
+    trees = (first[0], last[0], first[-1], last[-1])
+    return np.array([labels.at((float(site.xy[t][0]), float(site.xy[t][1]))) for t in trees])

@@ -1,0 +1,81 @@
+"""Fences and their like are lines that no robot crosses, but at a gate."""
+
+from __future__ import annotations
+
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fieldhand.errors import DriveFault
+from fieldhand.site.drives import Drives
+from gisfiles import degrees, line
+from sites import area, point, read
+
+LON, LAT = -120.42, 37.26
+
+
+@pytest.mark.parametrize("kind", ["fence", "Stone wall", "hedge", "drainage ditch", "canal", "water_pipe", "no-go"])
+def test_a_line_that_no_robot_crosses_becomes_a_thin_keep_out(kind):
+    site = read(point(LON, LAT), line((-10, 5), (10, 5), kind=kind))
+    (zone,) = site.zones
+    assert zone.kind == "keep_out"
+    assert zone.polygon.area == pytest.approx(20 * 0.1, rel=0.01)
+    assert site.notes == ()
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.floats(1.0, 12.0), st.floats(-30.0, 30.0), st.floats(-1.5, 1.5))
+def test_a_gate_opens_its_fence_by_its_width(width, along, beside):
+    (gate,) = degrees((along, 5.0 + beside))
+    site = read(
+        point(LON, LAT), line((-50, 5), (50, 5), kind="fence"), point(*gate, kind="gate", name="main", width_m=width)
+    )
+    assert [(g.place.id, g.width_m) for g in site.gates] == [("main", width)]
+    left, right = sorted((z.polygon for z in site.zones), key=lambda p: p.centroid.x)
+    assert left.distance(right) == pytest.approx(width, abs=0.01)
+    assert left.area + right.area == pytest.approx((100 - width) * 0.1, rel=0.01)
+
+
+def test_a_fence_drawn_as_a_ring_opens_at_its_seam_too():
+    ring = [(-20, -20), (20, -20), (20, 20), (-20, 20), (-20, -20)]
+    closed = read(point(LON, LAT), line(*ring, kind="fence"))
+    assert [len(z.polygon.interiors) for z in closed.zones] == [1]
+    (corner,) = degrees((-20, -20))
+    opened = read(point(LON, LAT), line(*ring, kind="fence"), point(*corner, kind="gate", width=2))
+    assert not any(z.polygon.interiors or z.polygon.contains(shapely.Point(-20, -20)) for z in opened.zones)
+
+
+@pytest.mark.parametrize(("said", "width"), [({}, 4.0), ({"width": "3,5 m"}, 3.5), ({"Width (m)": 6}, 6.0)])
+def test_a_gate_without_a_width_has_a_usual_one(said, width):
+    site = read(point(LON, LAT), point(LON, LAT + 1e-4, kind="farm gate", **said))
+    assert [(g.place.id, g.width_m) for g in site.gates] == [("gate 1", width)]
+    assert len(site.trees) == 1
+
+
+def test_a_gate_far_from_every_fence_is_told():
+    (far,) = degrees((0, 60))
+    site = read(point(LON, LAT), line((-10, 5), (10, 5), kind="fence"), point(*far, kind="gate", name="north gate"))
+    assert "'north gate' stands at no fence" in site.notes[0]
+
+
+@pytest.mark.parametrize(("width", "through"), [(None, False), (0.5, False), (1.0, True), (4.0, True)])
+def test_a_robot_passes_a_fence_only_at_a_gate_that_is_wide_enough(width, through):
+    """A fence parts the field from one side of the boundary to the other; the robot is 0.7 m wide."""
+    field = degrees((-60, -40), (60, -40), (60, 40), (-60, 40), (-60, -40))
+    gate = [] if width is None else [point(*degrees((30, 0))[0], kind="gate", width_m=width)]
+    site = read(
+        *(point(*degrees((x, y))[0], row=x) for x in (-6, 0, 6) for y in (-20, -15, -10, 10, 15, 20)),
+        area(field, kind="boundary"),
+        line((-60, 0), (60, 0), kind="fence"),
+        *gate,
+    )
+    drives, south, north = Drives(site, 0.35, 1.5), site.trees[0].place, site.trees[5].place
+    if not through:
+        with pytest.raises(DriveFault, match="fence"):
+            drives.between(south, north)
+        return
+    way = shapely.LineString(drives.between(south, north).points)
+    assert not any(way.intersects(zone.polygon) for zone in site.zones_of("keep_out"))
+    crossing = way.intersection(shapely.LineString([(-100, site.gates[0].place.y), (100, site.gates[0].place.y)]))
+    assert abs(crossing.centroid.x - site.gates[0].place.x) <= width / 2
