@@ -162,7 +162,7 @@ PLANNED = [
     (
         "husky",
         "take pictures of as many trees as you can within 300 feet of driving",
-        "for Trees optional: [picture] | distance_m 91.44",
+        "for Trees optional: [picture] | distance_m 91.44 | stay",
     ),
     ("husky", "in at most 15 minutes, take a picture of each corner", "for Corners: [picture] | duration_s 900"),
     (
@@ -601,7 +601,7 @@ REFUSED = [
     (
         "husky",
         "Take pictures of trees older than 10 years and younger than 5 years.",
-        "nothing on this site is trees with age_years above 10.0 with age_years below 5.0",
+        "nothing on this site matches the trees whose age is above 10 years, whose age is below 5 years",
     ),
     ("husky", "take pictures of as many trees as you can within 500% battery", "a limit of 500 percent cannot be kept"),
     (
@@ -620,15 +620,17 @@ REFUSED = [
         "'respectively' is not possible yet",
     ),
     ("husky", "take a picture at tree 4 because I like it", "not understood: 'I', 'like'"),
-    ("husky", "Take a CO2 reading at every third tree", "'every third' is not possible yet"),
-    ("husky", "Take a picture of every tree in the pond", "nothing on this site is trees inside zone pond"),
+    (
+        "husky",
+        "Take a picture of every tree in the pond",
+        "nothing on this site matches the trees inside the zone “pond”",
+    ),
     (
         "husky",
         "Take a picture at tree 4 if the CO2 there is low.",
         "'if the CO2 there is low': nothing before it measures that",
     ),
     ("husky", "Take a picture of trees aged 12.", "not understood: 'aged'"),
-    ("husky", "Take CO2 readings 100 m apart.", "'apart' is not possible yet"),
     (
         "husky",
         "Take a picture every 5 minutes.",

@@ -7,6 +7,7 @@ import contextlib
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import row_requests
 from english_requests import PLANNED
 from fieldhand.errors import RequestError
 from fieldhand.planning.english.arrange import arrange
@@ -29,6 +30,7 @@ LEXICON = lexicon_for(HUSKY, SITE)
 TABLES = ("verbs", "nouns", "words", "sides", "levels")
 WORDS = sorted({w for table in TABLES for phrases in vocabulary()[table].values() for w in phrases})
 MORE = ["picture", "CO2 reading", "tree 4", "5", "33 °C", "400 ppm", "yellow", "wet corner", ",", ".", "and", "below"]
+MORE += ["row 3", "rows 2 to 5", "every third", "last", "2nd", "trees down", "15 m", "every 10 m", "apart", "of", "in"]
 
 
 def try_to_plan(request: str) -> None:
@@ -53,7 +55,7 @@ def test_any_text_never_breaks_it(text: str) -> None:
 
 
 @settings(max_examples=100, deadline=None)
-@given(st.sampled_from(PLANNED), st.data())
+@given(st.sampled_from(PLANNED + row_requests.PLANNED), st.data())
 def test_a_request_with_a_word_left_out_or_doubled_never_breaks_it(
     case: tuple[str, str, str], data: st.DataObject
 ) -> None:

@@ -42,8 +42,8 @@ def test_every_element_that_is_named_stands_in_the_schema() -> None:
 
 
 def test_a_default_that_changes_the_meaning_is_shown() -> None:
-    assert 'count="whole number (2)"' in paragraphs()["adjacent"][0]
-    assert 'count="whole number (1)"' in paragraphs()["nearest"][0]
+    assert 'count="int (2)"' in paragraphs()["adjacent"][0]
+    assert 'count="int (1)"' in paragraphs()["nearest"][0]
 
 
 def test_nothing_of_python_is_left() -> None:

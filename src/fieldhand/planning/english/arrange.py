@@ -8,7 +8,9 @@ from dataclasses import dataclass, replace
 from fieldhand.planning.english.faults import unclear
 from fieldhand.planning.english.kinds import VERBS
 from fieldhand.planning.english.limits import with_amounts, with_limits
+from fieldhand.planning.english.rowwords import with_row_ids, with_row_words
 from fieldhand.planning.english.separators import separated
+from fieldhand.planning.english.spacing import with_orders, with_spacing
 from fieldhand.planning.english.tokens import Term
 from fieldhand.planning.english.wordclass import classed, with_ids
 from fieldhand.task.plan import Span
@@ -16,6 +18,7 @@ from fieldhand.task.plan import Span
 #: Nouns that a compass word needs behind it ("the north-east corner").
 _NEEDS_HEAD = frozenset(
     {"TREE", "CORNER", "EDGE", "HALF", "QUARTER", "SIDE", "FINISH", "PLOT", "MIDDLE", "PLACE", "DIR", "MOST", "ATTRVAL"}
+    | {"ROW", "OVER"}
 )
 #: In a clause that gives a reason, these would be something to do or to decide.
 _MORE_THAN_A_REASON = VERBS | {"NUM", "AMOUNT", "IF", "OTHERWISE", "TREE", "CORNER", "WHETHER", "BUDGET"}
@@ -119,9 +122,9 @@ def _contrasted(before: list[Term]) -> bool:
 
 
 def _sentence(terms: list[Term]) -> tuple[Sentence, list[Span]]:
-    terms = with_amounts(terms)
-    terms = with_ids(terms)
-    terms = classed(terms)
+    terms = with_spacing(with_amounts(terms))
+    terms = with_row_words(with_ids(with_row_ids(terms)))
+    terms = classed(with_orders(terms))
     terms = with_limits(terms)
     terms = _with_heads(terms)
     terms, then, silent = separated(terms)

@@ -52,6 +52,11 @@ class Bag:
         """Whether it points at what was spoken of ("this tree", "those trees")."""
         return self.article in _DEFINITE - {"the"}
 
+    @property
+    def plural_article(self) -> bool:
+        """Whether it points at several ("those")."""
+        return self.article in ("these", "those")
+
     def take(self, *kinds: str) -> Term | None:
         """The first word of one of these kinds, taken out."""
         for kind in kinds:
@@ -62,6 +67,23 @@ class Bag:
                     del self._words[kind]
                 return word
         return None
+
+    def words(self, kind: str) -> tuple[Term, ...]:
+        """The words of a kind that are left."""
+        return tuple(self._words.get(kind, ()))
+
+    def take_behind(self, kind: str, start: int) -> list[Term]:
+        """The words of a kind that stand behind a place of the request, taken out."""
+        words = self._words.pop(kind, [])
+        before = [word for word in words if word.start < start]
+        if before:
+            self._words[kind] = before
+        return [word for word in words if word.start > start]
+
+    def put(self, kind: str, words: list[Term]) -> None:
+        """Put words back."""
+        if words:
+            self._words.setdefault(kind, []).extend(words)
 
     def has(self, *kinds: str) -> bool:
         """Whether a word of one of these kinds is left."""

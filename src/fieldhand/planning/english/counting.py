@@ -49,6 +49,8 @@ def counted(found: Found, part: Part, wanted: Wanted) -> Found:
     plural = bool(part.objects) and part.objects[0].noun.plural
     if any(t.kind == "ASMANY" for o in part.objects for t in o.quantity):
         return replace(found, many=True, optional=True)
+    if found.rows and found.region:
+        return found if found.optional else _in_rows(found, part, count, plural)
     if found.optional or counts_each(found, part):
         return found
     if found.at_most is not None:
@@ -77,6 +79,36 @@ def _either(count: int | None, size: int) -> Found:
         f"{count} captures at {size} places: {count} at each of them, or {count} in all?",
         (f"{count} at each of them", f"{count} in all"),
     )
+
+
+def _in_rows(found: Found, part: Part, count: int | None, plural: bool) -> Found:
+    """Captures in rows: at every tree of them ("pictures of row 3"), or at so many trees."""
+    text = text_of(part.terms)
+    whole = found.selector == s.Rows() and not found.one_by_one
+    if count is None and plural and not whole:
+        return found
+    of_it = part.relation is None or part.relation.kind == "OF"
+    if count is None and (whole or of_it or not _says_one(part)):
+        raise Question(f"'{text}': at every tree, or at how many?", ("at every tree", "at 4 trees"))
+    number = count or 1
+    if found.one_by_one:
+        parts: tuple[s.Selector, ...] = tuple(s.Take(count=number, of=row) for row in found.one_by_one)
+        return Found(selector=s.Union(parts=parts), many=True, each=True)
+    if counts_each(found, part) and not isinstance(found.selector, s.Successive):
+        raise Question(f"'{text}': {number} at each tree, or {number} in each row?", (f"{number} in each row",))
+    if count is None and _are_several(found.selector):
+        raise Question(f"'{text}': one in each of them, or one in all?", ("one in each of them", "one in all"))
+    return Found(selector=s.Take(count=number, of=found.selector), many=number > 1, counted=number)
+
+
+def _says_one(part: Part) -> bool:
+    """Whether the command says that it wants one ("a picture")."""
+    return bool(part.objects) and any(t.text.lower() in ("a", "an", "one") for t in part.objects[0].quantity)
+
+
+def _are_several(rows: s.Selector) -> bool:
+    """Whether the words name several rows."""
+    return isinstance(rows, s.Union) or (isinstance(rows, s.Rows) and (rows.first != rows.last or not rows.first))
 
 
 def _in_area(found: Found, part: Part, count: int | None, plural: bool) -> Found:

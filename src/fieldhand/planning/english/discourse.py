@@ -15,18 +15,17 @@ from dataclasses import replace
 
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english import repeating
-from fieldhand.planning.english.areas import ACTS as _ACTS
-from fieldhand.planning.english.areas import with_areas
-from fieldhand.planning.english.cases import Cases
+from fieldhand.planning.english.areas import is_open, with_areas
 from fieldhand.planning.english.counting import Wanted, counts_each
 from fieldhand.planning.english.faults import Question, spans_of, text_of, unclear
 from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.hand import ACTS as _ACTS
+from fieldhand.planning.english.lines import points_over, stops_of
+from fieldhand.planning.english.motion import Motion
 from fieldhand.planning.english.places import find
 from fieldhand.planning.english.syntax import Part
 from fieldhand.planning.english.tokens import Term
-from fieldhand.planning.english.told import Homeward
 from fieldhand.task import selectors as s
-from fieldhand.task.frames import Then
 
 COMMANDS = (
     "act_on_objects",
@@ -48,7 +47,7 @@ def _waits(following: tuple[Part, ...]) -> bool:
     return bool(following) and following[0].kind in _ACTS and following[0].places is None
 
 
-class Discourse(Cases):
+class Discourse(Motion):
     """Reads the parts of a request in order. One instance reads one request."""
 
     def read(self, parts: tuple[Part, ...]) -> None:
@@ -99,6 +98,8 @@ class Discourse(Cases):
                     raise unclear(part.terms, "it does not say what to do there")
                 case _:
                     self._read_command(part)
+        if self._pending is not None:
+            raise unclear([self._pending], "an order needs several places", "say which places are visited in it")
 
     def _read_command(self, part: Part) -> None:
         before = {id(step) for step, _ in d.walk(self.told.root)}
@@ -174,6 +175,11 @@ class Discourse(Cases):
         if elided is not None:
             self._act(elided[0], elided[1])
             return
+        if part.places is not None and part.relation is not None and find(part.places, self._site).region:
+            last = [step for step, _ in d.walk(self.told.root) if isinstance(step, d.Capture)]
+            if self._loop is not None or not (last and isinstance(last[-1].at, s.Take)):  # "... and of row 4"
+                choices = ("at every tree", "at 4 trees")
+                raise Question(f"'{text_of(part.terms)}': at every tree, or at how many?", choices)
         self._act(part, self._objects)
 
     def _act(self, part: Part, wanted: Wanted) -> None:
@@ -181,6 +187,8 @@ class Discourse(Cases):
         found = None if part.places is None else self._related(part)
         if found is not None and not found.here and any(t.kind == "THERE" for t in part.tails):
             raise unclear(part.terms, "which of them is not clear", "name the trees, or say how many in one sentence")
+        if found is not None and found.object_only and found.each:
+            raise Question(f"'{text_of(part.terms)}': at each of which places?")
         if found is not None and found.object_only:  # "at yet another one"
             number = found.counted or 1
             found = Found(selector=s.Take(count=number, of=s.Other()), many=number > 1, counted=number)
@@ -188,12 +196,15 @@ class Discourse(Cases):
             found = Found(selector=s.Trees(), many=True)
         if found is not None and found.all_or_these and self._loop is not None:
             found = replace(found, here=True, these=True)
+        found = self._lined(found, part, wanted)
         block, at, each = self._where(found, part, wanted)
         times = next((int(t.value) for t in part.tails if t.kind == "COUNT"), 1)
         self._commands += 1
         done: list[tuple[str, int]] = []
+        in_rows = found is not None and found.rows and found.region  # "2 pictures in each row" are of two trees
+        per_place = counts_each(found, part) and not in_rows
         for index, (action, count) in enumerate(wanted):
-            captures = (1 if each and not counts_each(found, part) else count or 1) * times
+            captures = (1 if each and not per_place else count or 1) * times
             said = spans_of([t for t in part.terms if not self._of_another(t, index, part)])
             step = d.Capture(action=action, at=at if index == 0 else None, count=captures, said=said)
             step.command = self._commands
@@ -201,85 +212,44 @@ class Discourse(Cases):
             done.append((action, captures))
         self._objects = tuple(done)
 
+    def _lined(self, found: Found | None, part: Part, wanted: Wanted) -> Found | None:
+        """Places that are points: at a spacing, or spread over a zone; and trees of the rows that were gone to."""
+        if part.spacing is not None:
+            if found is not None and found.here:
+                found = None
+            found = stops_of(found, part, wanted, self._site)
+            if self._loop is not None and self._loop in self._sentence_steps and not self._loop.body.steps:
+                self._scope = self._loop.body  # "at each corner, take three measurements 15 m apart"
+            return found
+        if found is not None and part.relation is not None and part.relation.kind == "SPREAD":
+            return points_over(found, part, wanted)
+        said = part.places is not None and is_open(part.places)
+        whole = found is not None and found.many and not s.is_relative(found.selector)
+        place = self._rows_gone_to or (self._area_gone_to if whole else "")
+        if place and said and found is not None and not found.here:
+            raise Question(
+                f"'{text_of(part.terms)}': of {place}, or of the whole site?", (f"of {place}", "of the whole site")
+            )
+        return found
+
     def _of_another(self, term: Term, index: int, part: Part) -> bool:
         """Whether a term names another capture of the same command."""
         return any(term in thing.terms for k, thing in enumerate(part.objects) if k != index) or term.kind == "JOIN"
 
-    def _go(self, part: Part) -> None:
-        if part.places is None:
-            return
-        if self._sentence_steps and part.verb is not None and part.verb.text.lower() in ("starting", "beginning"):
-            raise unclear(part.terms, "where to begin cannot be said behind the work", "name the first tree first")
-        found = self._related(part)
-        if found.here and part.kind != "visit":
-            return
-        if found.object_only:
-            found = Found(selector=s.Take(count=found.counted or 1, of=s.Other()), many=(found.counted or 1) > 1)
-        if found.region and part.kind != "visit":
-            found = Found(
-                selector=found.selector if isinstance(found.selector, s.Marker) else self._one_of(found.selector)
-            )
-        if (
-            found.selector == s.Marker(name="start")
-            and not self.told.root.steps
-            and part.relation is not None
-            and (part.relation.kind == "FROM" or part.kind == "go")
-        ):
-            return  # a mission starts there anyway
-        if found.many:
-            self._add_loop(found, part)
-            return
-        self._loop = None
-        self._scope.add(d.Go(place=found.selector, said=part.said))
-
-    def _one_of(self, area: s.Selector) -> s.Selector:
-        """A tree to drive to when an area is named: the one in its middle."""
-        return s.Middle(of=area)
-
-    def _lead(self, part: Part) -> None:
-        """ "At each corner, ...": the place of what follows."""
-        if part.relation is not None and part.relation.kind == "FROM" and not self.told.root.steps:
-            found = self._related(part)
-            if found.selector == s.Marker(name="start"):
-                return
-        if part.relation is not None and part.relation.kind == "EXCEPT":
-            raise unclear(part.terms, "an exception must stand right behind what it is taken from")
-        found = self._related(part)
-        if found.object_only:
-            raise unclear(part.terms, "a place was expected")
-        self._go(replace(part, kind="visit"))
-
-    def _come_back(self, part: Part) -> None:
-        then, place = self._home(part)
-        if self._scope is self.told.root and not self.told.root.steps and place is None:
-            self.told.nominal = then  # "come back when done: photograph tree 5"
-            self.told.first = True
-        elif self._scope is self.told.root:
-            self.told.nominal = then
-            if place is not None:
-                self._scope.add(d.Go(place=place, said=part.said))
-                self.told.nominal = "stay"
-            else:
-                self._scope.add(Homeward(said=part.said, then=then))
-        else:
-            marker = place or s.Marker(name="start" if then == "return_to_start" else "end")
-            self.told.in_case = then if place is None else None
-            if not (self._scope.steps and isinstance(self._scope.steps[-1], d.Halt)):
-                self._scope.add(d.Go(place=marker, said=part.said))
-        self._loop = None
-
-    def _home(self, part: Part) -> tuple[Then, s.Selector | None]:
-        if part.places is not None:
-            selector = find(part.places, self._site).selector
-            if selector == s.Marker(name="start"):
-                return "return_to_start", None
-            if selector == s.Marker(name="end"):
-                return "return_to_end", None
-            return "stay", selector
-        if "start" in self._site.markers or "end" not in self._site.markers:
-            self.told.assumptions.append(f"'{text_of(part.terms)}' means back to the start.")
-            return "return_to_start", None
-        return "return_to_end", None
+    def _further(self, part: Part, times: int) -> int:
+        """How many times more a passage is done that has been done once: "three more times", "three times in all"."""
+        said = next(t.text.lower() for t in part.tails if t.kind == "COUNT")
+        if "more" in said.split() or "further" in said.split():
+            return times
+        if said.split()[-1] in ("all", "total", "altogether", "overall"):
+            if times < 2:
+                raise unclear(part.terms, "once in all is what is done already")
+            return times - 1
+        again = "once" if times == 1 else f"{times} times"
+        raise Question(
+            f"'{text_of(part.terms)}': {again} in all, or {again} more?",
+            (f"{times} times in all", f"{times} more times"),
+        )
 
     def _distinct(self, part: Part) -> None:
         """ "Each at a different tree": what a number of captures in an area means anyway."""
@@ -288,6 +258,14 @@ class Discourse(Cases):
             raise unclear(part.terms, "it is not clear how many trees that are", "say how many trees, and where")
 
     def _order(self, part: Part) -> None:
+        if part.terms[0].kind == "ORDERED":
+            if self._pending is not None:
+                raise unclear(part.terms, "two orders cannot be kept", "say one")
+            if self._loop is not None and self._loop in self._sentence_steps:
+                self._in_order(self._loop, part.terms[0])
+            else:
+                self._pending = part.terms[0]
+            return
         if self._loop is not None:
             self._loop.order = "given" if part.terms[0].kind == "INORDER" else "best"
 
@@ -320,6 +298,7 @@ class Discourse(Cases):
         if not new:
             if times is None:
                 raise Question(f"'{text_of(part.terms)}': where?", ("at another tree", "at the same place"))
+            times = self._further(part, times)
             body = d.Block()
             repeating.append(made, body)
             self._scope.add(d.Times(times=times, body=body, said=part.said))

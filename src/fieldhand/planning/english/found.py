@@ -21,6 +21,9 @@ class Found:
         here: The places just spoken of ("there", "each of them").
         these: Several places that were spoken of ("each of them", "both").
         all_or_these: "the trees": those just spoken of if there are any, else all.
+        rows: The area is made of rows, or of blocks.
+        one_by_one: Those rows or blocks one after the other, where each of them is meant by itself.
+        assumed: What was taken for granted, as sentences.
         object_only: A quantity alone ("another", "two more"): of what, the verb before says.
     """
 
@@ -34,4 +37,7 @@ class Found:
     here: bool = False
     these: bool = False
     all_or_these: bool = False
+    rows: bool = False
+    one_by_one: tuple[s.Selector, ...] = ()
+    assumed: tuple[str, ...] = ()
     object_only: bool = False

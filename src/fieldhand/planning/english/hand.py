@@ -5,18 +5,35 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.planning.english import draft as d
+from fieldhand.planning.english.attributes import hinted
 from fieldhand.planning.english.counting import Wanted, counted, number_of_objects
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.english.pick import is_spot
 from fieldhand.planning.english.places import are_several, find
+from fieldhand.planning.english.spacing import Ranking
 from fieldhand.planning.english.syntax import Object, Part
 from fieldhand.planning.english.tokens import Term
 from fieldhand.planning.english.told import Told
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task import selectors as s
+
+#: Relations that say no more than where.
+_PLAIN = ("OF", "AT", "FROM", "FOR", "INSIDE", "ALONG", "SPREAD")
+#: Parts that ask for captures.
+ACTS = ("act_on_objects", "act_on_places", "act_bare", "more_objects", "more_places")
+
+
+def starts_here(selector: s.Selector) -> bool:
+    """Whether a selector is a way along or across rows from the place in hand."""
+    return isinstance(selector, s.RowOf | s.AlongRow | s.Across) and selector.origin == s.Here()
+
+
+def _counts(selector: s.Selector) -> bool:
+    """Whether it takes every so many of a row or of the rows: where the count begins matters."""
+    return isinstance(selector, s.EveryNth) or (isinstance(selector, s.Rows) and selector.every > 1)
 
 
 class Hand:
@@ -33,6 +50,9 @@ class Hand:
         self._aside: list[d.Capture] = []  # held by an "if" behind them: a later "if it" does not mean them
         self._choice: d.Choice | None = None
         self._sentence_choices: list[d.Step] = []
+        self._pending: Term | None = None  # an order said before the places that it is about
+        self._area_gone_to = ""  # the same of another area
+        self._rows_gone_to = ""  # rows that a "go to" has named: of these, or of all, may "every tree" be said
         self._loop: d.Loop | None = None  # the places that "each of them" and "there" may mean
         self._sentence_steps: list[d.Step] = []
         self._sentence_acts = False
@@ -97,9 +117,38 @@ class Hand:
             at_most=found.at_most,
             said=part.said,
         )
+        if self._pending is not None:
+            self._in_order(loop, self._pending)
+            self._pending = None
         self._scope.add(loop)
         self._loop = loop
         return loop
+
+    def _in_order(self, loop: d.Loop, term: Term) -> None:
+        """Visit the places of a loop in an order that was said."""
+        by, ranking, descending = term.value
+        if loop.optional or loop.at_most is not None:
+            raise unclear([term], "an order and a choice of how many do not go together", "leave one of them out")
+        if isinstance(loop.select, s.Ordered):
+            raise unclear([term], "two orders cannot be kept", "say one")
+        if str(by).startswith(("south_", "east_")) and any(_counts(part) for part in s.walk(loop.select)):
+            side = str(by).partition("_")[0]
+            choices = (f"counted from the {side}", f"visited from the {side}")
+            raise Question(f"'{term.text}': is it counted from there, or only visited from there?", choices)
+        attribute = ""
+        if isinstance(ranking, Ranking):
+            attribute = self._ranked_by(ranking, term)
+        loop.select = s.Ordered(by=by, attribute=attribute, descending=descending, of=loop.select)
+        loop.order = "given"
+
+    def _ranked_by(self, ranking: Ranking, term: Term) -> str:
+        if not ranking.said:
+            self.told.assumptions.append(f"'{term.text}' begins with the lowest.")
+        if isinstance(ranking.attribute, str):
+            return hinted(ranking.attribute, (term,), self._site)
+        if len(ranking.attribute) > 1:
+            raise Question(f"'{term.text}': which of {' and '.join(ranking.attribute)}?", tuple(ranking.attribute))
+        return str(ranking.attribute[0])
 
     def _within(self, block: d.Block | None, outer: d.Block) -> bool:
         while block is not None:
@@ -121,7 +170,12 @@ class Hand:
             raise unclear(part.terms, "a place was expected")
         found = find(part.places, self._site)
         relation = part.relation
-        if relation is None or found.here or relation.kind in ("OF", "AT", "FROM", "FOR", "INSIDE"):
+        self._check_rows(found, part)
+        if relation is not None and relation.kind == "ALONG" and not (found.rows or isinstance(found.selector, s.Edge)):
+            raise unclear(part.terms, "along which row?", "name the row: 'along row 3'")
+        if relation is not None and relation.kind == "FROM" and found.rows:
+            raise unclear(part.terms, "from there, but what?", "say 'in row 3', or 'starting with row 3'")
+        if relation is None or found.here or relation.kind in _PLAIN:
             return found
         plain = find(part.places, self._site).selector
         match relation.kind:
@@ -138,6 +192,24 @@ class Hand:
                 return Found(selector=other, many=True, region=True)
             case _:
                 raise unclear(part.terms, f"'{relation.text}' does not fit there")
+
+    def _check_rows(self, found: Found, part: Part) -> None:
+        """ "5 trees down", "that row", "across the aisle": from a tree that has been spoken of."""
+        self.told.assumptions += found.assumed
+        first = part.places.chains[0].phrases[0].terms if part.places is not None else ()
+        step = next((t for t in first if t.kind == "STEP"), None)
+        of_it = part.relation is None or part.relation.kind == "OF"
+        if step is not None and step.value.bare and of_it and part.kind in ACTS:
+            number = step.value.trees
+            raise Question(
+                f"'{text_of(part.terms)}': the tree that is {number} trees along, or {number} trees there?",
+                (f"the tree {step.text}", f"{number} trees"),
+            )
+        if not any(starts_here(part_) for part_ in s.walk(found.selector)):
+            return
+        if not any(isinstance(step, d.Go | d.Capture | d.Loop) for step, _ in d.walk(self.told.root)):
+            asked = "which row?" if found.rows else "from which tree?"
+            raise Question(f"'{text_of(part.terms)}': {asked}")
 
     def _fresh(self) -> str:
         self._readings += 1

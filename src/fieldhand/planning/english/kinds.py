@@ -16,14 +16,18 @@ STARTS = VERBS | {
     "THEN",
     "NOORDER",
     "INORDER",
+    "ORDERED",
     "DISTINCT",
 }
-RELATIONS = frozenset({"OF", "AT", "FROM", "NEXTTO", "NEAR", "WITHIN", "INSIDE", "OUTSIDE", "EXCEPT", "WITH", "FOR"})
+RELATIONS = frozenset(
+    {"OF", "AT", "FROM", "NEXTTO", "NEAR", "WITHIN", "INSIDE", "OUTSIDE", "EXCEPT", "WITH", "FOR"} | {"ALONG", "SPREAD"}
+)
 QUANTITY = frozenset({"DET", "EACH", "ANY", "ANOTHER", "NUM", "MORE", "ASMANY", "UPTO"})
 #: Heads of noun phrases that are places.
 PLACES = frozenset(
     {"TREE", "CORNER", "MIDDLE", "EDGE", "HALF", "QUARTER", "SIDE", "START", "FINISH", "CHARGER", "PLOT", "PLACE"}
     | {"ZONE", "DIR", "MOST", "IDS", "THERE", "IT"}
+    | {"ROW", "ROWIDS", "BLOCKIDS", "EVERYNTH", "STEP", "OPPOSITE", "OVER"}
 )
 #: Words that go on with a noun phrase: a "there" of several words is none before them ("of each | tree in ...").
 CONTINUES = (

@@ -18,7 +18,13 @@ from fieldhand.site.model import Site
 
 #: Words of the shared vocabulary that a robot's own word may replace; no function word is among them.
 _REPLACEABLE = frozenset({"READING", "FILLER", "TREE", "PLACE", "EDGE", "SIDE"})
+#: Orders by the compass, as the lexicon of orders calls them.
+_WAYS = (("west", "east"), ("east", "west"), ("north", "south"), ("south", "north"))
 _SINGLE = {"stop": "STOPMARK", "comma": "COMMA", "dash": "DASH", "sign": "AND", "hash": "NUMBERED"}
+#: Behind "starting in the north", these go on with a place: it is no order then.
+_NO_ORDER = frozenset(
+    {"DIR", "MOST", "CORNER", "TREE", "IDS", "QUARTER", "HALF", "MIDDLE", "OF", "EDGE", "ROW", "SIDE", "FINISH", "ZONE"}
+)
 _TENS = ("twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety")
 _UNITS = ("one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 
@@ -30,10 +36,12 @@ class Lexicon:
     Attributes:
         own: Phrases of this robot and this site, which come before the shared ones.
         trees: Ids of trees that are not plain numbers, as the lexicon knows words.
+        site: Whose rows and blocks may have names; they are looked for only where a row or a block is spoken of.
     """
 
     own: Mapping[Phrase, Entry]
     trees: Mapping[str, str]
+    site: Site
 
     @cached_property
     def longest(self) -> int:
@@ -49,16 +57,47 @@ class Lexicon:
         found: list[Term] = []
         at = 0
         while at < len(words):
-            term, used = self._tree_id(words, at, found) or self._match(words, at) or self._single(words[at])
+            term, used = self._name(words, at, found) or self._match(words, at) or self._single(words[at])
             if used > 1 and self._goes_on(words, at + used, term.kind):
                 term, used = self._match(words, at, longest=1) or (term, used)
             found.append(term)
             at += used
         return found
 
-    def _tree_id(self, words: list[Word], at: int, before: list[Term]) -> tuple[Term, int] | None:
-        """A tree's own id behind "tree", where ids are not plain numbers."""
-        if not self.trees or not before or before[-1].kind not in ("TREE", "NUMBERED"):
+    @cached_property
+    def _rows(self) -> Mapping[str, str]:
+        """Names of rows that are not plain numbers."""
+        return {_spelt(row.name): row.name for row in self.site.planting.rows if not row.name.isdigit()}
+
+    @cached_property
+    def _blocks(self) -> Mapping[str, str]:
+        """Names of blocks that are not plain numbers."""
+        return {_spelt(block.name): block.name for block in self.site.planting.blocks if not block.name.isdigit()}
+
+    def _names(self, before: list[Term]) -> tuple[Mapping[str, str], str]:
+        """The names that may stand behind what has been said, and of which kind they are."""
+        at = len(before) - 1
+        while at > 0 and before[at].kind == "NUMBERED":
+            at -= 1
+        listed = _joins_names(before[at])
+        while listed and at > 0 and (_joins_names(before[at]) or before[at].kind in ("NAMED", "NUM", "NUMBERED")):
+            at -= 1
+        head = before[at]
+        found: Mapping[str, str] = {}
+        if head.kind == "ROW":
+            found = self._rows
+        elif head.kind == "PLOT" and head.text.lower() in ("block", "blocks"):
+            found = self._blocks
+        elif not listed and (head.kind == "TREE" or before[-1].kind == "NUMBERED"):
+            return self.trees, "IDS"
+        if listed:  # "row B and a picture": a name that is a word besides stands right behind "row"
+            found = {spelt: name for spelt, name in found.items() if (spelt,) not in _shared()}
+        return found, "NAMED"
+
+    def _name(self, words: list[Word], at: int, before: list[Term]) -> tuple[Term, int] | None:
+        """The own name of a tree, a row or a block behind the word for it, where it is not a plain number."""
+        names, kind = self._names(before) if before else ({}, "")
+        if not names:
             return None
         spelt = ""
         found: tuple[Term, int] | None = None
@@ -66,10 +105,11 @@ class Lexicon:
             if used > 1 and word.start > words[at + used - 2].end:
                 break
             spelt += word.norm
-            tree = self.trees.get(spelt)
-            if tree is not None:
+            name = names.get(spelt)
+            if name is not None:
                 start, end = words[at].start, word.end
-                found = Term(kind="IDS", text=spelt, start=start, end=end, value=(tree,)), used
+                said = "".join(w.text for w in words[at : at + used])
+                found = Term(kind=kind, text=said, start=start, end=end, value=(name,)), used
         return found
 
     def _goes_on(self, words: list[Word], at: int, kind: str) -> bool:
@@ -77,9 +117,13 @@ class Lexicon:
 
         "Of each" is no "there" in "of each of the four corner trees", nor "if it is not" an "otherwise" before "low".
         """
-        if at >= len(words) or kind not in ("THERE", "OTHERWISE", "IFSO"):
+        if at >= len(words) or kind not in ("THERE", "OTHERWISE", "IFSO", "ORDERED"):
             return False
+        while kind == "ORDERED" and words[at].kind == "dash" and at + 1 < len(words):
+            at += 1  # "starting in the north-west corner"
         after, _ = self._match(words, at) or self._single(words[at])
+        if kind == "ORDERED":
+            return after.kind in _NO_ORDER
         return after.kind in (CONTINUES | {"THERE"} if kind == "THERE" else TESTS)
 
     def _match(self, words: list[Word], at: int, longest: int = 99) -> tuple[Term, int] | None:
@@ -105,6 +149,8 @@ class Lexicon:
         return Term(kind=entry.kind, text=text, start=start, end=end, value=entry.value, plural=entry.plural), used
 
     def _single(self, word: Word) -> tuple[Term, int]:
+        if word.kind == "rank":
+            return Term(kind="ORD", text=word.text, start=word.start, end=word.end, value=int(word.norm[:-2])), 1
         kind = "NUM" if word.kind == "number" else _SINGLE.get(word.kind, "UNKNOWN")
         value = float(word.norm.replace(",", "")) if kind == "NUM" else None
         return Term(kind=kind, text=word.text, start=word.start, end=word.end, value=value), 1
@@ -127,7 +173,17 @@ def lexicon_for(robot: RobotProfile, site: Site) -> Lexicon:
         if shared is None or shared.kind in _REPLACEABLE:
             own[phrase] = entry
     odd = {"".join(split(tree)): tree for tree in site.by_id if not tree.isdigit()}
-    return Lexicon(own=own, trees=odd)
+    return Lexicon(own=own, trees=odd, site=site)
+
+
+def _spelt(name: str) -> str:
+    """A name as words of a request spell it when they are written together."""
+    return "".join(split(name))
+
+
+def _joins_names(term: Term) -> bool:
+    """Whether a list or a range of names goes on with it."""
+    return term.kind in ("COMMA", "AND", "DASH") or term.text.lower() in ("to", "through")
 
 
 @cache
@@ -171,7 +227,40 @@ def _shared() -> Mapping[Phrase, Entry]:
                 split(phrase), Entry(kind="UNIT", value=(known["unit"], known["factor"], known["offset"]))
             )
     add(["up to"], "UPTO")
+    for by, phrases in v["orders"].items():
+        add(phrases, "ORDERED", (by, "", False))
+    for by, phrase in _compass_orders(v):
+        add([phrase], "ORDERED", (by, "", False))
+    add(_spreading(), "SPREAD")
     return entries
+
+
+def _compass_orders(v: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """ "From north to south", "starting in the west", "northernmost first"."""
+    for a, b in _WAYS:
+        by = f"{a}_to_{b}"
+        for form in ("from {} to {}", "{} to {}", "from the {} to the {}", "from {}ernmost to {}ernmost",
+                     "from the {}ernmost to the {}ernmost", "from the {}ern end to the {}ern end",
+                     "from the {} end to the {} end", "from the {} side to the {} side"):  # fmt: skip
+            yield by, form.format(a, b)
+        for form in ("{}ernmost first", "the {}ernmost first", "the {}ernmost one first", "{}most first"):
+            yield by, form.format(a)
+        for begin in ("starting", "beginning", "working", "going"):
+            for where in ("from", "at", "in", "on"):
+                for word in v["sides"][a]:
+                    for end in ("", " end", " side", " edge"):
+                        if word == a or end:
+                            yield by, f"{begin} {where} the {word}{end}"
+
+
+def _spreading() -> Iterator[str]:
+    """ "Evenly spread over": how free points lie in an area."""
+    for verb in ("spread", "spread out", "distributed", "scattered"):
+        for where in ("over", "across", "through", "throughout", "in", "around", "within", "all over"):
+            yield f"{verb} {where}"
+            for how in ("evenly", "uniformly", "equally"):
+                yield f"{how} {verb} {where}"
+                yield f"{verb} {how} {where}"
 
 
 def _numbers(v: Mapping[str, Any]) -> Iterator[tuple[str, str, Any]]:
@@ -181,7 +270,7 @@ def _numbers(v: Mapping[str, Any]) -> Iterator[tuple[str, str, Any]]:
         for unit, digit in enumerate(_UNITS, start=1):
             yield f"{name} {digit}", "NUM", float(10 * tens + unit)
     for rank, word in enumerate(v["ranks"]["words"], start=1):
-        for form in (word, f"{rank}{({1: 'st', 2: 'nd', 3: 'rd'}).get(rank, 'th')}", f"very {word}"):
+        for form in (word, f"very {word}"):
             yield form, "ORD", rank
     for word in ("last", "final", "very last"):
         yield word, "LAST", None

@@ -71,18 +71,35 @@ def with_amounts(terms: list[Term]) -> list[Term]:
     """Numbers and their units as one term each; "3 times" as a count."""
     found: list[Term] = []
     for term in terms:
+        if term.kind == "UNIT" and len(found) > 1 and found[-1].kind == "DASH" and found[-2].kind == "NUM":
+            dash = found.pop()  # "15-meter intervals"
+            found[-1] = replace(found[-1], text=f"{found[-1].text}{dash.text}", end=dash.end)
         last = found[-1] if found else None
         if term.kind == "UNIT" and last is not None and last.kind == "NUM":
             unit, factor, offset = term.value
             value = Amount(number=round(last.value * factor + offset, 6), unit=unit)
             text = f"{last.text} {term.text}"
             found[-1] = Term(kind="AMOUNT", text=text, start=last.start, end=term.end, value=value)
+        elif term.kind == "TIMES" and last is not None and last.kind == "MORE" and _is_whole(found[-2:-1]):
+            found.pop()  # "three more times"
+            text = f"{found[-1].text} {last.text} {term.text}"
+            found[-1] = replace(found[-1], kind="COUNT", text=text, end=term.end, value=int(found[-1].value))
+        elif last is not None and last.kind == "COUNT" and (term.kind == "MORE" or _in_all(term)):
+            found[-1] = replace(last, text=f"{last.text} {term.text}", end=term.end)
         elif term.kind == "TIMES" and last is not None and last.kind == "NUM" and last.value == int(last.value):
             text = f"{last.text} {term.text}"
             found[-1] = replace(last, kind="COUNT", text=text, end=term.end, value=int(last.value))
         else:
             found.append(term)
     return found
+
+
+def _is_whole(terms: list[Term]) -> bool:
+    return bool(terms) and terms[0].kind == "NUM" and terms[0].value == int(terms[0].value)
+
+
+def _in_all(term: Term) -> bool:
+    return term.kind == "LIMIT" and term.text.lower() in ("in all", "in total", "altogether", "all in all", "overall")
 
 
 def with_limits(terms: list[Term]) -> list[Term]:

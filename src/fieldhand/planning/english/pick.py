@@ -10,8 +10,11 @@ from fieldhand.planning.english.attributes import attribute_of, filtered
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question, text_of
 from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.inrow import ends_of_rows, every_nth, next_in_row, opposite, ranked_in_rows, stepped
+from fieldhand.planning.english.onebyone import distributed
 from fieldhand.planning.english.regions import corners, extremes, middle, region
 from fieldhand.planning.english.sets import Group
+from fieldhand.planning.english.tokens import Term
 from fieldhand.site.context import Context
 from fieldhand.site.model import Site
 from fieldhand.site.places import resolve
@@ -26,18 +29,39 @@ def picked(bag: Bag, group: Group, site: Site) -> Found:
     """
     of = group.area
     found: Found
-    if bag.has("CORNER"):
+    if bag.has("STEP"):
+        found = stepped(bag, group, site)
+    elif bag.has("OPPOSITE"):
+        found = opposite(bag, group, site)
+    elif bag.has("EVERYNTH"):
+        found = every_nth(bag, group, site)
+    elif group.rows is not None and bag.has("START", "FINISH"):
+        found = ends_of_rows(bag, group, site)
+    elif bag.has("CORNER"):
         found = _corner_trees(bag, group, site)
     elif bag.has("MIDDLE"):
         found = middle(bag, group.kept(filtered(bag, of, site)))
     elif bag.has("MOST"):
+        _whole_rows(bag, group)
         found = extremes(bag, lambda base: group.kept(filtered(bag, base, site)), of)
     elif bag.has("EDGE", "HALF", "QUARTER", "SIDE", "FINISH") or (bag.has("DIR") and not bag.has("TREE")):
+        _whole_rows(bag, group)
         found = _area(bag, group, site)
     else:
         found = _trees(bag, group, site)
     bag.finish()
-    return found
+    if group.anchor is not None and not any(part == group.anchor for part in s.walk(found.selector)):
+        raise bag.fault("what is near to what is not clear", "say it in two steps")
+    found = distributed(found, group, bag)
+    return replace(found, assumed=(*found.assumed, *group.assumed)) if group.assumed else found
+
+
+def _whole_rows(bag: Bag, group: Group) -> None:
+    """Halves and edges are those of the orchard or of a block, never of a row."""
+    rows = group.rows is not None and any(isinstance(part, s.Rows | s.RowOf) for part in s.walk(group.rows))
+    if rows and group.rows_of and bag.has("EDGE", "HALF", "QUARTER", "SIDE"):
+        advice = "say 'trees 1 to 9 of row 3', or 'the trees of row 3 in the northern half of the orchard'"
+        raise bag.fault("a row has no halves or edges", advice)
 
 
 def _corner_trees(bag: Bag, group: Group, site: Site) -> Found:
@@ -72,16 +96,46 @@ def _trees(bag: Bag, group: Group, site: Site) -> Found:
     of = group.kept(filtered(bag, of, site))
     if bag.take("OTHER") is not None or bag.another:
         of = s.Other(of=of)
+    found = _by_rows(bag, of, group, ranked, site)
+    if found is not None:
+        return found
     tree = bag.take("TREE", "PLACE")
-    if tree is not None and tree.kind == "PLACE" and tree.plural:
-        raise bag.fault("which trees are meant by it?", "say 'trees'")
+    if tree is not None and tree.kind == "PLACE" and tree.plural and (group.empty or tree.text.lower() != "ones"):
+        raise bag.fault("which trees are meant by it?", "say 'trees', or name a zone: '4 points in the wet corner'")
     plural = bag.plural and bag.count is None
     if ranked is not None:
         lowest = ranked.value[1]
         return _ranked(bag, of, plural, lambda n, base: s.Top(attribute=name, count=n, lowest=lowest, of=base))
+    found = _by_nearness(bag, of, group, plural)
+    if found is not None:
+        return found
+    if bag.has("ORD", "LAST"):
+        return _first_or_last(bag, of, site)
+    plot = bag.take("PLOT")
+    if bag.take("EVERYWHERE") is not None:
+        return Found(selector=of, many=True, each=True)
+    if tree is None and (plot is not None or zoned) and not (bag.as_many or bag.count):
+        return Found(selector=of, region=True, many=True)
+    if tree is None:
+        raise bag.fault("which place or which trees are meant does not stand there")
+    return _some_of(bag, of, plural=tree.plural, site=site, single=group.single)
+
+
+def _by_rows(bag: Bag, of: s.Selector, group: Group, superlative: Term | None, site: Site) -> Found | None:
+    """A rank along rows, points of a zone, or the next tree in the row; None if none of these is meant."""
+    if bag.has("BACKORD", "COUNTEDFROM") or _is_ranked(bag, group, superlative):
+        return ranked_in_rows(bag, of, group, site)
+    points = _points(bag, group) if bag.has("PLACE") else None
+    return points or (_following(bag, group) if bag.has("NEARBY") else None)
+
+
+def _by_nearness(bag: Bag, of: s.Selector, group: Group, plural: bool) -> Found | None:
+    """The nearest, the farthest, neighbours; None if nothing is said of nearness."""
     near = group.anchor or s.Here()
     if bag.take("ADJACENT") is not None:
         size = bag.count or 2
+        if group.plain_rows:
+            return Found(selector=s.Successive(count=size, near=near, of=of), many=size > 1, counted=size)
         return Found(selector=s.Adjacent(near=near, count=size, of=of), many=size > 1, counted=size)
     if bag.take("FARTHEST", "FAR") is not None:
         return _ranked(bag, of, plural, lambda n, base: s.Farthest(origin=near, count=n, of=base))
@@ -97,16 +151,38 @@ def _trees(bag: Bag, group: Group, site: Site) -> Found:
         one = bag.count or 1
         near_here = s.Nearest(to=s.Here(), count=one, fresh=True, of=of)
         return Found(selector=near_here, many=plural or one > 1, counted=bag.count)
-    if bag.has("ORD", "LAST"):
-        return _first_or_last(bag, of, site)
-    plot = bag.take("PLOT")
-    if bag.take("EVERYWHERE") is not None:
-        return Found(selector=of, many=True, each=True)
-    if tree is None and (plot is not None or zoned) and not (bag.as_many or bag.count):
-        return Found(selector=of, region=True, many=True)
-    if tree is None:
-        raise bag.fault("which place or which trees are meant does not stand there")
-    return _some_of(bag, of, plural=tree.plural, site=site, single=group.single)
+    return None
+
+
+def _is_ranked(bag: Bag, group: Group, superlative: Term | None) -> bool:
+    """Whether a rank counts along rows, rather than by nearness or by an attribute."""
+    other = superlative is not None or group.anchor is not None or bag.has("NEAREST", "FARTHEST", "FAR", "ADJACENT")
+    return group.rows is not None and bag.has("ORD", "LAST") and not other
+
+
+def _points(bag: Bag, group: Group) -> Found | None:
+    """ "Four spots in the wet corner": free points of a zone, not trees."""
+    zone = group.area
+    points = all(t.text.lower() not in ("one", "ones") for t in bag.words("PLACE"))
+    if not (points and isinstance(zone, s.InZone) and zone.of == s.Trees() and not zone.outside):
+        return None
+    if not bag.only("PLACE", "OTHER") or group.anchor is not None or group.kept(zone) != zone:
+        return None
+    bag.take("OTHER")
+    place = bag.take("PLACE")
+    if bag.each or bag.as_many or bag.up_to or bag.more or bag.another:
+        raise bag.fault("how many points are meant?", "say 'at 4 points in the zone', for example")
+    if place is not None and place.plural and bag.count is None:
+        raise Question(f"'{text_of(bag.phrase.terms)}': how many points?", ("3", "4", "5"))
+    bag.any = False
+    count = bag.count or 1
+    return Found(selector=s.PointsIn(zone=zone.zone, count=count), many=count > 1, counted=count)
+
+
+def _following(bag: Bag, group: Group) -> Found | None:
+    """ "The next tree in the row" is the next along it; "a nearby tree in the row" is not."""
+    said = bag.words("NEARBY")
+    return next_in_row(bag, group) if said and said[0].text.lower() == "next" else None
 
 
 def is_spot(place: s.Selector) -> bool:

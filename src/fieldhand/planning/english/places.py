@@ -10,10 +10,21 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from fieldhand.planning.english.bag import Bag, bag_of
+from fieldhand.planning.english.bare import named_trees, quantity_alone
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.inrow import named_in_rows, successive_trees
+from fieldhand.planning.english.joining import (
+    check_of_row,
+    from_each_other,
+    is_apposition,
+    one_each,
+    only_compares,
+    without_both,
+)
 from fieldhand.planning.english.pick import picked
-from fieldhand.planning.english.sets import Group, nested
+from fieldhand.planning.english.rows import rows_meant, some_block, speaks_of_rows, unnamed_block
+from fieldhand.planning.english.sets import Group
 from fieldhand.planning.english.syntax import Chain, NounPhrase, Places
 from fieldhand.planning.english.tokens import Term
 from fieldhand.site.model import Site
@@ -21,8 +32,13 @@ from fieldhand.task import selectors as s
 
 #: Words that make a phrase behind "with" or "of" a description rather than a place ("with yellow leaves").
 _DESCRIBING = ("ATTR", "ATTRVAL", "SUPER")
+_SPREAD_ADVICE = "free points are spread over a zone: 'at 5 points spread over the wet corner'"
 _SEVERAL = frozenset({"them", "they", "both", "each", "every", "all", "these", "those"})
-_ANCHORED = ("NEAREST", "FARTHEST", "FAR")
+_ANCHORED = ("NEAREST", "FARTHEST", "FAR", "STEP", "OPPOSITE")
+#: Relations that trees have, and rows do not.
+_OF_TREES = ("NEAR", "NEXTTO", "WITHIN", "OUTSIDE", "EXCEPT", "FROM")
+#: Areas that rows are not a part of, but stand in ("the trees in the northern half in row 3").
+_AREAS = ("HALF", "QUARTER", "SIDE", "EDGE", "ZONE", "DIR")
 
 
 @dataclass
@@ -32,16 +48,19 @@ class _Part:
     bag: Bag
     phrase: NounPhrase
     described: list[tuple[Term, _Part]] = field(default_factory=list)
+    in_rows: bool = False  # what follows says of which row it is an end or a tree
 
     @property
     def closed(self) -> bool:
         """Whether nothing can describe it further."""
-        return bool(self.phrase.there or self.bag.ids or self.bag.has("CHARGER", "IT") or self.is_marker)
+        named = bool(self.bag.ids) and not self.in_rows
+        return bool(self.phrase.there or named or self.bag.has("CHARGER", "IT") or self.is_marker)
 
     @property
     def is_marker(self) -> bool:
         """Whether it is the start or the end of the site."""
-        return self.bag.has("START", "FINISH") and not self.bag.has("DIR", "MOST", "TREE", "MIDDLE")
+        ends = self.bag.has("START", "FINISH") and not self.in_rows
+        return ends and not self.bag.has("DIR", "MOST", "TREE", "MIDDLE", "COUNTEDFROM")
 
 
 def find(places: Places, site: Site) -> Found:
@@ -54,25 +73,39 @@ def find(places: Places, site: Site) -> Found:
         choices = tuple(text_of(chain.terms) for chain in places.chains)
         raise Question(f"'{text_of(places.terms)}': which of them?", choices)
     found: list[Found] = []
-    for chain, excepted in _chains(_one_each(places)):
-        if found and _is_apposition(chain):
+    places = one_each(places)
+    for chain, excepted in _chains(places):
+        if found and is_apposition(chain):
             continue  # "another tree, a different one": the same tree, said again
         found.append(_chain(chain, excepted, site))
     if len(found) == 1:
         return found[0]
+    check_of_row(places, found)
+    found = from_each_other(found)
     if any(f.object_only or f.optional or f.at_most for f in found):
         raise unclear(places.terms, "these cannot be said together", "say each in a sentence of its own")
     if any(f.here for f in found):
         found = [replace(f, selector=s.Here()) if f.here else f for f in found]
-    return Found(selector=s.Union(parts=tuple(f.selector for f in found)), many=True, each=any(f.each for f in found))
+    rows = all(f.rows for f in found)
+    if rows and any(isinstance(f.selector, s.Successive) for f in found):
+        raise unclear(places.terms, "these rows cannot be said together", "say each in a sentence of its own")
+    return Found(
+        selector=s.Union(parts=tuple(f.selector for f in found)),
+        many=True,
+        each=any(f.each for f in found),
+        region=rows,
+        rows=rows,
+        one_by_one=tuple(one for f in found for one in f.one_by_one) if all(f.one_by_one for f in found) else (),
+        assumed=tuple(sentence for f in found for sentence in f.assumed),
+    )
 
 
 def _chains(places: Places) -> list[tuple[Chain, tuple[Chain, ...]]]:
     """Chains, each with those that go on with its exception; "in the north and the south" is said of both."""
     found: list[tuple[Chain, tuple[Chain, ...]]] = []
-    for chain in _without_both(places.chains):
+    for chain in without_both(places.chains):
         if found:
-            if _only_compares(chain):  # "older than 8 years and younger than 12"
+            if only_compares(chain):  # "older than 8 years and younger than 12"
                 last, excepted = found[-1]
                 head = last.phrases[0]
                 head = replace(head, nominals=(*head.nominals, *chain.phrases[0].nominals))
@@ -92,33 +125,6 @@ def _chains(places: Places) -> list[tuple[Chain, tuple[Chain, ...]]]:
     return found
 
 
-def _one_each(places: Places) -> Places:
-    """ "The northernmost and southernmost trees": one of each, the plural is that of their sum."""
-    last = places.chains[-1]
-    head = last.phrases[0]
-    alone = all(not bag_of(c.phrases[0]).has("TREE", "PLACE") for c in places.chains[:-1])
-    ranks = any(g[0].kind in ("MOST", "SUPER", "ORD", "LAST") for g in head.nominals)
-    if len(places.chains) < 2 or not alone or not ranks or any(t.kind == "NUM" for t in head.quantity):
-        return places
-    nominals = tuple(tuple(replace(t, plural=False) for t in group) for group in head.nominals)
-    single = replace(last, phrases=(replace(head, nominals=nominals), *last.phrases[1:]))
-    return replace(places, chains=(*places.chains[:-1], single))
-
-
-def _without_both(chains: tuple[Chain, ...]) -> tuple[Chain, ...]:
-    """ "Both the first and the last tree": "both" announces the "and", and counts nothing."""
-    first = chains[0].phrases[0]
-    quantity = tuple(t for t in first.quantity if not t.text.lower().startswith("both"))
-    if len(chains) != 2 or quantity == first.quantity:
-        return chains
-    return (replace(chains[0], phrases=(replace(first, quantity=quantity), *chains[0].phrases[1:])), chains[1])
-
-
-def _only_compares(chain: Chain) -> bool:
-    bag = bag_of(chain.phrases[0])
-    return bool(bag.compared) and not chain.phrases[0].quantity and not bag.has("TREE", "PLACE", "CORNER")
-
-
 def _kind(phrase: NounPhrase) -> str:
     """Whether a phrase is an area or a closed place; neither if it speaks of trees."""
     part = _Part(bag=bag_of(phrase), phrase=phrase)
@@ -127,16 +133,20 @@ def _kind(phrase: NounPhrase) -> str:
     return "" if part.bag.has("TREE", "CORNER", "PLACE") or not phrase.nominals else "area"
 
 
-def _is_apposition(chain: Chain) -> bool:
-    words = {t.kind for t in chain.terms}
-    return bool(words & {"OTHER", "ANOTHER"}) and words <= {"OTHER", "ANOTHER", "DET", "PLACE", "IT", "NUM"}
-
-
 def _chain(chain: Chain, excepted: tuple[Chain, ...], site: Site) -> Found:
     parts = [_Part(bag=bag_of(phrase), phrase=phrase) for phrase in chain.phrases]
     line = [parts[0]]  # the way from the first phrase to the last, by what each describes
     for relation, part in zip(chain.relations, parts[1:], strict=True):
         plot = part.is_marker is False and part.bag.only("PLOT", "PLACE") and relation.kind in ("OF", "AT")
+        rows = speaks_of_rows(part.bag) and relation.kind in ("OF", "AT", "ALONG", "INSIDE")
+        if rows and (line[-1].bag.ids or line[-1].bag.has("START", "FINISH")):
+            line[-1].in_rows = True
+        if rows and relation.kind != "OF" and len(line) > 1 and line[-1].bag.has(*_AREAS):
+            line = line[:1]  # "the yellow trees in the northern half in row 3"
+        if relation.kind in _OF_TREES and len(line) > 1 and speaks_of_rows(line[-1].bag):
+            if relation.kind in ("NEAR", "NEXTTO") and line[-1].bag.only("ROW") and not line[-1].bag.pointing:
+                raise unclear(chain.terms, "what is near, the tree or the row?", "name the row, or leave it out")
+            line = line[:1]  # "the tree in row 3 nearest to the charger"
         while len(line) > 1 and (line[-1].closed and not (plot and line[-1].is_marker)):
             line.pop()
         if relation.kind == "EXCEPT" and line[0].bag.has("TREE", "CORNER", "PLACE"):
@@ -162,17 +172,51 @@ def _read(part: _Part, excepted: tuple[s.Selector, ...], site: Site) -> Found:
         these = bag.each or (word is not None and are_several(word))
         return Found(selector=s.Here(), here=True, these=these)
     group = Group()
+    size: int | None = None
+    successive = False
     for relation, inner in part.described:
+        if bag.has("ROW") and relation.kind in ("OF", "WITH") and _is_size(inner):
+            size = inner.bag.count
+            continue
+        if relation.kind == "AT" and _in_a_row(bag, inner):
+            successive = True
+            continue
         _describe(part, group, relation, inner, excepted, site)
+    if successive or bag.has("CONSECUTIVE"):
+        return successive_trees(bag, group)
+    if unnamed_block(bag, site):
+        return some_block(bag, group, site)
+    if speaks_of_rows(bag):
+        return rows_meant(bag, group, size, site)
+    if bag.ids and part.in_rows:
+        return named_in_rows(bag, group, site)
     if bag.ids:
-        return _named(bag)
+        return named_trees(bag)
     marker = _marker(part)
     if marker is not None:
         bag.finish()
         return Found(selector=marker)
     if not phrase.nominals:
-        return _quantity_alone(bag, group, phrase, [relation for relation, _ in part.described])
+        return quantity_alone(bag, group, phrase, [relation for relation, _ in part.described])
     return picked(bag, group, site)
+
+
+def _in_a_row(bag: Bag, inner: _Part) -> bool:
+    """Whether "4 trees | in a row" is said."""
+    row = inner.bag
+    one = row.article in ("a", "one") and row.only("ROW") and row.has("ROW") and row.count is None and not row.plural
+    return one and not inner.described and bag.has("TREE") and bag.count is not None
+
+
+def _is_size(part: _Part) -> bool:
+    """Whether a phrase behind "row" says what it is made of: "of 5 trees", "of trees"."""
+    bag = part.bag
+    return (
+        not part.described
+        and bag.only("TREE")
+        and bag.has("TREE")
+        and not (bag.definite or bag.each or bag.any or bag.another or bag.as_many or bag.up_to or bag.more)
+    )
 
 
 def are_several(term: Term) -> bool:
@@ -201,6 +245,9 @@ def _describe(
         behind = replace(behind, selector=s.Edge(side=behind.selector.side, of=behind.selector.of))
     if behind.object_only or behind.optional or behind.at_most is not None:
         raise unclear([relation, *inner.phrase.terms], "a place was expected")
+    if speaks_of_rows(bag) and not (behind.region or behind.here):
+        _row_of(bag, group, relation, behind, inner)
+        return
     anchored = bag.has(*_ANCHORED) and not group.anchor
     if kind == "NEAR" and isinstance(behind.selector, s.Middle | s.EdgeMiddle):
         kind = "AT"  # "somewhere near the middle" is the middle
@@ -211,20 +258,46 @@ def _describe(
             group.anchor = _single(behind, inner)
         case "OF" | "AT" if anchored and not behind.region and not behind.many:
             group.anchor = _single(behind, inner)
-        case "OF" | "AT" | "INSIDE":
-            if behind.each and behind.many and not behind.region and not bag.as_many and not bag.up_to:
-                if bag.count not in (None, 1):
-                    raise unclear(part.phrase.terms, "so many at each place cannot be said yet", "name each place")
-                bag.each, bag.count = True, None  # "the tree at each corner"
-            group.add(behind, inner.phrase)
+        case "OF" | "AT" | "INSIDE" | "ALONG" | "SPREAD":
+            _among(bag, group, relation, behind, inner)
         case "NEXTTO" | "NEAR":
             group.anchor, group.beside = _single(behind, inner), kind == "NEXTTO"
         case "WITHIN":
             group.within(relation.value, _single(behind, inner))
+        case "EXCEPT" if inner.bag.ids and group.rows is not None and not inner.in_rows:
+            of_row = Group(area=group.area, rows=group.rows, one_by_one=group.one_by_one)
+            group.without(named_in_rows(inner.bag, of_row, site).selector, *excepted)
         case "OUTSIDE" | "EXCEPT":
             group.without(behind.selector, *excepted)
         case _:
             raise unclear(part.phrase.terms, f"'{relation.text}' does not fit here")
+
+
+def _row_of(bag: Bag, group: Group, relation: Term, behind: Found, inner: _Part) -> None:
+    """ "The row of tree 12"."""
+    ranks = bag.has("ORD", "LAST", "MOST", "BACKORD", "EVERYNTH", "COUNTEDFROM")
+    if relation.kind != "OF" or behind.many or bag.plural or ranks or not bag.has("ROW", "OVER"):
+        terms = [relation, *inner.phrase.terms]
+        raise unclear(terms, "of which row is not clear", "say 'every third tree of row 3'")
+    group.row_of = behind.selector
+
+
+def _among(bag: Bag, group: Group, relation: Term, behind: Found, inner: _Part) -> None:
+    """ "... in the northern half", "... of row 3", "... along row 3", "... spread over the wet corner"."""
+    kind, terms = relation.kind, [relation, *inner.phrase.terms]
+    if kind == "SPREAD" and not (bag.has("PLACE") and isinstance(behind.selector, s.InZone)):
+        raise unclear(terms, "trees are not spread", _SPREAD_ADVICE)
+    if kind == "ALONG" and not (behind.rows or isinstance(behind.selector, s.Edge)):
+        raise unclear(terms, "along which row?", "name the row: 'along row 3'")
+    way = relation.text.lower().split() if kind == "ALONG" else []
+    group.upwards = "up" in way and "down" not in way
+    group.along = group.along or kind == "ALONG"
+    group.rows_of = group.rows_of or (behind.rows and kind == "OF")
+    if behind.each and behind.many and not behind.region and not bag.as_many and not bag.up_to:
+        if bag.count not in (None, 1):
+            raise unclear(bag.phrase.terms, "so many at each place cannot be said yet", "name each place")
+        bag.each, bag.count = True, None  # "the tree at each corner"
+    group.add(behind, inner.phrase)
 
 
 def _describes(bag: Bag) -> bool:
@@ -239,19 +312,6 @@ def _single(found: Found, inner: _Part) -> s.Selector:
     return found.selector
 
 
-def _named(bag: Bag) -> Found:
-    """Trees by their ids."""
-    if bag.count is not None and bag.count != len(bag.ids):
-        raise bag.fault(f"{bag.count} or {len(bag.ids)} trees?", "let the number and the names agree")
-    if bag.any:
-        raise Question(f"'{text_of(bag.phrase.terms)}': how many of them?", ("1", f"all {len(bag.ids)}"))
-    bag.finish()
-    trees = tuple(s.TreeIs(tree=tree) for tree in bag.ids)
-    if len(trees) == 1:
-        return Found(selector=trees[0])
-    return Found(selector=s.Union(parts=trees), many=True, each=bag.each)
-
-
 def _marker(part: _Part) -> s.Selector | None:
     bag = part.bag
     if bag.has("CHARGER"):
@@ -263,24 +323,3 @@ def _marker(part: _Part) -> s.Selector | None:
         return s.Marker(name="start")
     bag.take("FINISH")
     return s.Marker(name="end")
-
-
-def _quantity_alone(bag: Bag, group: Group, phrase: NounPhrase, relations: list[Term]) -> Found:
-    """ "Another", "two more", "each": of what, the verb before says; of whom, what describes it."""
-    if bag.up_to or bag.as_many:
-        raise bag.fault("of what does not stand there", "say 'as many trees as you can', for example")
-    if bag.article and bag.count is None and not (bag.another or bag.each or bag.any):
-        raise unclear(phrase.terms, "a place was expected")
-    if bag.each and not bag.another and group.empty:
-        return Found(selector=s.Here(), here=True, these=True)  # "photograph both"
-    bag.more = False
-    number = bag.count or (1 if bag.another else None)
-    if group.empty:
-        return Found(selector=s.Trees(), object_only=True, counted=number, each=bag.each)
-    selector = nested(group, s.Trees())
-    partitive = all(relation.kind in ("OF", "EXCEPT") for relation in relations)
-    if partitive and bag.each and not bag.count:
-        return Found(selector=selector, many=True, each=True)  # "all but the yellow trees"
-    if partitive and bag.count and not group.single:
-        return Found(selector=s.Take(count=bag.count, of=selector), many=bag.count > 1, counted=bag.count)
-    return Found(selector=selector, object_only=True, counted=number, each=bag.each, many=True, region=group.region)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 from fieldhand.errors import PlaceError, RequestError, TaskError
+from fieldhand.forecast.homeward import costs_too_much
 from fieldhand.planning.english.arrange import Arranged, arrange
 from fieldhand.planning.english.discourse import Discourse
 from fieldhand.planning.english.draft import Halt, node_of
@@ -15,6 +17,7 @@ from fieldhand.planning.english.limits import Limit
 from fieldhand.planning.english.syntax import NotParsed, parse
 from fieldhand.planning.english.tokens import Term, Word, words_of
 from fieldhand.planning.english.told import Told, settle
+from fieldhand.planning.foreseen import foreseeable
 from fieldhand.planning.planner import Clarify, Outcome, Planned, Reason, Refused
 from fieldhand.robot.capabilities import measures_of
 from fieldhand.robot.model import RobotProfile
@@ -24,9 +27,12 @@ from fieldhand.site.places import resolve
 from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
 from fieldhand.task.codec_text import unwritable_character
-from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource, Then
-from fieldhand.task.selectors import Bound, Here, Marker, Nearest, Other, Selector, is_relative, walk
+from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource, Task, Then
 
+_HOMEWARD: dict[Then, str] = {
+    "return_to_end": "When all is done the robot drives to the end marker.",
+    "return_to_start": "When all is done the robot drives back to the start marker.",
+}
 NAME = "english"
 #: A request longer than this is no request. Nothing but reading it takes time, and that grows with its length.
 LONGEST_REQUEST = 8_000
@@ -82,7 +88,9 @@ def _unknown(terms: Sequence[Term], lexicon: Lexicon) -> tuple[Reason, ...]:
     """A reason for each word that is not known, and for what is known but cannot be done yet."""
     known = [t for t in terms if t.kind == "NOTYET"]
     reasons = [Reason(what=f"'{t.text}' is not possible yet", said=(t.span,), advice=str(t.value)) for t in known]
-    strange = [t for t in terms if t.kind == "UNKNOWN"]
+    nameless = [t for k, t in enumerate(terms) if t.kind == "UNKNOWN" and k and _called(terms[k - 1])]
+    reasons += [_no_such(terms[terms.index(t) - 1], t, lexicon) for t in nameless]
+    strange = [t for t in terms if t.kind == "UNKNOWN" and t not in nameless]
     if strange:
         words = ", ".join(f"'{t.text}'" for t in strange[:12])
         more = f" and {len(strange) - 12} more" if len(strange) > 12 else ""
@@ -92,6 +100,20 @@ def _unknown(terms: Sequence[Term], lexicon: Lexicon) -> tuple[Reason, ...]:
             Reason(what=f"not understood: {words}{more}", said=tuple(t.span for t in strange), advice=advice)
         )
     return tuple(reasons)
+
+
+def _called(term: Term) -> str:
+    """What a name is expected behind: a row or a block; nothing else is called by names of its own."""
+    return "row" if term.kind == "ROW" else "block" if term.text.lower() in ("block", "blocks") else ""
+
+
+def _no_such(head: Term, name: Term, lexicon: Lexicon) -> Reason:
+    """A row or a block that the site does not have."""
+    planting, kind = lexicon.site.planting, _called(head)
+    names = list(dict.fromkeys(one.name for one in (planting.rows if kind == "row" else planting.blocks)))
+    there = f"{', '.join(names[:6])}{' and more' if len(names) > 6 else ''}"
+    advice = f"this site has {kind} {there}" if names else "no rows are known on this site"
+    return Reason(what=f"there is no {kind} '{name.text}'", said=(name.span,), advice=advice)
 
 
 def _all_accounted(words: Sequence[Word], arranged: Arranged) -> None:
@@ -153,6 +175,8 @@ def _planned(request: str, told: Told, site: Site, robot: RobotProfile) -> Outco
     problems = tuple(_impossible(task.composition.plan, site))
     if problems:
         return Refused(reasons=problems, planner=NAME)
+    if told.nominal is None:
+        task = _stays_if_home_is_far(task, site, robot)
     return Planned(task=task, planner=NAME)
 
 
@@ -160,10 +184,29 @@ def _exit(told: Told, site: Site) -> tuple[Then, list[str]]:
     if told.nominal is not None:
         return told.nominal, []
     if "end" in site.markers:
-        return "return_to_end", ["When all is done the robot drives to the end marker."]
+        return "return_to_end", [_HOMEWARD["return_to_end"]]
     if "start" in site.markers:
-        return "return_to_start", ["When all is done the robot drives back to the start marker."]
+        return "return_to_start", [_HOMEWARD["return_to_start"]]
     return "stay", ["The site has no start or end marker: the robot stays where it is when all is done."]
+
+
+def _stays_if_home_is_far(task: Task, site: Site, robot: RobotProfile) -> Task:
+    """Without the way home that nobody asked for, where that would take most of the budget for optional visits."""
+    then = task.composition.nominal
+    metres = costs_too_much(task, site, robot, then)
+    if metres is None:
+        return task
+    where = "the end marker" if then == "return_to_end" else "the start"
+    said = (
+        f"The way to {where} alone is {metres:.0f} m, most of what may be used: the robot stays where its last visit"
+        " was. Ask for the return if it is wanted."
+    )
+    kept = tuple(a for a in task.command.assumptions if a != _HOMEWARD.get(then))
+    return replace(
+        task,
+        command=replace(task.command, assumptions=(*kept, said)),
+        composition=replace(task.composition, nominal="stay"),
+    )
 
 
 def _constraints(limits: Iterable[Limit]) -> Constraints:
@@ -192,21 +235,9 @@ def _impossible(plan: p.Node, site: Site) -> Iterable[Reason]:
     """Places that this site does not have, as far as it can be told before the robot drives."""
     for node in p.walk(plan):
         selector = p.selector_of(node)
-        if selector is None or (is_relative(selector) and not _only_takes(selector)):
-            continue
-        if (
-            any(isinstance(part, Marker) for part in walk(selector))
-            and isinstance(selector, Marker)
-            and selector.name != "charger"
-        ):
-            continue
-        try:
-            resolve(selector, site, Context(here=site.start))
-        except (PlaceError, TaskError) as error:
-            yield Reason(what=error.what, said=node.said, advice=error.advice)
-
-
-def _only_takes(selector: Selector) -> bool:
-    return not any(
-        isinstance(part, Here | Bound | Other) or (isinstance(part, Nearest) and part.fresh) for part in walk(selector)
-    )
+        for part in () if selector is None else foreseeable(selector):
+            try:
+                resolve(part, site, Context(here=site.start))
+            except (PlaceError, TaskError) as error:
+                yield Reason(what=error.what, said=node.said, advice=error.advice)
+                break

@@ -12,6 +12,8 @@ from fieldhand.task import selectors as s
 
 #: Selectors that keep a tree or not by itself, whatever the others are: their order does not matter.
 FILTERS = (s.Where, s.InZone, s.Within, s.Excluding, s.Other)
+#: Selectors that are about rows: which trees are in a row does not depend on the others that are left.
+BY_ROWS = (s.Rows, s.RowOf, s.InBlock)
 
 
 @dataclass
@@ -24,6 +26,13 @@ class Group:
         beside: "Next to" rather than "near".
         region: The descriptions name an area.
         single: The descriptions name one place.
+        rows: The rows or blocks that they name; None if they name none.
+        one_by_one: Each of these rows or blocks by itself, where each is meant.
+        row_of: The tree whose row is meant ("the row of tree 12").
+        along: The way goes along the rows.
+        upwards: The way goes up the rows.
+        rows_of: They are said with "of" ("the northern half of row 3").
+        assumed: What was taken for granted.
     """
 
     area: s.Selector = field(default_factory=s.Trees)
@@ -31,7 +40,24 @@ class Group:
     beside: bool = False
     region: bool = False
     single: bool = False
+    rows: s.Selector | None = None
+    one_by_one: tuple[s.Selector, ...] = ()
+    row_of: s.Selector | None = None
+    rows_of: bool = False
+    upwards: bool = False
+    along: bool = False
+    assumed: tuple[str, ...] = ()
     _outer: list[tuple[str, Any]] = field(default_factory=list)
+
+    @property
+    def plain(self) -> bool:
+        """Whether nothing is said but where to measure from."""
+        return self.area == s.Trees() and not self._outer and not self.region
+
+    @property
+    def plain_rows(self) -> bool:
+        """Whether nothing is said but which rows."""
+        return self.area == self.rows and not self._outer and self.anchor is None
 
     @property
     def empty(self) -> bool:
@@ -44,7 +70,20 @@ class Group:
             raise unclear(phrase.terms, "there are no trees in one place", "say 'the tree nearest to' it")
         self.region = self.region or found.region
         self.single = self.single or not found.many
-        self.area = both(self.area, found.selector, phrase)
+        selector = found.selector
+        if isinstance(selector, s.PointsIn):  # "a tree in the middle of the wet corner" is a tree
+            if selector.count > 1:
+                raise unclear(phrase.terms, "points are no trees", "say 'at 4 points in the wet corner', for example")
+            selector = s.Middle(of=s.InZone(zone=selector.zone))
+        self.assumed += found.assumed
+        if found.rows:
+            if self.rows is not None:
+                raise unclear(phrase.terms, "rows of rows", "name the rows once")
+            self.rows, self.one_by_one = selector, found.one_by_one
+        before = self.area
+        self.area = both(before, selector, phrase)
+        if found.rows and before != s.Trees():  # the rows are those of what was said before
+            self.rows, self.one_by_one = self.area, tuple(both(before, one, phrase) for one in self.one_by_one)
 
     def within(self, metres: float, of: s.Selector) -> None:
         """Only trees within a distance."""
@@ -79,6 +118,8 @@ def inside(outer: s.Selector, inner: s.Selector) -> s.Selector:
     """An expression with its innermost "every tree" replaced."""
     if outer == s.Trees():
         return inner
+    if isinstance(outer, s.Union):
+        return s.Union(parts=tuple(inside(part, inner) for part in outer.parts))
     of = getattr(outer, "of", None)
     if of is None:
         return outer
@@ -91,10 +132,24 @@ def both(first: s.Selector, second: s.Selector, phrase: NounPhrase) -> s.Selecto
     """Trees of both. Which of two areas is taken of the other matters to their middles; a filter's order does not."""
     if first == s.Trees() or second == s.Trees():
         return second if first == s.Trees() else first
+    if _by_rows(second) and not _by_rows(first):
+        return _checked(inside(second, first), second, phrase)
     if isinstance(second, FILTERS) and not isinstance(first, FILTERS):
-        return inside(second, first)
-    selector = inside(first, second)
+        return _checked(inside(second, first), second, phrase)
+    selector = _checked(inside(first, second), first, phrase)
     check_sides(selector, phrase)
+    return selector
+
+
+def _by_rows(selector: s.Selector) -> bool:
+    parts = selector.parts if isinstance(selector, s.Union) else (selector,)
+    return all(isinstance(part, BY_ROWS) for part in parts)
+
+
+def _checked(selector: s.Selector, outer: s.Selector, phrase: NounPhrase) -> s.Selector:
+    """Nothing that was said may be lost where two selections are made one."""
+    if selector == outer:
+        raise unclear(phrase.terms, "it is not clear which trees that are of", "say it in a sentence of its own")
     return selector
 
 

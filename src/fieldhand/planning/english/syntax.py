@@ -83,6 +83,7 @@ class Part:
         objects: What to capture.
         places: Where.
         relation: The relation that ties the places to the verb ("at", "of", "next to").
+        spacing: "15 m apart", "every 20 m".
         tails: Words such as "twice", "again", "in any order", "there".
         terms: Every term of the part, in order.
     """
@@ -95,6 +96,7 @@ class Part:
     objects: tuple[Object, ...] = ()
     places: Places | None = None
     relation: Term | None = None
+    spacing: Term | None = None
     tails: tuple[Term, ...] = ()
 
     @property
@@ -185,8 +187,10 @@ def _part(tree: Any, then: bool) -> Part:
     from lark import Token
 
     fields: dict[str, Any] = {"tails": ()}
-    for child in tree.children:
+    for child in _flat(tree):
         if isinstance(child, Token):
+            if child.type == "EVERYM":
+                fields["spacing"] = child.value
             if child.type in ("GO", "VISIT", "RETURN", "GOHOME", "STOP", "REPEAT") and "verb" not in fields:
                 fields["verb"] = child.value
             continue
@@ -207,6 +211,15 @@ def _part(tree: Any, then: bool) -> Part:
             case _:
                 pass
     return Part(kind=str(tree.data), terms=_terms(tree), then=then, **fields)
+
+
+def _flat(tree: Any) -> Iterator[Any]:
+    """The children of a part, those of a distance and its line among them."""
+    for child in tree.children:
+        if getattr(child, "data", None) == "spaced":
+            yield from child.children
+        else:
+            yield child
 
 
 def _objects(tree: Any) -> tuple[Object, ...]:

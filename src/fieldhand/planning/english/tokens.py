@@ -10,7 +10,8 @@ from typing import Any
 from fieldhand.task.plan import Span
 
 _TOKEN = re.compile(
-    r"(?P<number>\d{1,3}(?:,\d{3})+(?![\d])|\d+(?:\.\d+)?)"
+    r"(?P<rank>\d+(?:st|nd|rd|th)\b)"
+    r"|(?P<number>\d{1,3}(?:,\d{3})+(?![\d])|\d+(?:\.\d+)?)"
     r"|(?P<word>[^\W\d_][\w\u2080-\u2089]*(?:['\u2019][^\W\d_]+)?)"
     r"|(?P<unit>%|°\s?[cCfF]\b|°)"
     r"|(?P<stop>[.;!?\n]+)"
@@ -20,7 +21,7 @@ _TOKEN = re.compile(
     r"|(?P<hash>#)"
     r"|(?P<space>[\s\"'\u201c\u201d\u2018\u2019*_`]+)"
     r"|(?P<other>.)",
-    re.DOTALL,
+    re.DOTALL | re.IGNORECASE,
 )
 
 
@@ -29,7 +30,8 @@ class Word:
     """One word, number or sign of the request.
 
     Attributes:
-        kind: ``word``, ``number``, ``unit``, ``stop``, ``comma``, ``dash``, ``sign``, ``hash`` or ``other``.
+        kind: ``word``, ``rank`` ("12th"), ``number``,
+            ``unit``, ``stop``, ``comma``, ``dash``, ``sign``, ``hash`` or ``other``.
         norm: As the lexicon knows it: lower case, compatibility forms folded, straight apostrophes.
     """
 

@@ -18,7 +18,7 @@ _VERB_NOUNS = frozenset({"sample", "reading", "check", "test", "scan", "probe", 
 _CLAUSE_STARTS = frozenset({"", "COMMA", "AND", "THEN", "OTHERWISE", "TRY"})
 _CLAUSE_ENDS = frozenset({"", "COMMA", "AND", "THEN", "STOPMARK"})
 #: What a number in a list of tree numbers cannot stand before ("tree 4 and 2 pictures").
-_COUNTED = frozenset(
+COUNTED = frozenset(
     {"TREE", "NOUN", "READING", "CORNER", "OTHER", "MORE", "NEARBY", "NEAREST", "ATTRVAL", "ADJACENT", "MOST", "SUPER"}
     | {"DIR", "PLACE", "MEASURE", "FAR", "FARTHEST", "ORD", "MIDDLE", "UNIT", "TIMES", "CMP", "ANY", "EDGE", "ATTR"}
 )
@@ -103,10 +103,17 @@ def _next(term: Term, before: str, after: str) -> Term | None:
 
 
 def _one(term: Term, before: str, after: str) -> Term | None:
-    if term.kind == "NUM" and term.text.lower() == "one" and before in _ONE_OF_A_KIND and after not in _COUNTED:
+    if term.kind == "NUM" and term.text.lower() == "one" and before in _ONE_OF_A_KIND and after not in COUNTED:
         return replace(term, kind="PLACE")
     if term.kind == "LAST" and before == "DET" and after in ("COMMA", "AND", "", "STOPMARK"):
         return term
+    return None
+
+
+def _nearest(term: Term, before: str, after: str) -> Term | None:
+    """ "The tree nearest | the charger"."""
+    if term.kind == "NEAREST" and before in ("TREE", "PLACE") and after in ("DET", "IDS", "CHARGER", "START", "FINISH"):
+        return replace(term, kind="NEAR") if not term.text.lower().startswith("the ") else None
     return None
 
 
@@ -165,6 +172,7 @@ _RULES: tuple[Callable[[Term, str, str], Term | None], ...] = (
     _each,
     _next,
     _one,
+    _nearest,
     _by,
     _noun_as_verb,
     _first,
@@ -186,7 +194,7 @@ def with_ids(terms: list[Term]) -> list[Term]:
             after = terms[end].kind if end < len(terms) else ""
             found.append(term)
             at += 1
-            if ids and after not in _COUNTED:
+            if ids and after not in COUNTED:
                 text = " ".join(t.text for t in terms[at:end])
                 found.append(Term(kind="IDS", text=text, start=terms[at].start, end=terms[end - 1].end, value=ids))
                 at = end
@@ -199,7 +207,7 @@ def with_ids(terms: list[Term]) -> list[Term]:
         if end < len(terms) and terms[end].kind == "NUMBERED":
             end += 1
         ids, end = _id_list(terms, end)
-        if not ids:
+        if not ids or (end == at + 2 and end < len(terms) and terms[end].kind == "TREE"):  # "the tree | 5 trees down"
             found.append(term)
             at += 1
             continue
@@ -216,7 +224,7 @@ def _numbers_first(terms: list[Term]) -> list[Term]:
         ranked = found[k].kind in ("LAST", "NEAREST", "MOST", "SUPER", "OTHER", "FARTHEST") or (
             found[k].kind == "ORD" and found[k].value == 1
         )
-        if ranked and found[k + 1].kind == "NUM" and found[k + 2].kind in ("TREE", "ATTRVAL"):
+        if ranked and found[k + 1].kind == "NUM" and found[k + 2].kind in ("TREE", "ATTRVAL", "ROW"):
             found[k], found[k + 1] = found[k + 1], found[k]
     return found
 
@@ -230,7 +238,7 @@ def _id_list(terms: list[Term], at: int) -> tuple[tuple[str, ...], int]:
             comma += 1
         ids, end = _ids(terms, comma) if comma > at else ((), at)
         after = terms[end].kind if end < len(terms) else ""
-        if not ids or after in _COUNTED:
+        if not ids or after in COUNTED:
             break
         found += ids
         at = end

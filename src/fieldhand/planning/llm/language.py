@@ -27,7 +27,10 @@ LETTERS = {"node": "N", "condition": "C", "selector": "S"}
 #: Attributes that only the program writes.
 DERIVED = frozenset({"id", "said"})
 
-_KINDS = {"text": "name", "integer": "whole number", "number": "number", "flag": "true", "value": "value"}
+_KINDS = {"text": "name", "integer": "int", "number": "number", "flag": "true", "value": "value"}
+
+#: Choices that many elements have, by the word that stands for them.
+ABBREVIATED = {"SIDE": "north|east|south|west", "TEST": "lt|le|gt|ge|eq|ne"}
 
 
 @cache
@@ -48,7 +51,8 @@ def describe_language() -> str:
     rendered = [
         f"## {title}\n" + "\n".join(_paragraph(shape_of(cls)) for cls in classes) for title, classes in sections
     ]
-    return "\n\n".join([*rendered, f"## How nodes behave\n{_behaviour()}"])
+    short = "; ".join(f"{word} is {choices}" for word, choices in ABBREVIATED.items())
+    return "\n\n".join([f"In these forms {short}.", *rendered, f"## How nodes behave\n{_behaviour()}"])
 
 
 def _paragraph(shape: Shape) -> str:
@@ -72,6 +76,8 @@ def _attribute(attribute: Attribute) -> str:
     match attribute.kind:
         case "choice":
             value = "|".join(attribute.choices)
+            for word, choices in ABBREVIATED.items():
+                value = value.replace(choices, word)
         case "choices":
             value = f"some of: {' '.join(attribute.choices)}"
         case kind:
@@ -93,8 +99,19 @@ def _child(child: Child) -> str:
 def _meaning(shape: Shape) -> str:
     """The docstring on one line, its attributes after it."""
     text, _, attributes = inspect.cleandoc(shape.cls.__doc__ or "").partition("\n\nAttributes:\n")
+    shown = {a.field for a in shape.attributes} | {child.field for child in shape.children}
+    attributes = "\n".join(line for line in _entries(attributes) if _named(line) & shown)
     attributes = re.sub(r"(?m)^ {4}(\w+(?:, \w+)*):", lambda m: f"{m[1].replace('_', '-')}:", attributes)
     return _plain(f"{text} {attributes}")
+
+
+def _entries(attributes: str) -> list[str]:
+    """The entries of a docstring's section of attributes, the lines that go on with one joined to it."""
+    return re.split(r"\n(?= {4}\w)", attributes) if attributes else []
+
+
+def _named(entry: str) -> set[str]:
+    return set(re.findall(r"\w+", entry.partition(":")[0]))
 
 
 def _behaviour() -> str:

@@ -7,6 +7,7 @@ to a length, and said to be data. Trees never go in, so the size does not grow w
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from collections.abc import Iterable, Sequence
 from functools import cache
@@ -21,21 +22,27 @@ from fieldhand.robot.model import Action, Parameter, Quantity, RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.codec_shapes import NAMESPACE
 
-#: Most characters of the summary of a site, of the summary of a robot, and of one line of either.
+#: Most characters of the summary of a robot, of the summary of a site, and of one line of either.
 MOST_DATA = 4_000
+MOST_OF_SITE = 1_600
 LONGEST_LINE = 400
 #: Words that are shown for one action or quantity.
-SAID_WORDS = 10
+SAID_WORDS = 6
 
 
 @cache
 def instructions() -> str:
     """The first message: the same for every robot, site and request."""
-    shown = "\n\n".join(f"Request: {request}\nAnswer:\n{answer}" for request, answer in EXAMPLES)
+    shown = "\n\n".join(f"Request: {request}\nAnswer: {_flat(answer)}" for request, answer in EXAMPLES)
     head = f"# Examples, for another robot ({EXAMPLE_ROBOT}) on another site"
     rules = resources.files(__package__).joinpath("instructions.md").read_text(encoding="utf-8")
     rules = rules.replace("{NAMESPACE}", NAMESPACE).strip()
     return "\n\n".join([rules, describe_language(), head, shown])
+
+
+def _flat(document: str) -> str:
+    """A document without the line ends between its elements, each of which a model would have to read."""
+    return re.sub(r">\s+<", "><", document).replace(f' xmlns="{NAMESPACE}"', "")
 
 
 def opening(request: str, site: Site, robot: RobotProfile) -> tuple[Message, Message]:
@@ -45,7 +52,7 @@ def opening(request: str, site: Site, robot: RobotProfile) -> tuple[Message, Mes
     asked = "\n\n".join(
         [
             fenced("robot", robot_lines(robot)),
-            fenced("site", summary_lines(site)),
+            fenced("site", summary_lines(site), MOST_OF_SITE),
             f"The operator's request, word for word:\n{request}",
         ]
     )
@@ -62,10 +69,14 @@ def repair(problems: Sequence[str], tries_left: int) -> Message:
     )
 
 
-def fenced(name: str, lines: Iterable[str]) -> str:
-    """Data from a file, marked as data: no line of it can end the fence, open an element or go on for ever."""
+def fenced(name: str, lines: Iterable[str], most: int = MOST_DATA) -> str:
+    """Data from a file, marked as data: no line of it can end the fence, open an element or go on for ever.
+
+    Args:
+        most: Characters of all lines together.
+    """
     kept: list[str] = []
-    left = MOST_DATA
+    left = most
     for position, line in enumerate(lines := list(lines)):
         clean = escape(_line(line)).replace("---", "- - -")
         if len(clean) > left:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 from fieldhand.errors import PlaceError, TaskError
+from fieldhand.planning.foreseen import foreseeable
 from fieldhand.site.context import Context
 from fieldhand.site.kinds import phrase
 from fieldhand.site.model import Place, Site
@@ -26,7 +27,7 @@ from fieldhand.task.frames import Command, Composition, Task
 from fieldhand.task.plan import ForEach, Node
 from fieldhand.task.references import references
 from fieldhand.task.schema import validate
-from fieldhand.task.selectors import Bound, Selector
+from fieldhand.task.selectors import Bound, InRow, RowOf, Selector
 
 Kind = Literal["answer", "schema", "reference", "site"]
 
@@ -118,19 +119,16 @@ def _places(root: Node, site: Site) -> Iterator[Problem]:
 
 def _unresolved(selector: Selector, site: Site, where: str) -> Iterator[Problem]:
     """Problems of the largest parts that can be resolved before the mission begins."""
-    if selectors.is_relative(selector):
-        for part in selectors.parts(selector):
-            yield from _unresolved(part, site, where)
-        return
-    try:
-        _resolve(selector, site)
-    except PlaceError as error:
-        yield Problem(kind="site", message=_said(error), where=where)
+    for part in foreseeable(selector):
+        try:
+            _resolve(part, site)
+        except PlaceError as error:
+            yield Problem(kind="site", message=_said(error), where=where)
 
 
 def _more_than_one(selector: Selector, site: Site, where: str) -> Iterator[Problem]:
     """An act or a drive goes to one place; several need a for-each, or a choice of one."""
-    if selectors.is_single(selector) or isinstance(selector, Bound):
+    if selectors.is_single(selector) or isinstance(selector, Bound) or _one_of_a_row(selector):
         return
     if not selectors.is_relative(selector):
         try:
@@ -141,6 +139,12 @@ def _more_than_one(selector: Selector, site: Site, where: str) -> Iterator[Probl
     name = element_name(type(selector))
     message = f'<{name}> gives several places where one is needed: use a <for-each>, or <take count="1">'
     yield Problem(kind="site", message=message, where=where)
+
+
+def _one_of_a_row(selector: Selector) -> bool:
+    """One tree by its number, of the row of one place."""
+    of = selector.of if isinstance(selector, InRow) and selector.first == selector.last else None
+    return isinstance(of, RowOf) and selectors.is_single(of.origin)
 
 
 def _resolve(selector: Selector, site: Site) -> tuple[Place, ...]:

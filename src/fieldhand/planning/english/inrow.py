@@ -1,0 +1,291 @@
+"""Trees by their place in a row: "the third tree of row 2", "every third tree", "5 trees down", "across the aisle"."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from fieldhand.errors import PlaceError, TaskError
+from fieldhand.planning.english.attributes import filtered
+from fieldhand.planning.english.bag import Bag
+from fieldhand.planning.english.faults import Question, text_of
+from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.rows import check_rows
+from fieldhand.planning.english.rowwords import From, Steps
+from fieldhand.planning.english.sets import Group
+from fieldhand.site.context import Context
+from fieldhand.site.model import Site
+from fieldhand.site.places import resolve
+from fieldhand.task import selectors as s
+
+_AMBIGUOUS_ENDS = ("the northern one", "the southern one", "both")
+
+
+def named_in_rows(bag: Bag, group: Group, site: Site) -> Found:
+    """ "Trees 4 to 9 of row 2": by their numbers in the row, not by their ids.
+
+    Raises:
+        Question: Trees with these ids stand in the row too, at other places.
+    """
+    check_rows(bag, site)
+    if group.anchor is not None or any(not name.isdigit() or int(name) < 1 for name in bag.ids):
+        raise bag.fault("trees in a row count from 1", "say 'tree 4 of row 2', for example")
+    if bag.count is not None and bag.count != len(bag.ids):
+        raise bag.fault(f"{bag.count} or {len(bag.ids)} trees?", "let the number and the names agree")
+    if bag.any:
+        raise Question(f"'{text_of(bag.phrase.terms)}': how many of them?", ("1", f"all {len(bag.ids)}"))
+    numbers = sorted({int(name) for name in bag.ids})
+    spans: list[tuple[int, int]] = []
+    for number in numbers:
+        if spans and number == spans[-1][1] + 1:
+            spans[-1] = (spans[-1][0], number)
+        else:
+            spans.append((number, number))
+    of = group.kept(group.area)
+    parts = tuple(s.InRow(first=first, last=last, of=of) for first, last in spans)
+    selector: s.Selector = parts[0] if len(parts) == 1 else s.Union(parts=parts)
+    several = several_rows(of, group, site)
+    if not several and _by_id(bag, of, selector, site):
+        trees = tuple(s.TreeIs(tree=name) for name in bag.ids)
+        selector = trees[0] if len(trees) == 1 else s.Union(parts=trees)
+    bag.finish()
+    many = len(numbers) > 1 or several
+    return Found(selector=selector, many=many, each=bag.each or bool(group.one_by_one), assumed=group.assumed)
+
+
+def _by_id(bag: Bag, of: s.Selector, selector: s.Selector, site: Site) -> bool:
+    """ "Tree 7 in row 3" may be the seventh of the row, or the tree whose id is 7 and that stands there."""
+    by_place, in_row = _ids(selector, site), _ids(of, site)
+    by_id = set(bag.ids) & in_row
+    if by_place and by_id == set(bag.ids) and by_place != by_id:
+        first = bag.ids[0]
+        raise Question(
+            f"'{text_of(bag.phrase.terms)}': by the number in the row, or by the tree's id?",
+            (f"the {_nth(int(first))} tree of the row, and so on", f"the tree with id {first}"),
+        )
+    return not by_place and by_id == set(bag.ids)
+
+
+def _nth(number: int) -> str:
+    ending = "th" if 10 <= number % 100 <= 20 else {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
+    return f"{number}{ending}"
+
+
+def _ids(selector: s.Selector, site: Site) -> set[str]:
+    if s.is_relative(selector):
+        return set()
+    try:
+        return {place.id for place in resolve(selector, site, Context(here=site.start))}
+    except (PlaceError, TaskError):
+        return set()
+
+
+def several_rows(of: s.Selector, group: Group, site: Site) -> bool:
+    """Whether a selection may hold trees of several rows."""
+    if group.one_by_one:
+        return True
+    if s.is_relative(of):
+        return False
+    index = [site.by_id[name].index for name in _ids(of, site) if name in site.by_id]
+    return len(set(site.planting.row_of[index].tolist())) > 1
+
+
+def ranked_in_rows(bag: Bag, of: s.Selector, group: Group, site: Site) -> Found:
+    """ "The first three trees of every row", "the last tree of row 3", "the third tree from the end of row 2"."""
+    check_rows(bag, site)
+    rank, last, behind = bag.take("ORD"), bag.take("LAST"), bag.take("BACKORD")
+    if group.anchor is not None:
+        raise bag.fault("which tree of the row is meant is said in two ways", "say 'the third tree of row 2'")
+    counted = bag.take("COUNTEDFROM")
+    start: From = counted.value if counted is not None else From()
+    if sum(t is not None for t in (rank, last, behind)) != 1 or (start.far and rank is None):
+        raise bag.fault("which tree of the row is meant is said in two ways", "say 'the third tree of row 2'")
+    tree = bag.take("TREE", "PLACE")
+    if tree is None:
+        raise bag.fault("which trees are meant does not stand there", "say 'the third tree of row 2'")
+    number = int(rank.value) if rank is not None else int(behind.value) if behind is not None else 1
+    if bag.count is not None and number > 1:
+        raise bag.fault("a rank and several trees at once", "say which one, or how many: 'trees 4 to 6 of row 2'")
+    if tree.plural and bag.count is None and number == 1:
+        raise Question(f"'{text_of(bag.phrase.terms)}': how many?", ("2", "3", "4"))
+    if group.along and rank is not None and isinstance(group.rows, s.RowOf) and start == From():
+        text = text_of(bag.phrase.terms)
+        raise Question(
+            f"'{text}': counted from the end of the row, or from here?", ("from the end of the row", "from here")
+        )
+    first, end = number, number + (bag.count or 1) - 1
+    if last is not None or behind is not None or start.far:
+        first, end = -end, -first
+    many = end > first or several_rows(of, group, site)
+    selector = s.InRow(first=first, last=end, counted_from=along(bag, start.side, site), of=of)
+    return Found(selector=selector, many=many, each=bag.each or bool(group.one_by_one))
+
+
+def ends_of_rows(bag: Bag, group: Group, site: Site) -> Found:
+    """ "Both ends of each row", "the northern end of row 4", "the start of row 2"."""
+    of = group.kept(filtered(bag, group.area, site))
+    start, finish = bag.take("START"), bag.take("FINISH")
+    tree = bag.take("TREE", "PLACE")
+    direction, most = bag.take("DIR"), bag.take("MOST")
+    side: s.CountedFrom = "usual"
+    for said in (direction, most):
+        if said is not None:
+            if len(said.value) == 2:
+                raise bag.fault("a row has an end on one side", "say north, east, south or west")
+            side = along(bag, said.value, site)
+    plural = bool((finish and finish.plural) or (tree and tree.plural) or bag.count == 2)
+    if bag.count not in (None, 1, 2) or (start is not None and (plural or side != "usual")):
+        raise bag.fault("a row has two ends", "say 'both ends of row 3'")
+    first = s.InRow(first=1, last=1, counted_from=side, of=of)
+    last = s.InRow(first=-1, last=-1, of=of)
+    several = several_rows(of, group, site)
+    each = bag.each or bool(group.one_by_one)
+    if group.anchor is not None:  # "the end of row 3 nearest to the charger"
+        if plural or bag.each or bag.any or start is not None or side != "usual" or several:
+            raise bag.fault("which end is meant is said in two ways", "say 'the northern end of row 3'")
+        bag.take("NEAREST")
+        nearest = s.Nearest(to=group.anchor, of=s.Union(parts=(first, last)))
+        return Found(selector=nearest, counted=1, assumed=group.assumed)
+    if start is not None or side != "usual":
+        bag.any = False
+        return Found(selector=first, many=several, each=each, assumed=group.assumed)
+    if bag.any or bag.article in ("a", "an"):
+        raise Question(f"'{text_of(bag.phrase.terms)}': which of the two ends?", _AMBIGUOUS_ENDS)
+    if plural or bag.each:
+        return Found(selector=s.Union(parts=(first, last)), many=True, each=each, assumed=group.assumed)
+    said_as = f"'{text_of(bag.phrase.terms)}' is the one where the count along the row ends."
+    return Found(selector=last, many=several, each=each, assumed=(*group.assumed, said_as))
+
+
+def along(bag: Bag, side: s.CountedFrom, site: Site) -> s.CountedFrom:
+    """A side that trees along a row can be counted from."""
+    fitting = {True: ("usual", "west", "east"), False: ("usual", "north", "south")}
+    for block in site.planting.blocks:
+        if side not in fitting[block.runs_east_west]:
+            runs = "east-west" if block.runs_east_west else "north-south"
+            ends = "west or east" if block.runs_east_west else "north or south"
+            raise bag.fault(f"the rows run {runs}: they have no end in the {side}", f"say {ends}")
+    return side
+
+
+def every_nth(bag: Bag, group: Group, site: Site) -> Found:
+    """ "Every third tree": what stands before the noun is what is counted, what stands behind it is tested then."""
+    check_rows(bag, site)
+    every, begin = bag.take("EVERYNTH"), bag.take("STARTNTH")
+    tree = bag.take("TREE", "PLACE")
+    if every is None or tree is None or bag.count is not None or group.anchor is not None:
+        raise bag.fault("every how many of which trees?", "say 'every third tree of row 2', for example")
+    if bag.has("ORD", "LAST", "SUPER", "NEAREST", "NEARBY", "FARTHEST", "FAR", "OTHER", "DIR"):
+        raise bag.fault("every how many of which trees?", "say it in two requests")
+    kind, start = begin.value if begin is not None else ("tree", "1")
+    if kind == "row":
+        raise bag.fault("the count of trees begins with a tree", "say 'starting with the second tree'")
+    behind, compared = bag.take_behind("ATTRVAL", tree.start), bag.compared
+    bag.compared = [group_ for group_ in compared if group_[0].start < tree.start]
+    tested = [group_ for group_ in compared if group_[0].start > tree.start]
+    area, tests = parted(group.area)
+    inner = filtered(bag, area, site)
+    selector: s.Selector = s.EveryNth(nth=int(every.value), start=int(start), of=inner)
+    for test in reversed(tests):
+        selector = replace(test, of=selector)
+    bag.compared = tested
+    bag.put("ATTRVAL", behind)
+    selector = group.kept(filtered(bag, selector, site))
+    bag.take("PLOT")
+    return Found(selector=selector, many=True, each=True)
+
+
+def parted(area: s.Selector) -> tuple[s.Selector, list[s.Where]]:
+    """An area without tests of attributes, and these, outermost first.
+
+    "Every third tree of row 2 that is older than 10 years": the test stands in the phrase of the row, and it is the
+    trees that are counted that are tested.
+    """
+    tests: list[s.Where] = []
+    if isinstance(area, s.Where):
+        inner, tests = parted(area.of)
+        return inner, [area, *tests]
+    if isinstance(area, s.Union):
+        found = [parted(part) for part in area.parts]
+        if all(one[1] == found[0][1] for one in found):
+            return s.Union(parts=tuple(one[0] for one in found)), found[0][1]
+    of = getattr(area, "of", None)
+    if of is None:
+        return area, []
+    inner, tests = parted(of)
+    outer: Any = area
+    return replace(outer, of=inner), tests
+
+
+def stepped(bag: Bag, group: Group, site: Site) -> Found:
+    """ "5 trees down": along the row of the tree in hand, or of another one."""
+    check_rows(bag, site)
+    said = bag.take("STEP")
+    steps: Steps = said.value if said is not None else Steps(trees=1)
+    bag.take("TREE", "PLACE")
+    bag.take("OTHER")
+    if bag.count is not None or bag.each or bag.any or bag.has("NEAREST", "NEARBY") or not group.plain:
+        raise bag.fault("which tree is meant is not clear", "say 'the tree 5 trees down the row from tree 12'")
+    if steps.towards not in ("down", "up"):
+        along(bag, _side(steps.towards), site)
+    origin = group.anchor or s.Here()
+    _check_origin(bag, origin)
+    selector = s.AlongRow(trees=steps.trees, towards=steps.towards, origin=origin)
+    return Found(selector=selector, counted=1)
+
+
+def _side(towards: s.Towards) -> s.CountedFrom:
+    sides: dict[str, s.CountedFrom] = {"north": "north", "east": "east", "south": "south", "west": "west"}
+    return sides.get(towards, "usual")
+
+
+def next_in_row(bag: Bag, group: Group) -> Found | None:
+    """ "The next tree in the row", "the next three trees of the row"."""
+    row = group.rows
+    if not isinstance(row, s.RowOf) or row.over or row.of != s.Trees() or group.area != row or not group.plain_rows:
+        return None
+    if bag.has("ATTRVAL") or bag.compared:
+        return None
+    bag.take("NEARBY")
+    tree = bag.take("TREE", "PLACE")
+    if tree is None or (tree.plural and bag.count is None):
+        return None
+    number = bag.count or 1
+    towards: s.Towards = "up" if group.upwards else "down"
+    parts = tuple(s.AlongRow(trees=k, towards=towards, origin=row.origin) for k in range(1, number + 1))
+    if number == 1:
+        return Found(selector=parts[0], counted=1)
+    return Found(selector=s.Union(parts=parts), many=True, counted=number)
+
+
+def opposite(bag: Bag, group: Group, site: Site) -> Found:
+    """ "The tree across the aisle", "the tree opposite tree 12"."""
+    check_rows(bag, site)
+    said = bag.take("OPPOSITE")
+    side: s.CountedFrom = "usual" if said is None else said.value
+    bag.take("TREE", "PLACE")
+    if bag.count not in (None, 1) or bag.plural or bag.each or bag.any or not group.plain:
+        raise bag.fault("one tree stands opposite", "say 'the tree opposite tree 12'")
+    if side != "usual":
+        ways = {block.runs_east_west for block in site.planting.blocks}
+        if any(side not in (("north", "south") if way else ("west", "east")) for way in ways):
+            raise bag.fault(f"the rows run along there: no aisle lies to the {side}", "say a side across the rows")
+    origin = group.anchor or s.Here()
+    _check_origin(bag, origin)
+    return Found(selector=s.Across(origin=origin, side=side), counted=1)
+
+
+def successive_trees(bag: Bag, group: Group) -> Found:
+    """ "4 trees in a row", "four consecutive trees in row 2": one after the other."""
+    bag.take("CONSECUTIVE")
+    if not bag.only("TREE") or bag.count is None or group.anchor is not None or bag.definite or bag.each:
+        raise bag.fault("which trees of a row are meant is not clear", "say '4 trees in a row', or name the row")
+    bag.any = False
+    bag.finish()
+    selector = s.Successive(count=bag.count, of=group.kept(group.area))
+    return Found(selector=selector, many=bag.count > 1, counted=bag.count, assumed=group.assumed)
+
+
+def _check_origin(bag: Bag, origin: s.Selector) -> None:
+    if isinstance(origin, s.Marker | s.PointsIn | s.Spaced):
+        raise bag.fault("a marker stands in no row", "name the tree to count from")

@@ -1,0 +1,92 @@
+"""Noun phrases joined by commas and "and": which words they share, and what one says of the other."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from fieldhand.planning.english.bag import bag_of
+from fieldhand.planning.english.faults import Question, text_of
+from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.syntax import Chain, NounPhrase, Places
+from fieldhand.planning.english.tokens import Term
+from fieldhand.task import selectors as s
+
+_RANKS = ("MOST", "SUPER", "ORD", "LAST", "BACKORD")
+
+
+def check_of_row(places: Places, found: list[Found]) -> None:
+    """ "The first tree and the last tree of row 6": is the first that of the row too?"""
+    bare = [c for c in places.chains if len(c.phrases) == 1 and bag_of(c.phrases[0]).has("ORD", "LAST")]
+    if bare and any(isinstance(part, s.InRow) for f in found for part in s.walk(f.selector)):
+        text = text_of(bare[0].terms)
+        raise Question(f"'{text}': of the row, or of the whole site?", (f"{text} of the row", f"{text} of the site"))
+
+
+def from_each_other(found: list[Found]) -> list[Found]:
+    """ "Tree 80 and the tree opposite": the second is counted from the first."""
+    made = found[:1]
+    for one in found[1:]:
+        selector: Any = one.selector
+        steps = isinstance(selector, s.AlongRow | s.Across | s.RowOf) and selector.origin == s.Here()
+        if steps and not made[-1].many and not made[-1].here:
+            one = replace(one, selector=replace(selector, origin=made[-1].selector))
+        made.append(one)
+    return made
+
+
+def one_each(places: Places) -> Places:
+    """ "The first and last tree of row 6": what is said behind the last is said of each, and each is one."""
+    last = places.chains[-1]
+    head = last.phrases[0]
+    rest = tuple(g for g in head.nominals if g[0].kind not in _RANKS)
+    if len(places.chains) < 2 or not rest or len(rest) == len(head.nominals):
+        return places
+    if not all(_only_ranks(chain) for chain in places.chains[:-1]):
+        return places
+    counted = any(t.kind == "NUM" for c in places.chains for t in c.phrases[0].quantity)
+    chains = [
+        replace(
+            chain,
+            phrases=(_headed(chain.phrases[0], rest, plural=counted), *last.phrases[1:]),
+            relations=last.relations,
+        )
+        for chain in places.chains[:-1]
+    ]
+    single = replace(last, phrases=(head if counted else _headed(head, (), plural=False), *last.phrases[1:]))
+    return replace(places, chains=(*chains, single))
+
+
+def _only_ranks(chain: Chain) -> bool:
+    """Whether a chain is a rank and no more ("the first", "the northernmost")."""
+    phrase = chain.phrases[0]
+    return len(chain.phrases) == 1 and bool(phrase.nominals) and all(g[0].kind in _RANKS for g in phrase.nominals)
+
+
+def _headed(phrase: NounPhrase, nominals: tuple[tuple[Term, ...], ...], *, plural: bool) -> NounPhrase:
+    """A phrase with the words that another one shares with it."""
+    whole = (*phrase.nominals, *nominals)
+    if not plural:
+        whole = tuple(tuple(replace(t, plural=False) for t in group) for group in whole)
+    return replace(phrase, nominals=whole)
+
+
+def without_both(chains: tuple[Chain, ...]) -> tuple[Chain, ...]:
+    """ "Both the first and the last tree": "both" announces the "and", and counts nothing."""
+    first = chains[0].phrases[0]
+    quantity = tuple(t for t in first.quantity if not t.text.lower().startswith("both"))
+    if len(chains) != 2 or quantity == first.quantity:
+        return chains
+    return (replace(chains[0], phrases=(replace(first, quantity=quantity), *chains[0].phrases[1:])), chains[1])
+
+
+def only_compares(chain: Chain) -> bool:
+    """Whether a chain goes on with a comparison of what stands before it ("... and younger than 12")."""
+    bag = bag_of(chain.phrases[0])
+    return bool(bag.compared) and not chain.phrases[0].quantity and not bag.has("TREE", "PLACE", "CORNER")
+
+
+def is_apposition(chain: Chain) -> bool:
+    """Whether a chain says again what stands before it ("another tree, a different one")."""
+    words = {t.kind for t in chain.terms}
+    return bool(words & {"OTHER", "ANOTHER"}) and words <= {"OTHER", "ANOTHER", "DET", "PLACE", "IT", "NUM"}

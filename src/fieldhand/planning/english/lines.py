@@ -1,0 +1,86 @@
+"""Stops at a spacing: "three measurements 15 m apart", "every 20 m along row 4"; and points spread over a zone."""
+
+from __future__ import annotations
+
+from fieldhand.planning.english.counting import Wanted
+from fieldhand.planning.english.faults import Question, text_of, unclear
+from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.onebyone import one_by_one, spread_over
+from fieldhand.planning.english.syntax import Part
+from fieldhand.site.model import Site
+from fieldhand.task import selectors as s
+
+_LINE = "say along which row, or in which zone: 'every 20 m along row 4'"
+
+
+def stops_of(found: Found | None, part: Part, wanted: Wanted, site: Site) -> Found:
+    """The free points of a command with a spacing.
+
+    Raises:
+        Unclear, Question: How many there are or on which line they lie does not stand there.
+    """
+    spacing = part.spacing
+    apart = 0.0 if spacing is None else spacing.value.apart_m
+    if not apart > 0:
+        raise unclear(part.terms if spacing is None else [spacing], "stops need a distance above 0 m between them")
+    counts = {count for _, count in wanted}
+    if len(counts) > 1:
+        raise Question(f"'{text_of(part.terms)}': how many of each?", ("as many of each",))
+    count = next(iter(counts)) or 0
+    if count > 1 and spacing is not None and spacing.value.every:
+        raise Question(
+            f"'{text_of(part.terms)}': {count} stops, or {count} at every stop?",
+            (f"{count} stops {apart:g} m apart", f"{count} at every stop"),
+        )
+    if count == 1:
+        raise unclear(part.terms, "one stop has no distance to another", "say how many, or leave the distance out")
+    if found is None:
+        if not count:
+            raise Question(f"'{text_of(part.terms)}': how many, or along which row?", ("3", "5", "along row 1"))
+        return _found(s.Spaced(apart_m=apart, count=count), count)
+    selector = found.selector
+    if isinstance(selector, s.InZone) and selector.of == s.Trees() and not selector.outside:
+        return _found(s.Spaced(apart_m=apart, count=count, zone=selector.zone), count)
+    if found.rows:
+        return _in_rows(found, part, s.Spaced(apart_m=apart, count=count, of=selector), site)
+    if s.is_single(selector) and not found.many and count:
+        return _found(s.Spaced(apart_m=apart, count=count, near=selector), count)
+    if found.region:
+        raise unclear(part.terms, "stops at a distance need a line", _LINE)
+    raise unclear(part.terms, "trees stand where they stand: no distance between them can be asked for",
+                  "say 'every third tree of row 2', or leave the trees out")  # fmt: skip
+
+
+def _in_rows(found: Found, part: Part, stops: s.Spaced, site: Site) -> Found:
+    """Stops along one row, or along each of several."""
+    area = found.selector
+    relative = s.is_relative(area)
+    rows = found.one_by_one or (() if relative else one_by_one(area, site))
+    if relative or len(rows) <= 1:
+        return _found(stops, stops.count)
+    if stops.count and not found.one_by_one:
+        many = stops.count
+        raise Question(
+            f"'{text_of(part.terms)}': {many} along each row, or {many} in all?", (f"{many} along each row",)
+        )
+    return _found(spread_over(stops, area, rows), stops.count)
+
+
+def _found(selector: s.Selector, count: int) -> Found:
+    return Found(selector=selector, many=True, counted=count or None)
+
+
+def points_over(found: Found, part: Part, wanted: Wanted) -> Found:
+    """ "5 soil samples spread over the wet corner": free points of a zone, as many as there are captures."""
+    zone = found.selector
+    if isinstance(zone, s.PointsIn):
+        return found
+    if not (isinstance(zone, s.InZone) and zone.of == s.Trees() and not zone.outside):
+        raise unclear(
+            part.terms, "only over a zone of the site can points be spread", "name a zone, or say how many trees"
+        )
+    counts = {count for _, count in wanted}
+    count = next(iter(counts))
+    if len(counts) > 1 or count is None:
+        raise Question(f"'{text_of(part.terms)}': at how many points?", ("3", "5"))
+    return Found(selector=s.PointsIn(zone=zone.zone, count=count), many=count > 1, counted=count)

@@ -1,0 +1,101 @@
+"""What is said of each row or block: once for each of them, where a selector cannot say it of all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any
+
+from fieldhand.errors import PlaceError, TaskError
+from fieldhand.planning.english.bag import Bag
+from fieldhand.planning.english.faults import Question, text_of
+from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.sets import Group
+from fieldhand.site.context import Context
+from fieldhand.site.model import Site
+from fieldhand.site.places import resolve
+from fieldhand.task import selectors as s
+
+#: More rows than this are not planned one by one.
+MOST_ONE_BY_ONE = 60
+#: Selectors that pick from all that is left: said of each row, they are said once for each.
+_PICKS = (
+    s.Top, s.Extreme, s.AmongExtreme, s.Middle, s.EdgeMiddle, s.Nearest, s.Farthest, s.Adjacent, s.Take, s.Successive,
+    s.First, s.Last, s.Corners, s.Nth, s.Spaced, s.Edge, s.Half, s.Quarter, s.Ordered,
+)  # fmt: skip
+
+
+def one_by_one(selector: s.Selector, site: Site) -> tuple[s.Selector, ...]:
+    """The rows of a selection, each as a selector of its own."""
+    try:
+        places = resolve(selector, site, Context(here=site.start))
+    except (PlaceError, TaskError):
+        return ()
+    planting = site.planting
+    index = [site.by_id[place.id].index for place in places if place.id in site.by_id]
+    numbers = sorted({int(k) for k in planting.row_of[index] if k >= 0})
+    parts = selector.parts if isinstance(selector, s.Union) else (selector,)
+    inner_most = {part.of for part in parts if isinstance(part, s.Rows)}
+    plain = len(inner_most) == 1 and all(isinstance(part, s.Rows) for part in parts)
+    of = next(iter(inner_most)) if plain else selector
+    made: list[s.Selector] = []
+    for k in numbers:
+        row = planting.rows[k]
+        block = planting.blocks[row.block]
+        named = len(planting.blocks) > 1 and not any(isinstance(part, s.InBlock) for part in s.walk(of))
+        inner = s.InBlock(block=block.name, of=of) if named else of
+        made.append(s.Rows(first=row.name, last=row.name, of=inner))
+    return tuple(made)
+
+
+def distributed(found: Found, group: Group, bag: Bag) -> Found:
+    """ "The oldest tree of each row": a pick that is said of each row, said once for each of them."""
+    if group.one_by_one and found.at_most is not None:
+        raise bag.fault(
+            "up to so many in each row cannot be said yet", "say how many in each row, or up to how many in all"
+        )
+    one = isinstance(found.selector, s.Take) and found.selector.count == 1 and not found.many
+    if one and group.rows is not None and not group.one_by_one and _are_several(group.rows):
+        text = text_of(bag.phrase.terms)
+        choices = (f"{text} in each of the rows", "one in all")
+        raise Question(f"'{text}': one in each of the rows, or one in all?", choices)
+    if not group.one_by_one or group.rows is None or not _picks_from(found.selector, group.rows):
+        return found
+    if len(group.one_by_one) > MOST_ONE_BY_ONE:
+        raise bag.fault(f"there are {len(group.one_by_one)} of them, too many to be told one by one", "name some rows")
+    parts = tuple(_swapped(found.selector, group.rows, one) for one in group.one_by_one)
+    return Found(selector=s.Union(parts=parts), many=True, each=True, assumed=found.assumed)
+
+
+def _are_several(rows: s.Selector) -> bool:
+    """Whether several rows or blocks were named one by one or as a range."""
+    return isinstance(rows, s.Union) or (isinstance(rows, s.Rows) and rows.first != rows.last)
+
+
+def spread_over(selector: s.Selector, area: s.Selector, ones: Iterable[s.Selector]) -> s.Selector:
+    """A selection of an area, made of each of its parts."""
+    parts = tuple(_swapped(selector, area, one) for one in ones)
+    return parts[0] if len(parts) == 1 else s.Union(parts=parts)
+
+
+def _picks_from(selector: s.Selector, area: s.Selector) -> bool:
+    if selector == area:
+        return False
+    inner = [part for part in s.parts(selector) if any(p == area for p in s.walk(part))]
+    return bool(inner) and (isinstance(selector, _PICKS) or any(_picks_from(part, area) for part in inner))
+
+
+def _swapped(selector: s.Selector, old: s.Selector, new: s.Selector) -> s.Selector:
+    """The selector with one part in the place of another."""
+    if selector == old:
+        return new
+    changed: dict[str, object] = {}
+    for name in selector.__dataclass_fields__:
+        value = getattr(selector, name)
+        if isinstance(value, s.Selector):
+            changed[name] = _swapped(value, old, new)
+        elif isinstance(value, tuple) and any(isinstance(item, s.Selector) for item in value):
+            changed[name] = tuple(_swapped(item, old, new) for item in value)
+    outer: Any = selector
+    made: s.Selector = replace(outer, **changed)
+    return made

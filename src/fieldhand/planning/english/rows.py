@@ -1,0 +1,306 @@
+"""Rows and blocks in noun phrases: "row 3", "the second row from the east", "every other row", "two rows over"."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fieldhand.planning.english.attributes import filtered
+from fieldhand.planning.english.bag import Bag
+from fieldhand.planning.english.faults import Question, text_of
+from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.onebyone import one_by_one
+from fieldhand.planning.english.rowwords import From, Over
+from fieldhand.planning.english.sets import Group
+from fieldhand.planning.english.tokens import Term
+from fieldhand.site.model import Site
+from fieldhand.task import selectors as s
+
+_WHICH = "say which: 'row 3', 'the westernmost row', 'every other row'"
+
+
+def speaks_of_rows(bag: Bag) -> bool:
+    """Whether a phrase is about rows or blocks themselves."""
+    return bag.has("ROW", "ROWIDS", "BLOCKIDS", "OVER")
+
+
+def rows_meant(bag: Bag, group: Group, size: int | None, site: Site) -> Found:
+    """The rows or blocks of a phrase, as an area.
+
+    Args:
+        group: What describes the rows.
+        size: Trees that the row is said to have ("a row of 5 trees").
+
+    Raises:
+        Unclear, Question: A word of it could not be placed, or it leaves open which rows.
+    """
+    check_rows(bag, site)
+    if group.anchor is not None:
+        raise bag.fault("which row is meant does not stand there", "say 'the next row', or 'two rows to the east'")
+    head = next(word for kind in ("ROW", "ROWIDS", "BLOCKIDS", "OVER") for word in bag.words(kind))
+    valued = bag.take_behind("ATTRVAL", head.start)  # "the rows ... that are yellow": their trees are
+    compared, bag.compared = bag.compared, []
+    if bag.has("BLOCKIDS"):
+        found = _blocks(bag, group.area, site)
+    elif bag.has("OVER"):
+        found = _over(bag, group, site)
+    elif bag.has("ROWIDS"):
+        found = _numbered(bag, group.area, site)
+    else:
+        found = _described(bag, group, size, site)
+        size = None
+    if size is not None:
+        raise bag.fault("how many trees a row has is not what it is chosen by", "leave the number out")
+    bag.put("ATTRVAL", valued)
+    bag.compared = [terms for terms in compared if terms[0].start > head.start]
+    tested = filtered(bag, found.selector, site)
+    bag.compared = [terms for terms in compared if terms[0].start < head.start]
+    bag.finish()
+    if group.row_of is not None and not any(isinstance(part, s.RowOf) for part in s.walk(found.selector)):
+        raise bag.fault("which row is meant is said in two ways", _WHICH)
+    found = replace(found, assumed=(*found.assumed, *group.assumed))
+    kept = group.kept(tested)
+    return found if kept == found.selector else replace(found, selector=kept, one_by_one=_each(found, kept, site))
+
+
+def check_rows(bag: Bag, site: Site) -> None:
+    """A site whose trees stand in no rows has none to speak of.
+
+    Raises:
+        Unclear: It has none.
+    """
+    if not site.planting.blocks:
+        why = f" ({site.planting.why})" if site.planting.why else ""
+        advice = "name trees by id, side, corner or attribute, or give the rows in the site's file"
+        raise bag.fault(f"no rows are known on this site{why}", advice)
+
+
+def _blocks(bag: Bag, of: s.Selector, site: Site) -> Found:
+    named = bag.take("BLOCKIDS")
+    bag.any = False
+    known = {block.name.lower(): block.name for block in site.planting.blocks}
+    known |= {str(k): block.name for k, block in enumerate(site.planting.blocks, start=1) if str(k) not in known}
+    names: list[str] = []
+    for first, last in () if named is None else named.value:
+        names += [first] if first == last else _between(bag, first, last, list(known.values()))
+    for name in names:
+        if name.lower() not in known:
+            there = ", ".join(block.name for block in site.planting.blocks)
+            raise bag.fault(f"there is no block {name!r}", f"this site has block {there}")
+    blocks = tuple(s.InBlock(block=known[name.lower()], of=of) for name in dict.fromkeys(names))
+    one = blocks[0] if len(blocks) == 1 else s.Union(parts=blocks)
+    return Found(selector=one, many=True, region=True, rows=True, each=bag.each, one_by_one=blocks if bag.each else ())
+
+
+def unnamed_block(bag: Bag, site: Site) -> bool:
+    """Whether a phrase speaks of a block, and does not say which of several."""
+    words = bag.words("PLOT")
+    return any(t.text.lower() in ("block", "blocks") for t in words) and len(site.planting.blocks) > 1
+
+
+def some_block(bag: Bag, group: Group, site: Site) -> Found:
+    """ "Each block", "the block": all of them, one by one, or a question which."""
+    names = tuple(block.name for block in site.planting.blocks)
+    plural = any(t.plural for t in bag.words("PLOT"))
+    if not bag.each or not bag.only("PLOT") or bag.count not in (None, len(names)) or group.anchor is not None:
+        raise Question(
+            f"'{text_of(bag.phrase.terms)}': which {'blocks' if plural else 'block'}?",
+            tuple(f"block {name}" for name in names[:6]),
+        )
+    bag.take("PLOT")
+    bag.finish()
+    of = group.kept(group.area)
+    blocks = tuple(s.InBlock(block=name, of=of) for name in names)
+    return Found(
+        selector=s.Union(parts=blocks), many=True, region=True, rows=True, each=True, one_by_one=blocks,
+        assumed=group.assumed,
+    )  # fmt: skip
+
+
+def _between(bag: Bag, first: str, last: str, names: list[str]) -> list[str]:
+    if first not in names or last not in names or names.index(last) < names.index(first):
+        raise bag.fault(f"no blocks go from {first!r} to {last!r}", "name each of them")
+    return names[names.index(first) : names.index(last) + 1]
+
+
+def _over(bag: Bag, group: Group, site: Site) -> Found:
+    """ "Two rows over", "the next row": from the row of the tree in hand."""
+    said = bag.take("OVER")
+    over: Over = said.value if said is not None else Over(rows=1)
+    bag.take("ROW")
+    if bag.has("TREE", "PLACE") or bag.count is not None:
+        raise bag.fault("it is not clear which tree is meant", "say 'the tree two rows over', or 'the next row'")
+    bag.any = False
+    ways = {block.runs_east_west for block in site.planting.blocks}
+    rows, assumed = over.rows, ""
+    if over.side:
+        across = {True: ("north", "south"), False: ("west", "east")}
+        if any(over.side not in across[way] for way in ways):
+            runs = "east-west" if True in ways else "north-south"
+            raise bag.fault(f"the rows run {runs}: no row lies further {over.side}", "say a side across the rows")
+        rows = -rows if over.side in ("west", "north") else rows
+    else:
+        higher = "higher" if rows > 0 else "lower"
+        assumed = f"'{text_of(bag.phrase.terms)}' is counted towards {higher} row numbers ({_way(rows, ways)})."
+    selector = s.RowOf(origin=group.row_of or s.Here(), over=rows, of=group.area)
+    return Found(selector=selector, many=True, region=True, rows=True, assumed=(assumed,) if assumed else ())
+
+
+def _way(rows: int, ways: set[bool]) -> str:
+    sides = {("south" if way else "east") if rows > 0 else ("north" if way else "west") for way in ways}
+    return " or ".join(sorted(sides))
+
+
+def _numbered(bag: Bag, of: s.Selector, site: Site) -> Found:
+    """Rows by their numbers or names."""
+    named = bag.take("ROWIDS")
+    every = bag.take("EVERYNTH")
+    bag.any = False
+    ranges: tuple[tuple[str, str], ...] = () if named is None else named.value
+    for first, last in ranges:
+        for name in dict.fromkeys((first, last)):
+            _in_one_block(bag, f"row {name}", name, of, site)
+    if bag.count is not None and len(ranges) != bag.count and all(first == last for first, last in ranges):
+        raise bag.fault(f"{bag.count} or {len(ranges)} rows?", "let the number and the names agree")
+    nth = 1 if every is None else int(every.value)
+    if every is not None and (len(ranges) > 1 or ranges[0][0] == ranges[0][1]):
+        raise bag.fault("every how many of which rows?", "say 'every third row starting with row 2', for example")
+    blocks = isinstance(of, s.Union) and all(isinstance(part, s.InBlock) for part in of.parts)
+    areas = of.parts if isinstance(of, s.Union) and blocks else (of,)
+    parts = tuple(s.Rows(first=first, last=last, every=nth, of=area) for area in areas for first, last in ranges)
+    selector = parts[0] if len(parts) == 1 else s.Union(parts=parts)
+    return _area(selector, bag, site, several=(named is not None and named.plural) or len(areas) > 1)
+
+
+def _described(bag: Bag, group: Group, size: int | None, site: Site) -> Found:
+    """Rows by rank, by side, by "every", or as a row spoken of."""
+    of = group.area
+    row = bag.take("ROW")
+    plural = bool(row and row.plural)
+    counted: Term | None = bag.take("COUNTEDFROM")
+    start: From = counted.value if counted is not None else From()
+    if size is not None:
+        return _of_size(bag, of, size)
+    if (every := bag.take("EVERYNTH")) is not None:
+        begin = bag.take("STARTNTH")
+        kind, first = begin.value if begin is not None else ("row", "")
+        if kind == "tree" or bag.count is not None or start.far:
+            raise bag.fault("every how many rows, and from where?", "say 'every third row starting with row 2'")
+        if first:
+            _in_one_block(bag, f"row {first}", first, of, site)
+        rows = s.Rows(first=first, every=int(every.value), counted_from=_across(bag, start.side, site), of=of)
+        bag.each = True
+        return _area(rows, bag, site, several=True)
+    ranked = _ranked(bag, start, of, site)
+    if ranked is not None:
+        return ranked
+    if counted is not None or bag.any:
+        raise bag.fault("which row is meant does not stand there", _WHICH)
+    if bag.has("MIDDLE"):
+        return _middle(bag, of, site)
+    if (bag.each or (plural and bag.definite)) and not bag.pointing:
+        rows = s.Rows(of=of)
+        there = len(one_by_one(rows, site))
+        if bag.count is not None and bag.count != there:
+            raise Question(f"'{text_of(bag.phrase.terms)}': there are {there} rows, not {bag.count}", ("all of them",))
+        return _area(rows, bag, site, several=True)
+    same = bag.take("SAME") is not None
+    if (bag.definite or same or bag.article in ("its", "their")) and not plural and bag.count in (None, 1):
+        origin = group.row_of or s.Here()
+        return Found(selector=s.RowOf(origin=origin, of=of), many=True, region=True, rows=True)
+    some = tuple(f"row {row.name}" for row in site.planting.rows[:3])
+    raise Question(f"'{text_of(bag.phrase.terms)}': which row?" if not plural else
+                   f"'{text_of(bag.phrase.terms)}': which rows?", some)  # fmt: skip
+
+
+def _of_size(bag: Bag, of: s.Selector, size: int) -> Found:
+    """ "A row of 5 trees": 5 trees of one row, one after the other."""
+    if bag.definite or bag.each or bag.count not in (None, 1) or not bag.only():
+        raise bag.fault("which rows are meant does not stand there", "say 'a row of 5 trees', or name the row")
+    bag.any = False
+    return Found(selector=s.Successive(count=size, of=of), many=size > 1, region=True, rows=True, counted=size)
+
+
+def _ranked(bag: Bag, start: From, of: s.Selector, site: Site) -> Found | None:
+    """ "The third row", "the last two rows", "the westernmost row", "the second row from the east"."""
+    most, rank, behind = bag.take("MOST"), bag.take("ORD"), bag.take("BACKORD")
+    last = bag.take("LAST")
+    if most is None and rank is None and behind is None and last is None:
+        return None
+    if sum(t is not None for t in (last, behind)) + (start.far and rank is not None) > 1 or bag.has("EVERYNTH"):
+        raise bag.fault("which row is meant is said in two ways", _WHICH)
+    side: s.CountedFrom = start.side
+    if most is not None:
+        if start != From() or len(most.value) == 2 or last is not None or behind is not None:
+            raise bag.fault("which row is meant is said in two ways", _WHICH)
+        side = most.value
+    side = _across(bag, side, site)
+    number = int(rank.value) if rank is not None else int(behind.value) if behind is not None else 1
+    count = bag.count or 1
+    if count > 1 and number > 1:
+        raise bag.fault("a rank and several rows at once", "say which one, or how many")
+    if bag.plural and bag.count is None:
+        raise Question(f"'{text_of(bag.phrase.terms)}': how many?", ("2", "3", "4"))
+    first, end = (number, number + count - 1)
+    if last is not None or behind is not None or start.far:
+        first, end = -end, -first
+    bag.any = False
+    _in_one_block(bag, f"the {text_of(bag.phrase.terms)}".replace("the the", "the"), "", of, site)
+    if side == "usual" and first > 0 and not any(str(first) == row.name for row in site.planting.rows):
+        side = "north" if site.planting.blocks[0].runs_east_west else "west"  # by number, whatever the names are
+    rows = s.Rows(first=str(first), last=str(end), counted_from=side, of=of)
+    return _area(rows, bag, site, several=count > 1)
+
+
+def _middle(bag: Bag, of: s.Selector, site: Site) -> Found:
+    bag.take("MIDDLE")
+    blocks = site.planting.blocks
+    _in_one_block(bag, "the middle row", "", of, site)
+    rows = blocks[0].rows
+    if len(rows) % 2 == 0 or bag.plural or bag.count not in (None, 1):
+        half = len(rows) // 2
+        raise Question(f"'{text_of(bag.phrase.terms)}': there are {len(rows)} rows", (f"row {half}", f"row {half + 1}"))
+    number = rows[len(rows) // 2].name
+    return _area(s.Rows(first=number, last=number, of=of), bag, site, several=False)
+
+
+def _across(bag: Bag, side: s.CountedFrom, site: Site) -> s.CountedFrom:
+    """A side that rows can be counted from: one that lies across them."""
+    fitting = {True: ("usual", "north", "south"), False: ("usual", "west", "east")}
+    for block in site.planting.blocks:
+        if side not in fitting[block.runs_east_west]:
+            runs = "east-west" if block.runs_east_west else "north-south"
+            ends = "north or south" if block.runs_east_west else "west or east"
+            raise bag.fault(f"the rows run {runs}: they are not counted from the {side}", f"count from {ends}")
+    return side
+
+
+def _in_one_block(bag: Bag, called: str, name: str, of: s.Selector, site: Site) -> None:
+    """Which block's row is meant has to be said where several have such a row.
+
+    Raises:
+        Question: It does not say.
+    """
+    if any(isinstance(part, s.InBlock) for part in s.walk(of)):
+        return
+    blocks = [
+        block
+        for block in site.planting.blocks
+        if not name or any(name.lower() in (row.name.lower(), str(row.number)) for row in block.rows)
+    ]
+    exact = [block for block in blocks if name and any(name == row.name for row in block.rows)]
+    if exact and not name.isdigit():
+        blocks = exact
+    if len(blocks) > 1:
+        choices = tuple(f"{called} of block {block.name}" for block in blocks[:6])
+        raise Question(f"'{text_of(bag.phrase.terms)}': of which block?", choices)
+
+
+def _area(selector: s.Selector, bag: Bag, site: Site, *, several: bool) -> Found:
+    """Rows as an area; each by itself where the words say so, or there are several."""
+    each = bag.each
+    ones = one_by_one(selector, site) if each else ()
+    return Found(selector=selector, many=True, region=True, rows=True, each=each and several, one_by_one=ones)
+
+
+def _each(found: Found, kept: s.Selector, site: Site) -> tuple[s.Selector, ...]:
+    return one_by_one(kept, site) if found.one_by_one else ()
