@@ -113,8 +113,8 @@ def say_totals(totals: Totals) -> tuple[str, ...]:
     )
 
 
-def say_budget(budget: Budget) -> str:
-    """A budget as a sentence."""
+def say_budget(budget: Budget, *, home: bool = True) -> str:
+    """A budget as a sentence. ``home``: whether the mission goes anywhere when it is done."""
     match budget.kind:
         case "distance_m":
             amount = f"{say_number(budget.limit)} m of driving"
@@ -123,13 +123,15 @@ def say_budget(budget: Budget) -> str:
         case "energy_percent":
             amount = f"{say_number(budget.limit)} % of a full battery"
     chance = say_number(100 * budget.failure_probability)
-    return f"at most {amount}, the way home included (accepted chance of needing more: {chance} %)."
+    way = ", the way home included" if home else ""
+    return f"at most {amount}{way} (accepted chance of needing more: {chance} %)."
 
 
 def _limits(task: Task, robot: RobotProfile) -> tuple[str, ...]:
     reserve = reserve_percent(task.constraints, robot)
     whose = "the robot's own reserve" if task.constraints.reserve_percent is None else "as the Task asks"
-    found = [say_budget(b) for b in task.constraints.budgets]
+    home = task.composition.nominal != "stay"
+    found = [say_budget(b, home=home) for b in task.constraints.budgets]
     found.append(f"at least {say_number(reserve)} % charge is left at the end ({whose}).")
     speed = task.constraints.speed_m_s
     if speed is not None:
