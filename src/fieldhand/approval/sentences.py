@@ -211,7 +211,8 @@ class _Writer:
             said = f"the {count} trees" if count else "all trees"
         if node.optional:
             return self._optional_visits(node, said, found)
-        some = f"no more than {node.at_most} of {said}" if node.at_most is not None else f"each of {said}"
+        each = said if said.startswith("every ") else f"each of {said}"
+        some = f"no more than {node.at_most} of {said}" if node.at_most is not None else each
         return f"At {some}{_which(node.select, found)}{_order(node, len(places))}"
 
     def _optional_visits(self, node: ForEach, said: str, found: Found | None) -> str:
