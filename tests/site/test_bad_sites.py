@@ -46,6 +46,8 @@ FAULTS = {
     "kilometres away": (point(LON + 1, LAT), "88 km from the middle of the trees"),
     "unclosed zone": (area([*square(LON, LAT)[:4], [LON, LAT]], name="a"), "not closed"),
     "self-intersecting zone": (area(BOW, name="a"), "crosses or touches itself"),
+    "no numbers": (geometry("Point", []), "its coordinates hold nothing"),
+    "one number": (geometry("Point", [-120]), "its coordinates hold one number"),
     "text for a number": (geometry("Point", ["-120", LAT]), "its longitude is '-120'"),
     "a number that is none": (point(LON, LAT + 1e-4, age=float("nan")), "property 'age' is not a finite number"),
     "a gate of no width": (point(LON, LAT, kind="gate", width_m=0), "its width is '0'"),

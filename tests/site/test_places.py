@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 from fieldhand.errors import PlaceError
 from fieldhand.site.context import Context
+from fieldhand.site.describe import describe
 from fieldhand.site.model import Site
 from fieldhand.site.places import resolve, resolve_one
 from fieldhand.task.selectors import (
@@ -271,6 +272,14 @@ def test_corners_are_of_the_smallest_rectangle_by_brute_force(site):
         found = resolve_one(Corners(which=(name,)), site, at_start(site))
         nearest = min(math.hypot(*(t.place.xy - corner)) for t in site.trees)
         assert math.hypot(*(np.array(found.xy) - corner)) <= nearest + TINY
+
+
+@pytest.mark.parametrize("trees", [2, 3, 17, 40])
+@pytest.mark.parametrize("way", [(0.0, 5.0), (5.0, 0.0), (3.0, 4.0)])
+def test_trees_on_one_line_have_a_rectangle_without_width(trees, way):
+    site = site_of([(way[0] * k, way[1] * k) for k in range(trees)])
+    assert set(ids(Corners(which=("sw", "nw", "se", "ne")), site)) == {"1", str(trees)}
+    assert describe(site).area_m2 == pytest.approx(0.0, abs=1e-6)
 
 
 @pytest.mark.parametrize("turned", range(-40, 41, 8))

@@ -249,7 +249,10 @@ class _Reader:
     def _position(self, value: Any) -> Position:
         """Longitude and latitude; a height is read over."""
         if not isinstance(value, list) or len(value) < 2:
-            _fail(f"its coordinates are {_shown(value)}", "write them as [longitude, latitude] in degrees")
+            held = (
+                f"hold {('nothing', 'one number')[len(value)]}" if isinstance(value, list) else f"are {_shown(value)}"
+            )
+            _fail(f"its coordinates {held}", "write them as [longitude, latitude] in degrees")
         if len(value) > 2:
             self.high.add(self._number)
         lon, lat = value[0], value[1]

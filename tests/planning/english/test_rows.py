@@ -136,6 +136,24 @@ def test_a_request_about_rows_becomes_this_plan_and_a_whole_task(robot: str, req
     assert decode(document) == outcome.task
 
 
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        ("row 3", "every other tree"),
+        ("the third row from the east", "every fifth tree"),
+        ("every third tree", "rows 2 to 5"),
+        ("the wet corner", "yellow trees"),
+    ],
+)
+def test_groups_with_a_comma_alone_between_them_are_asked_about(first: str, second: str) -> None:
+    asked = said(EnglishPlanner().plan(f"take a picture of {first}, {second}", DEMO, ROBOTS["husky"]))
+    assert asked == f"asks '{first}, {second}': all of these, or only what is both?"
+    planned = said(
+        EnglishPlanner().plan(f"take a picture of every tree of {first} and {second}", DEMO, ROBOTS["husky"])
+    )
+    assert "all of these" not in planned
+
+
 @pytest.mark.parametrize(("robot", "request_", "question"), ASKED, ids=lambda v: str(v)[:60])
 def test_what_may_mean_two_things_along_rows_is_asked(robot: str, request_: str, question: str) -> None:
     assert said(EnglishPlanner().plan(request_, DEMO, ROBOTS[robot])) == f"asks {question}"

@@ -23,6 +23,14 @@ def check_of_row(places: Places, found: list[Found]) -> None:
         raise Question(f"'{text}': of the row, or of the whole site?", (f"{text} of the row", f"{text} of the site"))
 
 
+def check_comma(places: Places, found: list[Found]) -> None:
+    """ "Row 3, every other tree": with a comma alone, the second may be of the first."""
+    if all(set(join.text) <= set(", ") for join in places.joins) and sum(f.many for f in found) > 1:
+        parts = [text_of(chain.terms) for chain in places.chains]
+        both = f"{', '.join(parts[:-1])} and {parts[-1]}"
+        raise Question(f"'{', '.join(parts)}': all of these, or only what is both?", (both, "only what is both"))
+
+
 def from_each_other(found: list[Found]) -> list[Found]:
     """ "Tree 80 and the tree opposite": the second is counted from the first."""
     made = found[:1]

@@ -15,6 +15,7 @@ from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.inrow import named_in_rows, successive_trees
 from fieldhand.planning.english.joining import (
+    check_comma,
     check_of_row,
     from_each_other,
     is_apposition,
@@ -81,6 +82,7 @@ def find(places: Places, site: Site) -> Found:
     if len(found) == 1:
         return found[0]
     check_of_row(places, found)
+    check_comma(places, found)
     found = from_each_other(found)
     if any(f.object_only or f.optional or f.at_most for f in found):
         raise unclear(places.terms, "these cannot be said together", "say each in a sentence of its own")

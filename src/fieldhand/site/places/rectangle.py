@@ -38,7 +38,8 @@ def smallest_rectangle(xy: NDArray[np.float64]) -> NDArray[np.float64]:
     along = edges / np.hypot(edges[:, 0], edges[:, 1])[:, None]
     across = np.column_stack([-along[:, 1], along[:, 0]])
     area = _reach(ring, angles, along) * _reach(ring, angles, across)
-    best = int(np.flatnonzero(area <= area.min() * (1.0 + 1e-9))[0])
+    # Rounding may put the area of a hull without width a little below 0.
+    best = int(np.flatnonzero(area <= area.min() + 1e-9 * abs(area.min()))[0])
     return _rectangle(ring, along[best])
 
 
