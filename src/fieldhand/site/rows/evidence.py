@@ -59,7 +59,7 @@ def for_rows(xy: Floats, rows: Sequence[Indices], way: Floats, spacing: float) -
 
 def needed(trees: int) -> float:
     """How much must speak for rows among so many trees: more trees line up by chance in more ways."""
-    return 5.0 + 0.9 * math.log(max(trees, 1))
+    return 6.0 + 0.9 * math.log(max(trees, 1))
 
 
 def _about_its_line(across: Floats) -> float:

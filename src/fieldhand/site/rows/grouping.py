@@ -1,4 +1,4 @@
-"""Which rows belong together, and where a road through all of them parts a block."""
+"""Which rows belong together."""
 
 from __future__ import annotations
 
@@ -16,10 +16,6 @@ Indices = NDArray[np.intp]
 _NEXT, _ONE_MISSING = 1.6, 0.2
 #: Rows end this many row spacings or less from where their neighbours begin.
 _BESIDE = 1.5
-#: A gap in a row begins at this many tree spacings.
-_GAP = 1.75
-#: A road through a block is as unlikely as this to be missing trees.
-_BY_CHANCE = 0.003
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,18 +44,33 @@ def lines_of(local: Floats, label: Indices) -> list[Line]:
 
 
 def row_spacing(lines: list[Line], guess: float) -> float:
-    """The middle of the distances between rows next to each other."""
-    middle = np.sort([float(line.across.mean()) for line in lines if len(line.trees) > 1])
-    steps = np.diff(middle)
-    near = steps[(steps > 0.6 * guess) & (steps < 1.5 * guess)]
-    return float(np.median(near)) if len(near) else guess
+    """The middle of the distances from rows to the next one beside them."""
+    ordered = sorted((line for line in lines if len(line.trees) > 1), key=lambda line: float(line.across.mean()))
+    middle = np.array([float(line.across.mean()) for line in ordered])
+    first, last = (np.array([line.along[k] for line in ordered]) for k in (0, -1))
+    until = np.searchsorted(middle, middle + 1.5 * guess)
+    steps = []
+    for k, end in enumerate(until.tolist()):
+        # Rows of the block beyond a road, or pieces of one row, are not beside it.
+        after = slice(k + 1, end)
+        shared = np.minimum(last[k], last[after]) - np.maximum(first[k], first[after])
+        half = shared > 0.5 * np.minimum(last[k] - first[k], last[after] - first[after])
+        near = (middle[after] - middle[k])[half]
+        near = near[near > 0.6 * guess]
+        if len(near):
+            steps.append(float(near[0]))
+    return float(np.median(steps)) if steps else guess
 
 
-def together(lines: list[Line], spacing: float, *, trusted: bool = False) -> Indices:
+def together(
+    lines: list[Line], spacing: float, *, trusted: bool = False, sides: NDArray[np.intp] | None = None
+) -> Indices:
     """Label rows by the block they are in: those side by side at about the row spacing.
 
     Args:
         trusted: Whether a row of a tree or two is one anywhere beside another, not only where a row is due.
+        sides: Of each road the rows at one side of it, -1, and at the other, 1, which are in different blocks; 0 for
+            those that are not beside it. Shape (roads, rows).
     """
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
@@ -75,6 +86,8 @@ def together(lines: list[Line], spacing: float, *, trusted: bool = False) -> Ind
         near = order[place + 1 : until[place]]
         linked.extend((int(a), int(b)) for b in near if _beside(lines[a], lines[b], spacing, trusted))
     pairs = np.array(linked, dtype=np.intp).reshape(-1, 2)
+    if sides is not None:
+        pairs = pairs[(sides[:, pairs[:, 0]] * sides[:, pairs[:, 1]] >= 0).all(axis=0)]
     graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
     return np.asarray(connected_components(graph, directed=False)[1], dtype=np.intp)
 
@@ -89,62 +102,3 @@ def _beside(a: Line, b: Line, spacing: float, trusted: bool) -> bool:
     if not trusted and few < 3:  # a tree or two are a row only where one is due
         return bool(abs(apart - 1.0) < (0.3 if more >= 3 else 0.2) and few + more >= 4)
     return bool(0.3 < apart < _NEXT or abs(apart - 2.0) < _ONE_MISSING)
-
-
-def parted(lines: list[Line], spacing: float) -> list[list[Line]]:
-    """A block's rows, cut where a road leads through all of them: one list of rows for each part.
-
-    A road is a strip across the rows that no row has a tree in, where that is too unlikely to be missing trees:
-    the part of missing trees, to the power of how many are missing there, times the places where it could be.
-    """
-    roads = _roads(lines, spacing)
-    if not len(roads):
-        return [lines]
-    parts: list[list[Line]] = [[] for _ in range(len(roads) + 1)]
-    for line in lines:
-        which = np.searchsorted(roads, line.along)
-        for k in np.unique(which):
-            own = which == k
-            parts[k].append(Line(line.trees[own], line.along[own], line.across[own]))
-    return [part for part in parts if part]
-
-
-def _roads(lines: list[Line], spacing: float) -> Floats:
-    long = [line for line in lines if len(line.trees) > 1]
-    if len(long) < 2:
-        return np.empty(0)
-    starts = np.concatenate([line.along[:-1] for line in long])
-    ends = np.concatenate([line.along[1:] for line in long])
-    wide = ends - starts > _GAP * spacing
-    slots = np.rint((ends - starts) / spacing)
-    planted = sum(len(line.trees) for line in long)
-    starts, ends, slots = starts[wide], ends[wide], slots[wide]
-    if not len(starts):
-        return np.empty(0)
-    low, high = np.sort([line.along[0] for line in long]), np.sort([line.along[-1] for line in long])
-    at = np.unique(np.concatenate([starts + 0.4 * spacing, ends - 0.4 * spacing]))
-    through = np.searchsorted(low, at) - np.searchsorted(high, at)
-    gaps = np.searchsorted(np.sort(starts), at) - np.searchsorted(np.sort(ends), at)
-    empty = (through >= 2) & (gaps >= through)
-    roads: list[float] = []
-    places = max(float(np.ptp(at)) / spacing, 1.0) + 20.0
-    k = 0
-    while k < len(at):
-        if not empty[k]:
-            k += 1
-            continue
-        j = k
-        while j + 1 < len(at) and empty[j + 1]:
-            j += 1
-        middle = 0.5 * (at[k] + at[j])
-        here = (starts < middle) & (ends > middle)
-        k = j + 1
-        if here.sum() < 2:
-            continue
-        elsewhere = float((slots - 1)[~here].sum())
-        missing = float(np.clip(elsewhere / (planted + elsewhere), 0.05, 0.3))
-        lost = float(np.maximum((ends - starts)[here] / spacing - 1.3, 0.0).sum())
-        shared = float(ends[here].min() - starts[here].max()) / spacing
-        if shared > 1.2 and lost * np.log(missing) + np.log(places) < np.log(_BY_CHANCE):
-            roads.append(middle)
-    return np.array(roads)

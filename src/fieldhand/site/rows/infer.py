@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.site.rows.evidence import for_rows, needed, sure_of_row, sure_of_way
-from fieldhand.site.rows.grouping import Line, lines_of, parted, row_spacing, together
+from fieldhand.site.rows.grouping import Line, lines_of, row_spacing, together
 from fieldhand.site.rows.patches import PATCH, SMALL_PATCH, patches_of
-from fieldhand.site.rows.regions import Region, assign, line_regions, regions_of, rows_run
+from fieldhand.site.rows.regions import Region, absorbed, assign, line_regions, regions_of, rows_run
+from fieldhand.site.rows.roads import parted, rejoined
 from fieldhand.site.rows.settle import SeenBlock, Settling
 from fieldhand.site.rows.tracing import bridge, part_twins, pooled_slope, spacing_along, spacing_of, trace, turned
 
@@ -20,6 +21,8 @@ Indices = NDArray[np.intp]
 _ROUNDS = 6
 #: Trees in step that make a patch clear; as many of scattered ones rarely are.
 _CLEAR = 11.0
+#: Rows run the same way up to this turn between them (its sine), and have trees as far apart up to this part.
+_SAME_WAY, _SAME_SPACING = 0.045, 0.12
 
 
 def seen_blocks(xy: Floats) -> list[SeenBlock]:
@@ -38,7 +41,43 @@ def seen_blocks(xy: Floats) -> list[SeenBlock]:
         found.extend(new)
         taken = np.concatenate([trees for block in new for trees in block.rows])
         left = np.setdiff1d(left, taken, assume_unique=True)
+    found = [block for alike in _alike(found) for block in (_again(xy, alike) if len(alike) > 1 else alike)]
     return [_judged(xy, block) for block in Settling(xy, found).settled()]
+
+
+def _alike(blocks: list[SeenBlock]) -> list[list[SeenBlock]]:
+    """Blocks whose straight rows run the same way, with trees as far apart; the greatest of them first."""
+    parts: list[list[SeenBlock]] = []
+    for block in sorted(blocks, key=lambda b: -sum(map(len, b.rows))):
+        for part in parts:
+            first = part[0]
+            turn = abs(float(first.way[0] * block.way[1] - first.way[1] * block.way[0]))
+            spacing = abs(block.tree_spacing / first.tree_spacing - 1.0)
+            if first.straight and block.straight and turn < _SAME_WAY and spacing < _SAME_SPACING:
+                part.append(block)
+                break
+        else:
+            parts.append([block])
+    return parts
+
+
+def _again(xy: Floats, blocks: list[SeenBlock]) -> list[SeenBlock]:
+    """Blocks that were found apart, looked at together: rows that go on in another, and roads between."""
+    first = blocks[0]
+    rows = [trees for block in blocks for trees in block.rows]
+    trees = np.concatenate(rows)
+    label = np.repeat(np.arange(len(rows)), [len(own) for own in rows])
+    local = turned(xy[trees], np.array([first.way[1], -first.way[0]]))
+    lean = [float(_slope(block.way, first.way)) for block in blocks]
+    slope = np.repeat(lean, [sum(map(len, block.rows)) for block in blocks])
+    lines = lines_of(local, bridge(local, slope, label, first.tree_spacing))
+    return _put_together(trees, lines, first)
+
+
+def _slope(way: Floats, mean: Floats) -> float:
+    """Metres to the right of the mean way for each metre along it."""
+    way = way if way @ mean > 0 else -way
+    return float((way[0] * mean[1] - way[1] * mean[0]) / (way @ mean))
 
 
 def _blocks_among(xy: Floats, trees: Indices, size: int) -> list[SeenBlock]:
@@ -47,7 +86,7 @@ def _blocks_among(xy: Floats, trees: Indices, size: int) -> list[SeenBlock]:
     regions = [*regions_of(xy, patches, clear), *line_regions(xy, patches, clear)]
     if not regions:
         return []
-    owner = assign(xy, trees, regions)
+    owner = absorbed(xy[trees], assign(xy, trees, regions), regions)
     found = [block for k, region in enumerate(regions) for block in _blocks_of(xy, trees[owner == k], region)]
     enough = needed(len(trees))
     return [b for b in found if for_rows(xy, b.rows, b.way, b.tree_spacing) > enough]
@@ -94,7 +133,20 @@ def _blocks_of(xy: Floats, trees: Indices, region: Region) -> list[SeenBlock]:
         label = part_twins(local, label, spacing)
         spacing = spacing_of(local, label) or spacing
     lines = lines_of(local, label)
-    return _grouped(trees, lines, region, walked, spacing, _way(wave, float(np.mean(slope))))
+    rows = [line for line in lines if len(line.trees) >= 3]
+    if not rows:
+        return []
+    like = SeenBlock(
+        rows=[],
+        row_spacing=row_spacing(rows, region.spacing),
+        tree_spacing=spacing,
+        way=_way(wave, float(np.mean(slope))),
+        power=region.power,
+        wider=region.wider,
+        walked=walked,
+        straight=straight,
+    )
+    return _put_together(trees, lines, like)
 
 
 def _slopes(waves: Floats, mean: Floats) -> Floats:
@@ -109,28 +161,12 @@ def _way(wave: Floats, slope: float) -> Floats:
     return np.asarray(way / np.hypot(*way))
 
 
-def _grouped(
-    trees: Indices, lines: list[Line], region: Region, walked: float, spacing: float, way: Floats
-) -> list[SeenBlock]:
-    long = [line for line in lines if len(line.trees) >= 3]
-    if not long:
-        return []
-    wide = row_spacing(long, region.spacing)
-    block_of = together(lines, wide)
-    blocks = []
-    for k in range(int(block_of.max()) + 1):
-        for part in parted([lines[r] for r in np.flatnonzero(block_of == k)], spacing):
-            if max(len(line.trees) for line in part) < 3:
-                continue
-            blocks.append(
-                SeenBlock(
-                    rows=[trees[line.trees] for line in part],
-                    row_spacing=wide,
-                    tree_spacing=spacing,
-                    way=way,
-                    power=region.power,
-                    wider=region.wider,
-                    walked=walked,
-                )
-            )
-    return blocks
+def _put_together(trees: Indices, lines: list[Line], like: SeenBlock) -> list[SeenBlock]:
+    """Blocks of these rows, else like that one; a block has a row of three trees."""
+    block_of = together(lines, like.row_spacing)
+    return [
+        replace(like, rows=[trees[line.trees] for line in rejoined(part, like.tree_spacing)])
+        for k in range(int(block_of.max()) + 1)
+        for part in parted([lines[r] for r in np.flatnonzero(block_of == k)], like.tree_spacing, like.row_spacing)
+        if max(len(line.trees) for line in part) >= 3
+    ]

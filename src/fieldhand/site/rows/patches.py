@@ -23,6 +23,8 @@ PATCH, SMALL_PATCH = 44, 14
 ON_LINE, _BESIDE_LINE, _LINE_WAVE = 9, 0.36, 3.0
 #: Patches at once; more trees than this many patches hold are seen by samples.
 MOST_PATCHES = 128
+#: On small sites so many patches and no more: each tree is in several of them even so.
+LEAST_PATCHES, TREES_A_PATCH = 64, 2
 #: Fewer trees are looked at where less than this part of all is in step.
 _FEWER, _IN_STEP = (26, 15), 0.75
 _ANGLES = np.radians(np.arange(0.0, 180.0, 3.0))
@@ -64,7 +66,7 @@ def patches_of(xy: Floats, trees: Indices, most: int = PATCH) -> Patches:
     points = xy[trees]
     tree = cKDTree(points)
     size = min(most, len(points))
-    middle = _spread(points, MOST_PATCHES)
+    middle = _spread(points, min(MOST_PATCHES, max(LEAST_PATCHES, len(points) // TREES_A_PATCH)))
     near = np.asarray(tree.query(points[middle], k=size)[1])
     apart = np.asarray(tree.query(points[near.ravel()], k=2)[0])[:, 1].reshape(near.shape)
     unit = np.maximum(np.median(apart, axis=1), 1e-6)
@@ -150,8 +152,7 @@ def _waves(offsets: Floats) -> tuple[Floats, Floats, Floats, Floats]:
     grid = np.stack([np.cos(angle) / length, -np.sin(angle) / length], axis=-1)
     flat = grid.reshape(-1, 2)
     shape = (count, *angle.shape)
-    power = _on_grid(offsets, flat).reshape(shape)
-    half = _on_grid(offsets, flat / 2).reshape(shape)
+    power, half = (p.reshape(shape) for p in _on_grid(offsets, flat))
     contrast = np.where(_is_peak(power), power - half, -1.0)
     first = _longest(contrast, length)
     first_wave = _refine(offsets, flat[first])
@@ -167,12 +168,17 @@ def _waves(offsets: Floats) -> tuple[Floats, Floats, Floats, Floats]:
     return first_wave, second_wave, np.where(none1, 0.0, p1), np.where(none1 | none2, 0.0, p2)
 
 
-def _on_grid(offsets: Floats, waves: Floats) -> Floats:
-    phase = (2 * np.pi * (offsets.reshape(-1, 2) @ waves.T)).astype(np.float32)
+def _on_grid(offsets: Floats, waves: Floats) -> tuple[Floats, Floats]:
+    """Power of the waves, and of those twice as long, in each patch. Shape (p, w)."""
     split = (len(offsets), offsets.shape[1], len(waves))
-    c = np.cos(phase).reshape(split).mean(axis=1)
-    s = np.sin(phase).reshape(split).mean(axis=1)
-    return np.asarray((c * c + s * s).astype(np.float64))
+    phase = (np.pi * (offsets.reshape(-1, 2) @ waves.T)).astype(np.float32).reshape(split)
+    c, s = np.cos(phase), np.sin(phase)
+    half = c.mean(axis=1) ** 2 + s.mean(axis=1) ** 2
+    # Twice the angle: cheaper than cosines anew.
+    s *= c
+    c *= c
+    whole = (2 * c.mean(axis=1) - 1) ** 2 + (2 * s.mean(axis=1)) ** 2
+    return np.asarray(whole.astype(np.float64)), np.asarray(half.astype(np.float64))
 
 
 def _is_peak(power: Floats) -> NDArray[np.bool_]:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.site.rows.patches import Patches
+from fieldhand.site.rows.tracing import spacing_along, turned
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -23,6 +24,9 @@ _SAME_LINE = 0.35
 _NEARLY_SQUARE = 1.2
 #: Neighbours whose waves say which part a tree belongs to, where it could be in several.
 _ASKED = 16
+#: A region is a part of a greater one whose rows run its way within so many degrees, with trees that far apart within
+#: this part, where it has no more than this part of its trees.
+_SAME_WAY, _SAME_SPACING, _PART = 3.0, 0.15, 0.34
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -132,17 +136,17 @@ def _gathered(first: Floats, second: Floats, start: Floats) -> Floats:
     reference = start
     for tolerance in (_SAME_WAVE, 2 * _SAME_WAVE):
         for wave in (second, first):
-            turned = _towards(wave, reference)
-            like = np.hypot(*(turned - reference).T) < tolerance * np.hypot(*reference)
-            found[like] = turned[like]
+            towards = _towards(wave, reference)
+            like = np.hypot(*(towards - reference).T) < tolerance * np.hypot(*reference)
+            found[like] = towards[like]
         reference = np.nanmean(found, axis=0)
     # What curves on: take what is like the patches next to it.
     left = np.isnan(found[:, 0])
     for wave in (first,):
-        turned = _towards(wave, reference)
-        like = left & (np.abs(np.hypot(*turned.T) / np.hypot(*reference) - 1) < _SAME_WAVE)
-        like &= np.hypot(*(turned - reference).T) < 0.6 * np.hypot(*reference)
-        found[like] = turned[like]
+        towards = _towards(wave, reference)
+        like = left & (np.abs(np.hypot(*towards.T) / np.hypot(*reference) - 1) < _SAME_WAVE)
+        like &= np.hypot(*(towards - reference).T) < 0.6 * np.hypot(*reference)
+        found[like] = towards[like]
     return found
 
 
@@ -255,6 +259,38 @@ def assign(xy: Floats, trees: Indices, regions: list[Region]) -> Indices:
     votes = np.stack([(chosen[around[:, :9]] == k_).sum(axis=1) for k_ in range(len(regions))], axis=1)
     chosen[contested] = np.argmax(votes + 2.0 * scores, axis=1)
     return np.asarray(chosen)
+
+
+def absorbed(points: Floats, owner: Indices, regions: list[Region]) -> Indices:
+    """The region of each tree where small ones are parts of the great ones that they lie beside.
+
+    Patches across a road see rows that run as on both sides of it, but as far apart as the road has them.
+    """
+    from scipy.spatial import cKDTree
+
+    count = np.bincount(owner, minlength=len(regions))
+    order = [k for k in np.argsort(count, kind="stable").tolist() if count[k]]
+    if len(order) < 2:
+        return owner
+    owner = owner.copy()
+    tree = cKDTree(points)
+    for k in order[:-1]:
+        own = np.flatnonzero(owner == k)
+        if len(own) > _PART * count.max():
+            break
+        near = owner[np.asarray(tree.query(points[own], k=min(12, len(points)))[1])]
+        beside = np.bincount(near[near != k], minlength=len(regions))
+        into = int(np.argmax(beside))
+        if not beside[into] or len(own) > _PART * (owner == into).sum():
+            continue
+        one, other = regions[k].wave, regions[into].wave
+        turn = abs(float(np.sin(_angle(one[None, :]) - _angle(other[None, :]))[0]))
+        if turn > np.sin(np.radians(_SAME_WAY)):
+            continue
+        spacings = [spacing_along(turned(points[owner == r], other), regions[into].spacing) for r in (k, into)]
+        if abs(spacings[0] / spacings[1] - 1.0) < _SAME_SPACING:
+            owner[own] = into
+    return owner
 
 
 def _in_step(offsets: Floats, weight: Floats, region: Region, xy: Floats, places: Floats) -> Floats:

@@ -34,6 +34,9 @@ class SeenBlock:
         way: The unit vector along the rows, of all of them together.
         power: How much in step its trees are, 0 to 1.
         wider: How many times as far apart its rows are as the lines of trees across them.
+        walked: Part of the file's steps from tree to tree that go along its rows, not across.
+        straight: Whether its rows are.
+        sure: That its rows run this way, 0 to 1; and ``rows_sure`` of each row.
     """
 
     rows: list[Indices]
@@ -43,6 +46,7 @@ class SeenBlock:
     power: float
     wider: float
     walked: float = 0.5
+    straight: bool = True
     sure: float = 1.0
     rows_sure: list[float] = field(default_factory=list)
 
