@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.errors import ProblemError
-from fieldhand.orienteering.policy import solve
+from fieldhand.orienteering.policy import Stop, solve
 from fieldhand.orienteering.problem import Limit, Problem
 from fieldhand.orienteering.tail import chance_over
 from graphs import euclidean, problem
@@ -137,6 +137,9 @@ def _distances(value, both=True):
         ({"limits": (Limit(budget=3.0, service=np.array([0.0, -1.0, 0.0])),)}, "service"),
         ({"limits": (Limit(budget=1.9),)}, "direct way"),
         ({"after": (-1.0,)}, "after the end"),
+        ({"distances": np.zeros((0, 0)), "plane": np.array([[0.0, 0.0], [1.0, np.nan], [2.0, 0.0]])}, "vertex 1"),
+        ({"distances": np.zeros((0, 0)), "plane": np.zeros((2, 2))}, "coordinates of shape"),
+        ({"plane": np.zeros((3, 2))}, "give one of them"),
         ({"distances": np.array([[0, 1, np.inf], [1, 0, np.inf], [np.inf, np.inf, 0]])}, "no way"),
     ],
 )
@@ -148,3 +151,16 @@ def test_what_is_no_problem_is_refused_with_a_reason(changes, says):
 def test_a_budget_that_no_route_keeps_often_enough_is_refused():
     with pytest.raises(ProblemError, match="safest way"):
         solve(_with(limits=(Limit(budget=2.05),)), 0)
+
+
+def test_a_search_that_is_given_no_time_is_refused():
+    for wrong in ({"rounds": 0}, {"seconds": 0.0}, {"seconds": float("nan")}):
+        with pytest.raises(ProblemError, match="round"):
+            Stop(**wrong)
+
+
+def test_a_search_by_time_gives_a_route_as_good_as_a_counted_one():
+    given_ = problem(25, 6, budget=2.5)
+    timed = solve(given_, 0, Stop(rounds=10**9, seconds=0.2))
+    assert timed.chances[0] <= 0.1 + 1e-9
+    assert timed.reward >= 0.95 * solve(given_, 0, Stop(rounds=2000)).reward

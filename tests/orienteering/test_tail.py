@@ -17,12 +17,12 @@ def figures(legs):
 
 @given(legs=legs_lists, alpha=st.sampled_from([0.0, 0.3, 0.5, 0.9]), quantile=st.floats(0.5, 0.99))
 @settings(max_examples=30, deadline=None)
-def test_the_chance_is_within_two_percent_points_of_what_sampling_gives(legs, alpha, quantile):
+def test_the_chance_is_within_three_percent_points_of_what_sampling_gives(legs, alpha, quantile):
     costs = np.random.default_rng(7).exponential(1 - alpha, size=(40_000, len(legs))) @ np.array(legs)
     costs += alpha * sum(legs)
     left = float(np.quantile(costs, quantile))
     total, squares = figures(legs)
-    assert float(chance_over(total, squares, left, alpha)) == pytest.approx(1 - quantile, abs=0.02)
+    assert float(chance_over(total, squares, left, alpha)) == pytest.approx(1 - quantile, abs=0.03)
 
 
 @given(leg=st.floats(0.1, 100.0), alpha=st.floats(0.0, 0.95), more=st.floats(0.0, 5.0))

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from fieldhand.cli.bench import bench
+from fieldhand.cli.bench_orienteering import bench_orienteering
 from fieldhand.cli.check import check
 from fieldhand.cli.demo import demo
 from fieldhand.cli.plan import plan
@@ -29,6 +30,7 @@ def assemble(*others: Callable[..., None]) -> typer.Typer:
     commands: tuple[Callable[..., None], ...] = (plan, check, run, site, robot, demo, *others)
     for command in commands:
         app.command()(command)
+    bench.command("orienteering")(bench_orienteering)
     app.add_typer(bench)
     app.callback()(_top)
     return app

@@ -1,43 +1,49 @@
-"""Which vertex comes next: plan anew after every leg, within one chance for the whole mission (:mod:`.split`)."""
+"""Which vertex comes next: after every leg, the order of stops that is worth most to a robot that may skip some.
+
+A failure has a price, the same in the whole mission, at which the chance of one over the whole mission is the one that
+is accepted. docs/orienteering.md derives it.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fieldhand.errors import ProblemError
-from fieldhand.orienteering.order import Floats, Ints
-from fieldhand.orienteering.problem import Problem, under_way
-from fieldhand.orienteering.search import Route, Search
-from fieldhand.orienteering.split import Split, split
+from fieldhand.orienteering.problem import Limit, Problem
+from fieldhand.orienteering.route import Route, Stop, solve
+from fieldhand.orienteering.stepwise import RESOLVE, SOLVE, Decision, Effort, decide, left_of
 
+if TYPE_CHECKING:
+    from fieldhand.orienteering.adaptive import Depth, Lookout, Order
+    from fieldhand.orienteering.ground import Ground
 
-@dataclass(frozen=True, kw_only=True)
-class Effort:
-    """How long to search, counted so that the same problem gives the same route on any machine."""
+# What forecast and guard decide by stands in stepwise.
+__all__ = [
+    "RESOLVE",
+    "SOLVE",
+    "Decision",
+    "Effort",
+    "Outlook",
+    "Policy",
+    "Route",
+    "State",
+    "Stop",
+    "compile_ahead",
+    "decide",
+    "left_of",
+    "solve",
+]
 
-    restarts: int = 4
-    rounds: int = 40
-
-
-SOLVE = Effort()
-RESOLVE = Effort(restarts=1, rounds=6)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Decision:
-    """Where to go next.
-
-    Attributes:
-        vertex: The next one; the end where nothing more fits.
-        route: The whole way that is planned from here.
-        split: What the decision after this one is allowed; None where the mission is over by then.
-    """
-
-    vertex: int
-    route: Route
-    split: Split | None
+#: The chance at which the first order is priced, of that which is accepted. A mission whose order is made anew after
+#: every leg fails more or less often than one whose order is only shortened: measured, by up to a third.
+_AIM = 0.85
+_PRICINGS = 3
+_BISECTIONS = 24
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,86 +61,19 @@ class State:
     visited: frozenset[int] = frozenset()
 
 
-def solve(problem: Problem, seed: int, effort: Effort = SOLVE) -> Route:
-    """The best fixed route found.
+@dataclass(frozen=True, kw_only=True)
+class Outlook:
+    """What a policy expects from a state on.
 
-    Args:
-        problem: What to solve.
-        seed: The same seed gives the same route.
-        effort: How long to search.
-
-    Returns:
-        A route whose chances are within the limits' failure probabilities.
-
-    Raises:
-        ProblemError: No route was found that is safe enough, not even one that only goes to the end.
+    Attributes:
+        vertices: The order it means to drive, from here to the end; luck decides which of them it skips.
+        reward: Still to come, on average, of missions that keep to the limits.
+        success: Chance to keep to them.
     """
-    levels = np.array([limit.failure_probability for limit in problem.limits])
-    search = Search(problem, levels)
-    route = search.best(np.random.default_rng(seed), None, effort.restarts, effort.rounds)
-    if not search.feasible(route):
-        chance = max(search.describe(route).chances)
-        raise ProblemError(
-            f"even the safest way to the end exceeds a budget with a chance of {chance:.0%}",
-            advice="raise the budget or accept a higher failure probability",
-        )
-    return search.describe(route)
 
-
-def decide(
-    problem: Problem,
-    levels: tuple[float, ...],
-    rng: np.random.Generator,
-    warm: tuple[int, ...] = (),
-    effort: Effort = RESOLVE,
-) -> Decision:
-    """The next vertex of a mission that stands at ``problem.start``.
-
-    Args:
-        problem: What is left: rewards not yet collected, budgets not yet used.
-        levels: For each limit the chance that this decision may take (at first its failure probability).
-        rng: For the search.
-        warm: Rest of the route that was planned before, start and end included.
-        effort: How long to search.
-    """
-    asked = np.array(levels)
-    cautious = Search(problem, asked)
-    old = _usable(problem, warm)
-    least = _least(cautious, [cautious.safest(), cautious.direct, *([] if old is None else [old])])
-    allowed = np.maximum(asked, least)
-    search = cautious if (allowed <= asked).all() else Search(problem, allowed)
-    route = search.best(rng, old, effort.restarts, effort.rounds)
-    if not search.feasible(route):
-        route = search.safest()
-    found = search.describe(route)
-    return Decision(vertex=found.vertices[1], route=found, split=_split(problem, route, allowed))
-
-
-def _split(problem: Problem, route: Ints, levels: Floats) -> Split | None:
-    """What is allowed after the first leg of ``route``; None where that leg leads to the end."""
-    if len(route) < 3:
-        return None
-    there = int(route[1])
-    left = [x.budget - (0.0 if x.service is None else float(x.service[there])) for x in problem.limits]
-    search = Search(left_of(problem, there, tuple(left), (there,)), levels)
-    options = [search.option(way) for way in (search.direct, *search.ladder(route[1:]), search.safest())]
-    return split(levels, float(problem.distances[route[0], there]), problem.alpha, left, options)
-
-
-def left_of(problem: Problem, vertex: int, left: tuple[float, ...], collected: tuple[int, ...] = ()) -> Problem:
-    """The problem that is left at ``vertex`` with these budgets; what was collected is worth nothing any more."""
-    rewards = problem.rewards.copy()
-    rewards[list(collected)] = 0.0
-    limits = tuple(replace(limit, budget=budget) for limit, budget in zip(problem.limits, left, strict=True))
-    return under_way(
-        distances=problem.distances,
-        rewards=rewards,
-        start=vertex,
-        end=problem.end,
-        limits=limits,
-        alpha=problem.alpha,
-        after=problem.after,
-    )
+    vertices: tuple[int, ...]
+    reward: float
+    success: float
 
 
 class Policy:
@@ -143,49 +82,170 @@ class Policy:
     Args:
         problem: As it stands before the mission.
         seed: The same seed and the same leg costs give the same mission.
-        effort: How long to search at each decision after the first.
+        depth: How much to search at a decision.
+        daring: What part of the reward that is expected a mission may give up before safety gives way to reward, 0 to
+            1. At 0 the most is collected over all missions; near 1 the most over those that succeed, and the whole
+            failure probability is used up for it.
+        price: What a failure costs beside the reward; None to find it at the first decision.
+        collected: Reward that is safe already, where the problem is what is left of a mission.
+        warm: Vertices that were planned, in their order, to begin the search with.
+        ground: Of the problem, where it is known.
+
+    Raises:
+        ProblemError: ``daring`` is not a number from 0 to 1.
     """
 
-    def __init__(self, problem: Problem, seed: int, effort: Effort = RESOLVE) -> None:
-        self._problem = problem
-        self._effort = effort
-        self._rng = np.random.default_rng(seed)
-        self._split: Split | None = None
-        self._route: tuple[int, ...] = ()
+    def __init__(
+        self,
+        problem: Problem,
+        seed: int,
+        *,
+        depth: Depth | None = None,
+        daring: float = 0.6,
+        price: float | None = None,
+        collected: float = 0.0,
+        warm: Sequence[int] = (),
+        ground: Ground | None = None,
+    ) -> None:
+        from fieldhand.orienteering.adaptive import Depth
+        from fieldhand.orienteering.ground import ground_of
+
+        if not 0.0 <= daring <= 1.0:
+            raise ProblemError(f"a policy's daring is {daring:g}", advice="give a number from 0 to 1")
+        self._problem, self._ground = problem, ground or ground_of(problem)
+        self._depth, self._daring = depth or Depth(), daring
+        self._state = np.array([seed], dtype=np.uint64)
+        self._free = problem.rewards > 0.0
+        self._free[[problem.start, problem.end]] = False
+        self._price, self._least_price = price, 0.0
+        self._collected, self._warm = collected, tuple(warm)
+        self._last: tuple[Lookout, Order, float] | None = None
+        self._outlook = Outlook(vertices=(), reward=0.0, success=1.0)
 
     @property
-    def route(self) -> tuple[int, ...]:
-        """The way that was planned at the last decision."""
-        return self._route
+    def outlook(self) -> Outlook:
+        """What was expected at the last decision."""
+        return self._outlook
 
-    def next(self, state: State) -> int:
-        """The vertex to go to next; the problem's end when nothing more fits."""
-        rest = left_of(
-            self._problem, state.vertex, state.left, tuple({*state.visited, state.vertex, self._problem.start})
+    @property
+    def price(self) -> float | None:
+        """What keeping to the limits counts beside the reward; None until a decision needed it."""
+        return self._price
+
+    @property
+    def least_price(self) -> float:
+        """The least that daring allows."""
+        return self._least_price
+
+    def again(self, seed: int, price: float | None = None) -> Policy:
+        """The policy for another mission through the same problem, at a price of a failure."""
+        return Policy(self._problem, seed, depth=self._depth, daring=self._daring, price=price, ground=self._ground)
+
+    def next(self, state: State, seconds: float | None = None) -> int:
+        """The vertex to go to next; the problem's end when nothing more is worth it.
+
+        Args:
+            state: Where the mission stands.
+            seconds: How long to think; None for the counted depth, which alone gives the same answer on any machine.
+
+        Raises:
+            ProblemError: The state is none of this problem: a vertex that does not exist, an amount that is missing or
+                not a number.
+        """
+        from fieldhand.orienteering.adaptive import LONG, Lookout, Order
+
+        began = time.perf_counter()
+        self._check(state)
+        self._last = None
+        free = self._free.copy()
+        free[list(state.visited)] = False
+        lookout = Lookout(self._ground, state.vertex, state.left, free, self._depth, self._state)
+        if min(state.left) <= 0.0 or not len(lookout.free):
+            return self._settle(state, None)
+        if len(lookout.free) > LONG:
+            route = lookout.route(0.5, self._warm, self._rounds(lookout))
+            while seconds is not None and time.perf_counter() - began < seconds:
+                route = lookout.route(0.5, route.tolist(), 8 * self._depth.rounds)
+            if len(route) > LONG:
+                ahead = Order(stops=route, first=0, worth=self._reward(route.tolist()), success=1.0)
+                return self._settle(state, ahead)
+        collected = self._collected + self._reward(
+            [*(state.visited - {self._problem.start, self._problem.end}), self._problem.end]
         )
-        if state.vertex == self._problem.end and self._route:
-            return self._problem.end
-        warm = self._route[1:] if len(self._route) > 1 and self._route[1] == state.vertex else ()
-        effort = self._effort if self._route else SOLVE
-        decision = decide(rest, self._levels(state), self._rng, warm, effort)
-        self._split = decision.split
-        self._route = decision.route.vertices
-        return decision.vertex
+        if self._price is None:
+            self._warm = tuple(lookout.route(0.4, self._warm, self._rounds(lookout)).tolist())
+            self._price = self._priced(lookout, collected)
+        order = lookout.best(self._price + collected, self._warm)
+        while seconds is not None and time.perf_counter() - began < seconds:
+            order = lookout.bettered(order, self._price + collected)
+        self._last = (lookout, order, self._price + collected)
+        return self._settle(state, order)
 
-    def _levels(self, state: State) -> tuple[float, ...]:
-        if self._split is None:
-            return tuple(limit.failure_probability for limit in self._problem.limits)
-        return tuple(float(x) for x in self._split.levels(state.left))
+    def chances(self) -> dict[int, float]:
+        """How likely each vertex of the outlook's order is visited by a mission that only skips some of them.
+
+        Those that a policy plans anew for are not in it; where the order is long and driven as planned, all are 1.
+        """
+        ahead = self._outlook.vertices[1:-1]
+        if self._last is None or not ahead:
+            return dict.fromkeys(ahead, 1.0)
+        lookout, order, bonus = self._last
+        found = lookout.chances(order.stops, bonus)[order.first :]
+        return {vertex: min(1.0, float(chance)) for vertex, chance in zip(ahead, found, strict=True)}
+
+    def _check(self, state: State) -> None:
+        size, limits = self._problem.size, len(self._problem.limits)
+        for vertex in (state.vertex, *state.visited):
+            if not 0 <= vertex < size:
+                raise ProblemError(f"the mission knows vertex {vertex}, which is none of 0 to {size - 1}")
+        if len(state.left) != limits or not np.isfinite(state.left).all():
+            raise ProblemError(
+                f"of the limits is left: {', '.join(f'{x:g}' for x in state.left)}", advice=f"give {limits} numbers"
+            )
+
+    def _priced(self, lookout: Lookout, collected: float) -> float:
+        """The least price at which the best order fails no more often than the limit that binds accepts."""
+        accepted = 1.0 - _AIM * min(limit.failure_probability for limit in self._problem.limits)
+        price = 0.0
+        order = lookout.best(price + collected, self._warm)
+        for _ in range(_PRICINGS):
+            expected = order.worth / max(order.success, 1e-9) + collected
+            self._least_price = -self._daring * expected
+            low, high = self._least_price, 50.0 * max(expected, 1e-9)
+            for _ in range(_BISECTIONS):
+                middle = 0.5 * (low + high)
+                if lookout.order(order.stops, middle + collected, 0).success >= accepted:
+                    high = middle
+                else:
+                    low = middle
+            price = high
+            order = lookout.best(price + collected, order.stops.tolist())
+        return price
+
+    def _settle(self, state: State, order: Order | None) -> int:
+        """Remember what is planned, and give its first vertex."""
+        end = self._problem.end
+        if order is None:
+            self._warm, self._outlook = (), Outlook(vertices=(state.vertex, end), reward=0.0, success=0.0)
+            return end
+        self._warm = tuple(int(v) for v in order.stops[order.first + 1 :])
+        ahead = tuple(int(v) for v in order.stops[order.first :])
+        self._outlook = Outlook(vertices=(state.vertex, *ahead, end), reward=order.worth, success=order.success)
+        return ahead[0] if ahead else end
+
+    def _rounds(self, lookout: Lookout) -> int:
+        """More for the first plan of a mission: all others begin with what is left of the one before."""
+        return self._depth.rounds if self._warm else 50 * self._depth.rounds + 20 * len(lookout.free)
+
+    def _reward(self, vertices: Sequence[int]) -> float:
+        return float(self._problem.rewards[list(vertices)].sum())
 
 
-def _usable(problem: Problem, warm: tuple[int, ...]) -> Ints | None:
-    """A remembered route as far as it still makes sense: from here to the end, over what is still to be collected."""
-    if len(warm) < 2 or warm[0] != problem.start or warm[-1] != problem.end:
-        return None
-    stops = [v for v in warm[1:-1] if problem.rewards[v] > 0.0]
-    return np.array([problem.start, *stops, problem.end], dtype=np.intp)
-
-
-def _least(search: Search, ways: list[Ints]) -> Floats:
-    """For each limit the least chance of exceeding it that one of these ways has."""
-    return np.asarray(np.min([search.chances(search.figures(way)) for way in ways], axis=0))
+def compile_ahead() -> None:
+    """Compile the inner loops now and keep them on disk, so that no later process waits for it (some ten seconds)."""
+    x = np.linspace(0.0, 1.0, 12)
+    limits = (Limit(budget=2.0),)
+    table = Problem(distances=np.abs(x[:, None] - x), rewards=np.ones(12), start=0, end=11, limits=limits)
+    plane = Problem(plane=np.stack([x, x], axis=1), rewards=np.ones(12), start=0, end=11, limits=limits)
+    for problem in (table, plane):
+        Policy(problem, 0).next(State(vertex=0, left=(2.0,)))

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.errors import ProblemError
+from fieldhand.orienteering.costs import CostModel, Deterministic, ShiftedExponential
 
 Floats = NDArray[np.float64]
 
@@ -34,14 +35,17 @@ class Limit:
 class Problem:
     """Go from ``start`` to ``end`` and collect reward; no limit may be exceeded more often than it accepts.
 
-    A leg of length ``d`` costs ``d * (alpha + X)`` where X is exponential with mean ``1 - alpha``: its mean is ``d``,
-    its variance ``(d * (1 - alpha))**2``, and it is known only when it has been driven.
+    A leg of length ``d`` costs ``d`` times a random factor with mean 1, known only when it has been driven. Unless a
+    cost model says otherwise that is ``d * (alpha + X)``, X exponential with mean ``1 - alpha``.
 
     Attributes:
-        distances: Symmetric, shape (n, n), in any unit; ``inf`` where there is no way.
+        distances: Symmetric, shape (n, n), in any unit; ``inf`` where there is no way. Not where there is a plane.
         rewards: What visiting each vertex is worth, shape (n,); the start's and the end's do not count.
         limits: At least one.
         alpha: The certain part of a leg's cost, 0 to 1; 1 is a deterministic problem.
+        costs: Another cost model; ``alpha`` is not used then.
+        plane: Coordinates, shape (n, 2), in place of distances: the legs are straight, and thousands of vertices need
+            no table of distances.
         after: Lengths of legs that will be driven from the end on, whatever the route is; they count for every limit.
 
     Raises:
@@ -49,13 +53,15 @@ class Problem:
             cannot be reached; a budget below the direct way from start to end.
     """
 
-    distances: Floats
     rewards: Floats
     start: int
     end: int
     limits: tuple[Limit, ...]
+    distances: Floats = field(default_factory=lambda: np.zeros((0, 0)))
     alpha: float = 0.5
     after: tuple[float, ...] = field(default=())
+    costs: CostModel | None = None
+    plane: Floats | None = None
 
     def __post_init__(self) -> None:
         _check_graph(self)
@@ -68,6 +74,19 @@ class Problem:
         """Number of vertices."""
         return len(self.rewards)
 
+    @property
+    def model(self) -> CostModel:
+        """The cost model."""
+        if self.costs is not None:
+            return self.costs
+        return Deterministic() if self.alpha >= 1.0 else ShiftedExponential(self.alpha)
+
+    def length(self, u: int, v: int) -> float:
+        """Of the leg between two vertices."""
+        if self.plane is None:
+            return float(self.distances[u, v])
+        return float(np.hypot(*(self.plane[u] - self.plane[v])))
+
 
 def under_way(
     *,
@@ -78,6 +97,8 @@ def under_way(
     limits: tuple[Limit, ...],
     alpha: float,
     after: tuple[float, ...] = (),
+    costs: CostModel | None = None,
+    plane: Floats | None = None,
 ) -> Problem:
     """A problem whose mission has begun: nothing is checked, since what is left may be too small for the way home."""
     problem = object.__new__(Problem)
@@ -89,6 +110,8 @@ def under_way(
         "limits": limits,
         "alpha": alpha,
         "after": after,
+        "costs": costs,
+        "plane": plane,
     }.items():
         object.__setattr__(problem, name, value)
     return problem
@@ -99,7 +122,9 @@ def _check_graph(problem: Problem) -> None:
     n = len(rewards)
     if n < 2:
         raise ProblemError(f"{n} vertices are no problem", advice="give a start and an end at least")
-    if d.shape != (n, n):
+    if problem.plane is not None:
+        _check_plane(problem.plane, d, n)
+    elif d.shape != (n, n):
         raise ProblemError(f"distances of shape {d.shape} do not fit {n} rewards", advice=f"give {n} by {n} distances")
     if np.isnan(d).any() or (d < 0).any():
         row, column = np.argwhere(np.isnan(d) | (d < 0))[0]
@@ -126,6 +151,16 @@ def _check_graph(problem: Problem) -> None:
         raise ProblemError("a leg after the end is negative or not a number")
 
 
+def _check_plane(plane: Floats, distances: Floats, n: int) -> None:
+    if len(distances):
+        raise ProblemError("there are distances and coordinates too", advice="give one of them")
+    if plane.shape != (n, 2):
+        raise ProblemError(f"coordinates of shape {plane.shape} do not fit {n} rewards", advice=f"give {n} pairs")
+    if not np.isfinite(plane).all():
+        vertex = int(np.argwhere(~np.isfinite(plane))[0, 0])
+        raise ProblemError("a coordinate is not a number", where=f"vertex {vertex}")
+
+
 def _check_limit(limit: Limit, n: int) -> None:
     if not np.isfinite(limit.budget) or limit.budget < 0:
         raise ProblemError(f"a budget is {limit.budget:g}", advice="give 0 or more")
@@ -143,7 +178,7 @@ def _check_limit(limit: Limit, n: int) -> None:
 
 
 def _check_direct(problem: Problem) -> None:
-    direct = float(problem.distances[problem.start, problem.end])
+    direct = problem.length(problem.start, problem.end)
     if problem.start != problem.end and not np.isfinite(direct):
         raise ProblemError("there is no way from the start to the end", where=f"vertex {problem.end}")
     way = (0.0 if problem.start == problem.end else direct) + sum(problem.after)

@@ -15,28 +15,12 @@ import numpy as np
 
 from fieldhand.orienteering.order import Floats, Ints, improve, shortest_order
 from fieldhand.orienteering.problem import Problem
+from fieldhand.orienteering.route import Route
 from fieldhand.orienteering.split import Option
 from fieldhand.orienteering.tail import chance_over
 
 _SLACK = 1e-12
 _LADDER_UP = 8
-
-
-@dataclass(frozen=True, kw_only=True)
-class Route:
-    """A way from start to end.
-
-    Attributes:
-        vertices: In their order, start and end included.
-        reward: Of the vertices between them.
-        length: Expected cost of the legs, those after the end included.
-        chances: For each limit the chance of exceeding it.
-    """
-
-    vertices: tuple[int, ...]
-    reward: float
-    length: float
-    chances: tuple[float, ...]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,0 +1,185 @@
+"""One decision of a mission that may skip stops as it goes: candidate orders, and what each is worth.
+
+What a mission is to make much of is ``E[(reward + bonus) * keeps to the limits]``: reward counts where the mission
+succeeds, and success itself counts ``bonus``, the price on a failure. A bonus below 0 gives up safety for reward.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.orienteering.annealing import HOT, WARM, Annealing, stops_of
+from fieldhand.orienteering.ground import Ground
+from fieldhand.orienteering.kernels.grow import floors_of, grow
+from fieldhand.orienteering.kernels.legs import uniform
+from fieldhand.orienteering.kernels.value import backward, drive, forward
+from fieldhand.orienteering.tail import quantile_table
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+#: Stops in an order from which on it is driven as planned, without a programme of what to skip.
+LONG = 64
+#: How far out of reach, as legs cost on average, a vertex may be that luck may bring within it.
+_LUCK = 1.15
+
+
+@dataclass(frozen=True, kw_only=True)
+class Depth:
+    """How much to search at a decision, counted, so that the same problem gives the same mission on any machine.
+
+    Attributes:
+        levels: Chances of exceeding the budget at which fixed routes are searched to begin with.
+        rounds: Of annealing for each of them.
+        insertions: Stops that the order made of each may gain.
+        skip: Stops ahead that may be driven to.
+        points: Of the grid of what is left.
+    """
+
+    levels: tuple[float, ...] = (0.4,)
+    rounds: int = 40
+    insertions: int = 4
+    skip: int = 6
+    points: int = 64
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Order:
+    """Stops in their order, some of which may be skipped on the way.
+
+    Attributes:
+        stops: Without the ends.
+        first: Position of the one that is driven to now; ``len(stops)`` for the end.
+        worth: Reward still to come, of missions that keep to the limits (0 for others), on average.
+        success: Chance that they do.
+    """
+
+    stops: Ints
+    first: int
+    worth: float
+    success: float
+
+    def value(self, bonus: float) -> float:
+        """What this counts where success counts ``bonus``."""
+        return self.worth + bonus * self.success
+
+
+class Lookout:
+    """What is to be done from one vertex, with what is left and what is free.
+
+    Args:
+        ground: The problem.
+        here: The vertex.
+        left: Of each limit.
+        free: Whether each vertex may still be visited, shape (n,).
+        depth: How much to search.
+        state: Of the random numbers.
+    """
+
+    def __init__(
+        self,
+        ground: Ground,
+        here: int,
+        left: Sequence[float],
+        free: NDArray[np.bool_],
+        depth: Depth,
+        state: NDArray[np.uint64],
+    ) -> None:
+        self._ground, self._here, self._depth, self._state = ground, here, depth, state
+        self._left = np.array(left, dtype=np.float64)
+        # The programme runs over what is left of the limit with least; the others come in by what they ask of it.
+        by_budget = np.argsort(self._left, kind="stable")
+        self._budgets = self._left[by_budget]
+        self._service = np.ascontiguousarray(ground.service[by_budget])
+        self.free = self._reachable(free)
+        self._ends: Floats | None = None
+
+    def route(self, level: float, warm: Sequence[int], rounds: int) -> Ints:
+        """Stops of a fixed route that exceeds no limit more often than ``level``, found from ``warm``."""
+        tables = np.tile(table_of(level), (len(self._budgets), 1))
+        stops = stops_of(warm, self.free)
+        found = Annealing(self._ground, self._here, self.free, self._left, tables, stops, self._state)
+        found.improve(rounds, WARM if len(stops) else HOT)
+        return found.best
+
+    def order(self, stops: Ints, bonus: float, insertions: int) -> Order:
+        """An order after it has gained up to ``insertions`` stops."""
+        ground, depth = self._ground, self._depth
+        longest = max(len(stops), LONG)
+        grown, figures = np.empty(longest + 2, np.int64), np.empty(3)
+        count = grow(
+            stops, self._here, self.free, longest, insertions, ground.matrix, ground.xy, ground.rewards,
+            self._service, self._budgets, self.ends(), bonus, depth.skip, ground.points, ground.weights,
+            grown, figures,
+        )  # fmt: skip
+        return Order(stops=grown[:count], first=int(figures[2]), worth=float(figures[0]), success=float(figures[1]))
+
+    def chances(self, stops: Ints, bonus: float) -> Floats:
+        """For each stop of an order, how likely a mission that only skips some of them comes to it."""
+        ground, depth, size = self._ground, self._depth, self._depth.points + 1
+        route = np.array([self._here, *stops, ground.size], dtype=np.int64)
+        step = float(self._budgets[0]) / (size - 1)
+        worth, success, ahead, mass = (np.empty((len(route), size)) for _ in range(4))
+        choice, floors = np.empty((len(route), size), np.int64), np.empty(len(route))
+        floors_of(route, self._service, self._budgets, floors)
+        backward(
+            route, ground.matrix, ground.xy, ground.rewards, self._service[0], self.ends(), floors, bonus, step,
+            depth.skip, ground.points, ground.weights, worth, success, ahead, choice,
+        )  # fmt: skip
+        forward(
+            route, ground.matrix, ground.xy, self._service[0], step, depth.skip, ground.points, ground.weights,
+            choice, mass,
+        )  # fmt: skip
+        return np.asarray(mass[1:-1].sum(axis=1))
+
+    def best(self, bonus: float, warm: Sequence[int]) -> Order:
+        """The order worth most of those that are made of ``warm`` and of fixed routes of several levels."""
+        options = [stops_of(warm, self.free)]
+        for level in self._depth.levels:
+            stops = self.route(level, options[0].tolist(), self._depth.rounds)
+            if not any(np.array_equal(stops, option) for option in options):
+                options.append(stops)
+        orders = [self.order(stops, bonus, self._depth.insertions) for stops in options]
+        return max(orders, key=lambda order: order.value(bonus))
+
+    def bettered(self, order: Order, bonus: float) -> Order:
+        """The order, or a better one after a longer search from it at a level of chance."""
+        level = 0.05 + 0.6 * uniform(self._state)
+        stops = self.route(level, order.stops.tolist(), 8 * self._depth.rounds)
+        other = self.order(stops, bonus, 2 * self._depth.insertions)
+        return other if other.value(bonus) > order.value(bonus) else order
+
+    def ends(self) -> Floats:
+        """By what is left at the end, the chance that the legs after it are within the limit."""
+        if self._ends is None:
+            ground, size = self._ground, self._depth.points + 1
+            step = max(float(self._budgets[0]), 1e-300) / (size - 1)
+            now, then, nothing, unused = np.ones(size), np.empty(size), np.zeros(size), np.empty(size)
+            for leg in reversed(ground.problem.after):
+                drive(nothing, now, unused, then, leg, 0.0, step, ground.points, ground.weights)
+                now, then = then, now
+            self._ends = now
+        return self._ends
+
+    def _reachable(self, free: NDArray[np.bool_]) -> Ints:
+        ground = self._ground
+        there = ground.row(self._here) + ground.row(ground.problem.end) + ground.afterwards[0]
+        there = there + self._service[0, :-1]
+        inside = free & (there <= _LUCK * max(float(self._budgets[0]), 0.0)) & (ground.rewards[:-1] > 0.0)
+        inside[self._here] = False
+        inside[ground.problem.end] = False
+        return np.flatnonzero(inside).astype(np.int64)
+
+
+_TABLES: dict[float, Floats] = {}
+
+
+def table_of(level: float) -> Floats:
+    """The quantiles of one chance; made once."""
+    if level not in _TABLES:
+        _TABLES[level] = quantile_table(level)
+    return _TABLES[level]

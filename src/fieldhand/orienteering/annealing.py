@@ -1,0 +1,112 @@
+"""A fixed route that is improved piece by piece, as long as its caller wants."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.orienteering.ground import Ground
+from fieldhand.orienteering.kernels.anneal import anneal, begin, excess
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+#: Temperatures of the first and of the last round, in rewards of a typical vertex, and what part of all reward the
+#: whole budget counts for: chosen by trial on 100 to 1,000 random vertices.
+HOT = 3.0
+WARM = 0.5
+_COLD = 0.1
+_WORTH = 0.3
+
+
+class Annealing:
+    """Simulated annealing of the route from one vertex over some of ``free`` to the end.
+
+    Args:
+        ground: The problem.
+        here: Where the route begins.
+        free: Vertices that may be visited.
+        budgets: What may be used of each limit.
+        tables: For each limit the quantiles of the cost that may not exceed its budget (:func:`quantile_table`).
+        stops: The route to begin with; where it takes too much, those of its stops worth least are left out.
+        state: One word, the state of the random numbers.
+    """
+
+    def __init__(
+        self,
+        ground: Ground,
+        here: int,
+        free: Ints,
+        budgets: Floats,
+        tables: Floats,
+        stops: Ints,
+        state: NDArray[np.uint64],
+    ) -> None:
+        nodes, limits = ground.size + 1, len(budgets)
+        self._free = free
+        self._after, self._before = np.empty(nodes, np.int64), np.empty(nodes, np.int64)
+        self._sums, self._used = np.empty(5), np.empty(limits)
+        self._best = np.empty(nodes, np.int64)
+        self._record = np.array([-1.0, np.inf, 0.0])
+        self._given = (ground.matrix, ground.xy)
+        self._priced = (ground.rewards, ground.service)
+        self._limits = (budgets, ground.cumulants, tables)
+        self._ground, self._here, self._state = ground, here, state
+        begin(
+            here, stops, ground.afterwards, self._after, self._before, self._sums, self._used,
+            *self._given, *self._priced, *self._limits,
+        )  # fmt: skip
+        self.feasible = bool(excess(self._sums, self._used, *self._limits) <= 0.0)
+        if self.feasible:
+            found = self._route()
+            self._best[: len(found)] = found
+            self._record[:] = (self._sums[3], self._sums[0], len(found))
+        worth = ground.rewards[free]
+        self._typical = float(worth.mean()) if len(free) else 0.0
+
+    @property
+    def best(self) -> Ints:
+        """Stops of the best route so far; of the one it began with where none keeps to the limits."""
+        if self._record[0] < 0.0:
+            return self._route()
+        return self._best[: int(self._record[2])].copy()
+
+    @property
+    def reward(self) -> float:
+        """Of the best route so far; below 0 where none keeps to the limits."""
+        return float(self._record[0])
+
+    def improve(self, rounds: int, heat: float = HOT, done: float = 0.0, then: float = 1.0) -> None:
+        """So many rounds.
+
+        Args:
+            rounds: How many.
+            heat: Temperature at the beginning of all rounds, in rewards of a typical vertex.
+            done, then: What part of all rounds is done before these and after them.
+        """
+        if not len(self._free) or rounds < 0:
+            return
+        hot, cold = heat * self._typical, min(heat, _COLD) * self._typical
+        worth = _WORTH / max(float(self._limits[0].max()), 1e-300)
+        anneal(
+            self._here, self._free, self._after, self._before, self._sums, self._used,
+            *self._given, self._ground.near, *self._priced, *self._limits,
+            worth, hot * (cold / hot) ** done, hot * (cold / hot) ** then, rounds, self._state,
+            self._best, self._record,
+        )  # fmt: skip
+
+    def _route(self) -> Ints:
+        found: list[int] = []
+        at = int(self._after[self._here])
+        while at != self._ground.size:
+            found.append(at)
+            at = int(self._after[at])
+        return np.array(found, dtype=np.int64)
+
+
+def stops_of(stops: Sequence[int], free: Ints) -> Ints:
+    """Those of ``stops`` that are free, in their order."""
+    inside = set(free.tolist())
+    return np.array([v for v in stops if v in inside], dtype=np.int64)

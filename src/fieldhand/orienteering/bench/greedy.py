@@ -1,0 +1,34 @@
+"""Greedy by reward per distance, which is what a language model says that it does."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fieldhand.orienteering.policy import State
+from fieldhand.orienteering.problem import Problem
+from fieldhand.orienteering.tail import exceeding
+
+
+class Greedy:
+    """Goes to the vertex with most reward for the way there from which it still gets home safely enough."""
+
+    def __init__(self, problem: Problem) -> None:
+        self._problem = problem
+
+    def next(self, state: State) -> int:
+        """The vertex to go to next."""
+        problem, here, end = self._problem, state.vertex, self._problem.end
+        there = np.array([problem.length(here, v) for v in range(problem.size)])
+        home = np.array([problem.length(v, end) for v in range(problem.size)])
+        after = np.array(problem.after)
+        second, third = problem.model.cumulants()
+        free = problem.rewards > 0.0
+        free[[*state.visited, here, problem.start, end]] = False
+        for limit, left in zip(problem.limits, state.left, strict=True):
+            work = np.zeros(problem.size) if limit.service is None else limit.service + limit.service[end]
+            sums = [there**k + home**k + (after**k).sum() for k in (1, 2, 3)]
+            chance = exceeding(sums[0], second * sums[1], third * sums[2], left - work)
+            free &= chance <= limit.failure_probability
+        if not free.any():
+            return end
+        return int(np.where(free, problem.rewards / (there + 1e-12), -1.0).argmax())

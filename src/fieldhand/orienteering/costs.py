@@ -1,0 +1,166 @@
+"""What a leg costs: its length times a random factor with mean 1, drawn anew for every leg."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.errors import ProblemError
+
+Floats = NDArray[np.float64]
+
+#: Probabilities between which the slices of a distribution lie: finer where costs are high, for these decide.
+_EDGES = np.array([0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.88, 0.94, 0.97, 0.985, 0.995, 1.0])
+_FINE = 64
+
+
+class CostModel(Protocol):
+    """The distribution of the factor, which has mean 1."""
+
+    def cumulants(self) -> tuple[float, float]:
+        """Its variance and its third central moment."""
+        ...
+
+    def quantile(self, probability: Floats) -> Floats:
+        """The inverse of its distribution function, elementwise."""
+        ...
+
+    def draw(self, rng: np.random.Generator, size: int) -> Floats:
+        """So many independent factors."""
+        ...
+
+
+@dataclass(frozen=True)
+class ShiftedExponential:
+    """``alpha + Exp``, the exponential part with mean ``1 - alpha``: the model of the published experiments."""
+
+    alpha: float = 0.5
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.alpha <= 1.0:
+            raise ProblemError(f"alpha is {self.alpha:g}", advice="give a number from 0 to 1")
+
+    def cumulants(self) -> tuple[float, float]:
+        scale = 1.0 - self.alpha
+        return scale**2, 2.0 * scale**3
+
+    def quantile(self, probability: Floats) -> Floats:
+        return np.asarray(self.alpha - (1.0 - self.alpha) * np.log1p(-probability))
+
+    def draw(self, rng: np.random.Generator, size: int) -> Floats:
+        return self.alpha + (1.0 - self.alpha) * rng.standard_exponential(size)
+
+
+@dataclass(frozen=True)
+class Deterministic:
+    """A leg costs its length."""
+
+    def cumulants(self) -> tuple[float, float]:
+        return 0.0, 0.0
+
+    def quantile(self, probability: Floats) -> Floats:
+        return np.ones_like(probability)
+
+    def draw(self, rng: np.random.Generator, size: int) -> Floats:  # noqa: ARG002
+        return np.ones(size)
+
+
+@dataclass(frozen=True)
+class Gamma:
+    """Gamma distributed with this coefficient of variation (standard deviation by mean)."""
+
+    variation: float
+
+    def __post_init__(self) -> None:
+        _check_variation(self.variation)
+
+    def cumulants(self) -> tuple[float, float]:
+        return self.variation**2, 2.0 * self.variation**4
+
+    def quantile(self, probability: Floats) -> Floats:
+        from scipy.special import gammaincinv
+
+        shape = self.variation**-2
+        return np.asarray(gammaincinv(shape, probability) / shape)
+
+    def draw(self, rng: np.random.Generator, size: int) -> Floats:
+        shape = self.variation**-2
+        return rng.standard_gamma(shape, size) / shape
+
+
+@dataclass(frozen=True)
+class Lognormal:
+    """Lognormally distributed with this coefficient of variation (standard deviation by mean)."""
+
+    variation: float
+
+    def __post_init__(self) -> None:
+        _check_variation(self.variation)
+
+    def cumulants(self) -> tuple[float, float]:
+        square = self.variation**2
+        return square, square**2 * (3.0 + square)
+
+    def quantile(self, probability: Floats) -> Floats:
+        from scipy.special import ndtri
+
+        spread = math.log1p(self.variation**2)
+        return np.asarray(np.exp(math.sqrt(spread) * ndtri(probability) - 0.5 * spread))
+
+    def draw(self, rng: np.random.Generator, size: int) -> Floats:
+        spread = math.log1p(self.variation**2)
+        return np.exp(math.sqrt(spread) * rng.standard_normal(size) - 0.5 * spread)
+
+
+@dataclass(frozen=True, eq=False)
+class Empirical:
+    """What was measured: cost by length of legs that were driven, at least two.
+
+    The samples are divided by their mean; lengths are to be scaled by it where it is not 1.
+    """
+
+    samples: Sequence[float]
+    _factors: Floats = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        factors = np.sort(np.asarray(self.samples, dtype=np.float64).reshape(-1))
+        if len(factors) < 2 or not np.isfinite(factors).all() or factors[0] < 0.0 or factors.mean() <= 0.0:
+            raise ProblemError("samples of leg costs must be two or more finite numbers, none below 0 and not all 0")
+        object.__setattr__(self, "_factors", factors / factors.mean())
+
+    def cumulants(self) -> tuple[float, float]:
+        away = self._factors - 1.0
+        return float((away**2).mean()), float((away**3).mean())
+
+    def quantile(self, probability: Floats) -> Floats:
+        return np.asarray(np.quantile(self._factors, probability, method="inverted_cdf"))
+
+    def draw(self, rng: np.random.Generator, size: int) -> Floats:
+        return rng.choice(self._factors, size)
+
+
+def slices(model: CostModel) -> tuple[Floats, Floats]:
+    """The factor for the compiled loops: points and weights; for an exponential one its two parameters, no weights."""
+    if isinstance(model, ShiftedExponential):
+        return np.array([model.alpha, 1.0 - model.alpha]), np.zeros(0)
+    if model.cumulants()[0] <= 0.0:
+        return np.ones(1), np.ones(1)
+    weights = np.diff(_EDGES)
+    inside = (np.arange(_FINE) + 0.5) / _FINE
+    points = model.quantile((_EDGES[:-1, None] + weights[:, None] * inside).reshape(-1))
+    points = points.reshape(-1, _FINE).mean(axis=1)
+    # What the finest slice still leaves out of the far tail goes to the last point: the mean stays 1.
+    points[-1] += max(0.0, 1.0 - float(weights @ points)) / weights[-1]
+    return points, weights
+
+
+def _check_variation(variation: float) -> None:
+    if not (math.isfinite(variation) and 0.0 < variation <= 3.0):
+        raise ProblemError(
+            f"a leg's coefficient of variation is {variation:g}", advice="give a number above 0 and up to 3"
+        )

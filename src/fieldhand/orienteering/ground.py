@@ -1,0 +1,118 @@
+"""A problem as the arrays that the compiled loops read. The end is a node of its own, numbered after the vertices."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.orienteering.costs import slices
+from fieldhand.orienteering.problem import Problem
+from fieldhand.orienteering.tail import quantile_table
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+#: Neighbours of each vertex that a search looks at.
+NEAREST = 24
+_ALL = 400
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Ground:
+    """What never changes in a mission.
+
+    Attributes:
+        matrix: Lengths between vertices and the end, shape (n + 1, n + 1); empty where ``xy`` gives them.
+        xy: Coordinates of vertices and end, shape (n + 1, 2); empty where there is a matrix.
+        near: Nearest vertices of each node, nearest first, shape (n + 1, k).
+        rewards: Of vertices and end, shape (n + 1,); 0 for the end.
+        service: For each limit what work takes at each node, shape (limits, n + 1).
+        afterwards: First three sums of the legs after the end.
+        cumulants: Second and third of the cost of a leg of length 1.
+        points, weights: That cost, for :func:`fieldhand.orienteering.kernels.value.drive`.
+        tables: For each limit the quantiles at its failure probability.
+    """
+
+    problem: Problem
+    matrix: Floats
+    xy: Floats
+    near: Ints
+    rewards: Floats
+    service: Floats
+    afterwards: Floats
+    cumulants: Floats
+    points: Floats
+    weights: Floats
+    tables: Floats
+
+    @property
+    def size(self) -> int:
+        """Number of vertices, and the number of the end's node."""
+        return len(self.rewards) - 1
+
+    def length(self, u: int, v: int) -> float:
+        """Of one leg between nodes."""
+        if len(self.matrix):
+            return float(self.matrix[u, v])
+        return float(np.hypot(*(self.xy[u] - self.xy[v])))
+
+    def row(self, u: int) -> Floats:
+        """Lengths from a node to every vertex."""
+        if len(self.matrix):
+            return np.asarray(self.matrix[u, :-1])
+        return np.asarray(np.hypot(*(self.xy[:-1] - self.xy[u]).T))
+
+
+def ground_of(problem: Problem) -> Ground:
+    """The arrays of a problem."""
+    n, end = problem.size, problem.end
+    matrix, xy = np.zeros((0, 0)), np.zeros((0, 2))
+    if problem.plane is None:
+        nodes = np.append(np.arange(n), end)
+        matrix = np.ascontiguousarray(problem.distances[np.ix_(nodes, nodes)], dtype=np.float64)
+    else:
+        xy = np.ascontiguousarray(np.vstack([problem.plane, problem.plane[end]]), dtype=np.float64)
+    service = np.zeros((len(problem.limits), n + 1))
+    for row, limit in zip(service, problem.limits, strict=True):
+        if limit.service is not None:
+            row[:n] = limit.service
+            row[n] = limit.service[end] if end != problem.start else 0.0
+    after = np.array(problem.after, dtype=np.float64)
+    points, weights = slices(problem.model)
+    rewards = np.append(problem.rewards, 0.0).astype(np.float64)
+    return Ground(
+        problem=problem,
+        matrix=matrix,
+        xy=xy,
+        near=_nearest(matrix, xy),
+        rewards=rewards,
+        service=service,
+        afterwards=np.array([after.sum(), (after**2).sum(), (after**3).sum()]),
+        cumulants=np.array(problem.model.cumulants()),
+        points=points,
+        weights=weights,
+        tables=np.array([quantile_table(limit.failure_probability) for limit in problem.limits]),
+    )
+
+
+def _nearest(matrix: Floats, xy: Floats) -> Ints:
+    """The nearest vertices of each node; the end's node is nobody's neighbour, nor is a vertex its own."""
+    size = max(len(matrix), len(xy))
+    count = min(NEAREST, size - 2)
+    if count < 1:
+        return np.zeros((size, 0), dtype=np.int64)
+    if len(xy) > _ALL:
+        from scipy.spatial import cKDTree
+
+        found = np.asarray(cKDTree(xy[:-1]).query(xy, k=count + 1)[1])
+        own = found == np.arange(size)[:, None]
+        # Where a vertex shares its place with others it may be missing among its own nearest.
+        own[~own.any(axis=1), -1] = True
+        return np.ascontiguousarray(found[~own].reshape(size, count), dtype=np.int64)
+    if len(xy):
+        matrix = np.hypot(*(xy[:, None] - xy[None]).transpose(2, 0, 1))
+    away = matrix[:, :-1].copy()
+    away[np.arange(size - 1), np.arange(size - 1)] = np.inf
+    return np.ascontiguousarray(np.argsort(away, axis=1, kind="stable")[:, :count], dtype=np.int64)

@@ -1,0 +1,309 @@
+"""Fixed routes: take strings of neighbouring stops out, put stops back greedily, keep what simulated annealing accepts.
+
+The route is a doubly linked list, so a move and its undoing cost what they touch. Source: slack induction by string
+removals, Christiaens and Vanden Berghe 2020, here with stops that may stay out.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.orienteering.kernels.compiled import compiled
+from fieldhand.orienteering.kernels.legs import Floats, Ints, Seeds, copy, length, needed, sort_by, uniform
+
+# Entries of ``sums``: of the legs' lengths, squares and cubes; the reward; the number of stops.
+
+#: How often a place for a stop is overlooked, so that the best one is not always taken.
+_BLINK = 0.02
+
+
+@compiled
+def excess(sums: Floats, used: Floats, budgets: Floats, cumulants: Floats, quantiles: Floats) -> float:
+    """By how much the limit that binds most is exceeded; not above 0 where all are kept."""
+    worst = -np.inf
+    for limit in range(len(budgets)):
+        over = needed(sums[0], sums[1], sums[2], cumulants, quantiles[limit]) + used[limit] - budgets[limit]
+        worst = max(worst, over)
+    return worst
+
+
+@compiled
+def link(
+    p: int, v: int, after: Ints, before: Ints, sums: Floats, used: Floats, matrix: Floats, xy: Floats, rewards: Floats,
+    service: Floats,
+) -> None:  # fmt: skip
+    """Put v into the route after p."""
+    q = after[p]
+    a, b, c = length(matrix, xy, p, v), length(matrix, xy, v, q), length(matrix, xy, p, q)
+    sums[0] += a + b - c
+    sums[1] += a * a + b * b - c * c
+    sums[2] += a * a * a + b * b * b - c * c * c
+    sums[3] += rewards[v]
+    sums[4] += 1.0
+    for limit in range(len(used)):
+        used[limit] += service[limit, v]
+    after[p] = v
+    before[v] = p
+    after[v] = q
+    before[q] = v
+
+
+@compiled
+def unlink(
+    v: int, after: Ints, before: Ints, sums: Floats, used: Floats, matrix: Floats, xy: Floats, rewards: Floats,
+    service: Floats,
+) -> None:  # fmt: skip
+    """Take v out of the route."""
+    p, q = before[v], after[v]
+    a, b, c = length(matrix, xy, p, v), length(matrix, xy, v, q), length(matrix, xy, p, q)
+    sums[0] -= a + b - c
+    sums[1] -= a * a + b * b - c * c
+    sums[2] -= a * a * a + b * b * b - c * c * c
+    sums[3] -= rewards[v]
+    sums[4] -= 1.0
+    for limit in range(len(used)):
+        used[limit] -= service[limit, v]
+    after[p] = q
+    before[q] = p
+    after[v] = -1
+    before[v] = -1
+
+
+@compiled
+def begin(
+    here: int, stops: Ints, afterwards: Floats, after: Ints, before: Ints, sums: Floats, used: Floats, matrix: Floats,
+    xy: Floats, rewards: Floats, service: Floats, budgets: Floats, cumulants: Floats, quantiles: Floats,
+) -> None:  # fmt: skip
+    """Lay the route from here over ``stops`` to the end; leave out those worth least while a limit is exceeded."""
+    end = len(rewards) - 1
+    for v in range(end + 1):
+        after[v] = -1
+        before[v] = -1
+    after[here] = end
+    before[end] = here
+    c = length(matrix, xy, here, end)
+    sums[0] = c + afterwards[0]
+    sums[1] = c * c + afterwards[1]
+    sums[2] = c * c * c + afterwards[2]
+    sums[3] = 0.0
+    sums[4] = 0.0
+    for limit in range(len(used)):
+        used[limit] = service[limit, end]
+    last = here
+    for v in stops:
+        link(last, v, after, before, sums, used, matrix, xy, rewards, service)
+        last = v
+    while sums[4] > 0.0 and excess(sums, used, budgets, cumulants, quantiles) > 0.0:
+        worst, least = -1, np.inf
+        v = after[here]
+        while v != end:
+            p, q = before[v], after[v]
+            detour = length(matrix, xy, p, v) + length(matrix, xy, v, q) - length(matrix, xy, p, q)
+            for limit in range(len(used)):
+                detour += service[limit, v]
+            if detour > 0.0 and rewards[v] / detour < least:
+                worst, least = v, rewards[v] / detour
+            v = q
+        if worst < 0:
+            break
+        unlink(worst, after, before, sums, used, matrix, xy, rewards, service)
+
+
+@compiled
+def _best_place(
+    v: int, here: int, end: int, after: Ints, before: Ints, near: Ints, matrix: Floats, xy: Floats, blink: float,
+    state: Seeds,
+) -> int:  # fmt: skip
+    """The node after which v lengthens the route least, among those beside v's neighbours and the route's ends."""
+    best, place = np.inf, -1
+    for i in range(-2, near.shape[1]):
+        u = here if i == -2 else (before[end] if i == -1 else near[v, i])
+        if u != here and after[u] < 0:
+            continue
+        for side in range(2):
+            if side == 1 and u == here:
+                continue
+            p = u if side == 0 else before[u]
+            if blink > 0.0 and uniform(state) < blink:
+                continue
+            q = after[p]
+            more = length(matrix, xy, p, v) + length(matrix, xy, v, q) - length(matrix, xy, p, q)
+            if more < best:
+                best, place = more, p
+    return place
+
+
+@compiled
+def _take_out(
+    seed: int, here: int, turn: int, allowed: NDArray[np.bool_], seen: Ints, moves: Ints, after: Ints, before: Ints,
+    sums: Floats, used: Floats, matrix: Floats, xy: Floats, near: Ints, rewards: Floats, service: Floats, state: Seeds,
+) -> int:  # fmt: skip
+    """Take one or two strings of stops near ``seed`` out of the route; how many stops, which ``moves`` tells."""
+    end = len(rewards) - 1
+    steps = 0
+    strings = 1 + int(uniform(state) * 2.0)
+    longest = min(10.0, 0.5 * sums[4] + 1.0)
+    for i in range(-1, near.shape[1]):
+        if strings == 0:
+            break
+        u = seed if i < 0 else near[seed, i]
+        if not allowed[u] or after[u] < 0 or seen[u] == turn:
+            continue
+        strings -= 1
+        size = 1 + int(uniform(state) * longest)
+        for _ in range(int(uniform(state) * size)):
+            if before[u] == here:
+                break
+            u = before[u]
+        for _ in range(size):
+            if u == end:
+                break
+            q = after[u]
+            moves[steps, 0], moves[steps, 1], moves[steps, 2] = u, before[u], 0
+            steps += 1
+            unlink(u, after, before, sums, used, matrix, xy, rewards, service)
+            seen[u] = turn
+            u = q
+    return steps
+
+
+@compiled
+def _rank(
+    out: Ints, key: Floats, count: int, seed: int, matrix: Floats, xy: Floats, rewards: Floats, state: Seeds
+) -> None:
+    """Sort the stops that may be put in: at random, by reward, by reward with noise, or by nearness to ``seed``."""
+    rule = int(uniform(state) * 4.0)
+    for i in range(count):
+        v = out[i]
+        if rule == 0:
+            key[i] = uniform(state)
+        elif rule == 1:
+            key[i] = -rewards[v]
+        elif rule == 2:
+            key[i] = -rewards[v] * (0.3 + uniform(state))
+        else:
+            key[i] = length(matrix, xy, v, seed)
+    sort_by(key, out, count)
+
+
+@compiled
+def _drop(v: int, p: int, after: Ints, before: Ints) -> None:
+    """Take v, which follows p, out of the list; the figures are the caller's."""
+    q = after[v]
+    after[p] = q
+    before[q] = p
+    after[v] = -1
+    before[v] = -1
+
+
+@compiled
+def _undo(moves: Ints, steps: int, after: Ints, before: Ints) -> None:
+    """Take the moves back, the last one first."""
+    for i in range(steps - 1, -1, -1):
+        v, p = moves[i, 0], moves[i, 1]
+        if moves[i, 2] == 1:
+            _drop(v, p, after, before)
+        else:
+            q = after[p]
+            after[p] = v
+            before[v] = p
+            after[v] = q
+            before[q] = v
+
+
+@compiled
+def anneal(
+    here: int, free: Ints, after: Ints, before: Ints, sums: Floats, used: Floats,
+    matrix: Floats, xy: Floats, near: Ints, rewards: Floats, service: Floats, budgets: Floats, cumulants: Floats,
+    quantiles: Floats, worth: float, hot: float, cold: float, rounds: int, state: Seeds, best: Ints, record: Floats,
+) -> int:  # fmt: skip
+    """Better the route in ``after`` and ``before`` by ``rounds`` rounds.
+
+    Args:
+        here: Where the route begins.
+        free: Vertices that may be visited; each of them not in the route has -1 in ``after``.
+        after, before, sums, used: The route and its figures, changed in place.
+        matrix, xy, near: Lengths, and the nearest vertices of each, nearest first.
+        rewards, service, budgets: ``service`` has limits along its first axis.
+        cumulants, quantiles: For :func:`needed`; ``quantiles`` has limits along its first axis.
+        worth: What part of the best reward a unit of length counts for.
+        hot, cold: Temperature of the first and of the last round, in reward.
+        state: Of the random numbers.
+        best, record: The best route's stops; its reward and its length, both of them from earlier calls as well.
+
+    Returns:
+        Stops in ``best``.
+    """
+    end = len(rewards) - 1
+    allowed, seen = np.zeros(end + 1, np.bool_), np.zeros(end + 1, np.int64)
+    for v in free:
+        allowed[v] = True
+    out, key, moves = np.empty(end + 1, np.int64), np.empty(end + 1), np.empty((2 * end + 4, 3), np.int64)
+    old_sums, old_used = np.empty(len(sums)), np.empty(len(used))
+    one_sums, one_used = np.empty(len(sums)), np.empty(len(used))
+    found = int(record[2])
+    for turn in range(rounds + 1):
+        copy(sums, old_sums)
+        copy(used, old_used)
+        seed = free[int(uniform(state) * len(free))]
+        steps, count = 0, 0
+        if turn == 0:
+            for v in free:
+                if after[v] < 0:
+                    out[count] = v
+                    count += 1
+        else:
+            if sums[4] > 0.0:
+                steps = _take_out(
+                    seed, here, turn, allowed, seen, moves, after, before, sums, used, matrix, xy, near, rewards,
+                    service, state,
+                )  # fmt: skip
+            for i in range(steps):
+                out[i] = moves[i, 0]
+            count = steps
+            for i in range(-1, near.shape[1]):
+                u = seed if i < 0 else near[seed, i]
+                if allowed[u] and after[u] < 0 and seen[u] != turn:
+                    seen[u] = turn
+                    out[count] = u
+                    count += 1
+        _rank(out, key, count, seed, matrix, xy, rewards, state)
+        over = excess(sums, used, budgets, cumulants, quantiles)
+        for i in range(count):
+            v = out[i]
+            p = _best_place(v, here, end, after, before, near, matrix, xy, _BLINK, state)
+            if p < 0:
+                continue
+            copy(sums, one_sums)
+            copy(used, one_used)
+            link(p, v, after, before, sums, used, matrix, xy, rewards, service)
+            now = excess(sums, used, budgets, cumulants, quantiles)
+            if now <= 0.0 or now < over:
+                moves[steps, 0], moves[steps, 1], moves[steps, 2] = v, p, 1
+                steps += 1
+                over = now
+            else:
+                _drop(v, p, after, before)
+                copy(one_sums, sums)
+                copy(one_used, used)
+        heat = hot * (cold / hot) ** (turn / max(rounds, 1))
+        gain = sums[3] - old_sums[3] - worth * max(record[0], 0.0) * (sums[0] - old_sums[0])
+        if turn > 0 and gain <= heat * math.log(uniform(state) + 1e-300):
+            _undo(moves, steps, after, before)
+            copy(old_sums, sums)
+            copy(old_used, used)
+            continue
+        better = sums[3] > record[0] + 1e-12 or (sums[3] > record[0] - 1e-12 and sums[0] < record[1])
+        if better and over <= 0.0:
+            record[0], record[1] = sums[3], sums[0]
+            found = 0
+            u = after[here]
+            while u != end:
+                best[found] = u
+                found += 1
+                u = after[u]
+            record[2] = found
+    return found

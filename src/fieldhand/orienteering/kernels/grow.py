@@ -1,0 +1,128 @@
+"""Lengthen an order of stops by those that a robot which may skip stops would gain by."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.orienteering.kernels.compiled import compiled
+from fieldhand.orienteering.kernels.legs import Floats, Ints, length, sort_by
+from fieldhand.orienteering.kernels.value import backward, forward, gains
+
+#: Vertices that are tried for insertion.
+CANDIDATES = 24
+
+
+@compiled
+def floors_of(route: Ints, service: Floats, budgets: Floats, floors: Floats) -> None:
+    """What the other limits ask to be left of the first at the end, when the robot goes home from each position."""
+    end = route[len(route) - 1]
+    for i in range(len(floors)):
+        floors[i] = 0.0
+    for limit in range(1, len(budgets)):
+        floor = budgets[0] - budgets[limit] + service[limit, end] - service[0, end]
+        for i in range(len(route) - 1):
+            if i > 0:
+                floor += service[limit, route[i]] - service[0, route[i]]
+            floors[i] = max(floors[i], floor)
+
+
+@compiled
+def _promising(
+    route: Ints, free: Ints, inside: NDArray[np.bool_], matrix: Floats, xy: Floats, rewards: Floats, service: Floats
+) -> Ints:
+    """The free vertices outside the route with most reward for the way that they add."""
+    count = 0
+    outside, score = np.empty(len(free), np.int64), np.empty(len(free))
+    for v in free:
+        if inside[v]:
+            continue
+        least = np.inf
+        came = length(matrix, xy, route[0], v)
+        for i in range(1, len(route)):
+            goes = length(matrix, xy, route[i], v)
+            least = min(least, came + goes - length(matrix, xy, route[i - 1], route[i]))
+            came = goes
+        outside[count] = v
+        score[count] = -rewards[v] / (least + service[v] + 1e-300)
+        count += 1
+    if count <= CANDIDATES:
+        return outside[:count]
+    sort_by(score, outside, count)
+    return outside[:CANDIDATES]
+
+
+@compiled
+def grow(
+    stops: Ints, here: int, free: Ints, longest: int, insertions: int, matrix: Floats, xy: Floats, rewards: Floats,
+    service: Floats, budgets: Floats, ends: Floats, bonus: float, skip: int, points: Floats, weights: Floats,
+    order: Ints, figures: Floats,
+) -> int:  # fmt: skip
+    """Insert the stops that gain most into an order, and say what it is worth then.
+
+    Args:
+        stops: The order to begin with, without its ends.
+        here: Where the robot is.
+        free: Vertices that may be inserted.
+        longest: Stops that the order may have.
+        insertions: How many may be inserted.
+        matrix, xy, rewards, service, budgets, ends, bonus, skip, points, weights: As for :func:`backward`; ``service``
+            and ``budgets`` of every limit, the one with the least budget first.
+        order: Overwritten: the order's stops.
+        figures: Overwritten: reward still to come of missions that keep to the limits, chance that they do, and the
+            position driven to first (0 for the first stop, the number of stops for the end).
+
+    Returns:
+        How many stops the order has.
+    """
+    end = len(rewards) - 1
+    size = len(ends)
+    step = budgets[0] / (size - 1)
+    capacity = min(longest, len(stops) + insertions) + 2
+    worth, success = np.empty((capacity, size)), np.empty((capacity, size))
+    ahead, mass = np.empty((capacity, size)), np.empty((capacity, size))
+    choice = np.empty((capacity, size), np.int64)
+    floors = np.empty(capacity)
+    route = np.empty(capacity, np.int64)
+    inside = np.zeros(end + 1, np.bool_)
+    count = len(stops)
+    route[0] = here
+    for i in range(count):
+        route[i + 1] = stops[i]
+        inside[stops[i]] = True
+    route[count + 1] = end
+    candidates = _promising(route[: count + 2], free, inside, matrix, xy, rewards, service[0])
+    gain, place = np.empty(len(candidates)), np.empty(len(candidates), np.int64)
+    for trial in range(insertions + 1):
+        n = count + 2
+        floors_of(route[:n], service, budgets, floors[:n])
+        backward(
+            route[:n], matrix, xy, rewards, service[0], ends, floors[:n], bonus, step, skip, points, weights,
+            worth[:n], success[:n], ahead[:n], choice[:n],
+        )  # fmt: skip
+        if trial == insertions or n >= capacity:
+            break
+        left = len(candidates) - trial
+        if left == 0:
+            break
+        forward(route[:n], matrix, xy, service[0], step, skip, points, weights, choice[:n], mass[:n])
+        gains(
+            route[:n], matrix, xy, rewards, service[0], ends, floors[:n], bonus, step, points, weights,
+            worth[:n], success[:n], ahead[:n], mass[:n], candidates[:left], gain[:left], place[:left],
+        )  # fmt: skip
+        most = 0
+        for i in range(left):
+            if gain[i] > gain[most]:
+                most = i
+        if gain[most] <= 1e-4 * rewards[candidates[most]]:
+            break
+        for i in range(count + 1, place[most], -1):
+            route[i + 1] = route[i]
+        route[place[most] + 1] = candidates[most]
+        candidates[most] = candidates[left - 1]
+        count += 1
+    for i in range(count):
+        order[i] = route[i + 1]
+    figures[0], figures[1] = worth[0, size - 1], success[0, size - 1]
+    figures[2] = float(choice[0, size - 1] - 1)
+    return count

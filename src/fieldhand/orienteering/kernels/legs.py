@@ -1,0 +1,80 @@
+"""What every inner loop needs: a length, a random number, what a route needs so that it is rarely too long."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.orienteering.kernels.compiled import compiled
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Seeds = NDArray[np.uint64]
+
+#: Skewness at the first entry of a table of quantiles, and entries per unit of skewness.
+TABLE_FROM = -4.0
+TABLE_PER_UNIT = 16.0
+
+
+@compiled
+def uniform(state: Seeds) -> float:
+    """The next number in [0, 1) of a generator (splitmix64, Steele et al. 2014) with this one word of state."""
+    z = state[0] + np.uint64(0x9E3779B97F4A7C15)
+    state[0] = z
+    z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    z = z ^ (z >> np.uint64(31))
+    return float(z >> np.uint64(11)) * (1.0 / 9007199254740992.0)
+
+
+@compiled
+def length(matrix: Floats, xy: Floats, u: int, v: int) -> float:
+    """Of the leg from u to v: an entry of the matrix where there is one, else the straight line."""
+    if matrix.shape[0] > 0:
+        return matrix[u, v]  # type: ignore[no-any-return]
+    x, y = xy[u, 0] - xy[v, 0], xy[u, 1] - xy[v, 1]
+    return math.sqrt(x * x + y * y)
+
+
+@compiled
+def needed(first: float, second: float, third: float, cumulants: Floats, quantiles: Floats) -> float:
+    """What legs exceed with one certain chance: Pearson III through their first three cumulants.
+
+    Args:
+        first, second, third: Sums of the legs' lengths, of their squares and of their cubes.
+        cumulants: Second and third cumulant of the cost of a leg of length 1.
+        quantiles: Standardised quantile of that chance, by skewness.
+    """
+    variance = cumulants[0] * second
+    if variance <= 0.0:
+        return first
+    deviation = math.sqrt(variance)
+    skewness = cumulants[1] * third / (variance * deviation)
+    at = min(max((skewness - TABLE_FROM) * TABLE_PER_UNIT, 0.0), len(quantiles) - 1.001)
+    entry = int(at)
+    part = at - entry
+    return first + deviation * (quantiles[entry] * (1.0 - part) + quantiles[entry + 1] * part)  # type: ignore[no-any-return]
+
+
+@compiled
+def copy(values: Floats, to: Floats) -> None:
+    """Overwrite ``to``. Written out: an assignment of slices takes a second longer to compile."""
+    for i in range(len(values)):
+        to[i] = values[i]
+
+
+@compiled
+def sort_by(key: Floats, values: Ints, count: int) -> None:
+    """Sort the first ``count`` values by their keys, and the keys (Shell 1959). numpy's takes seconds to compile."""
+    gap = count // 2
+    while gap > 0:
+        for i in range(gap, count):
+            k, v = key[i], values[i]
+            j = i
+            while j >= gap and key[j - gap] > k:
+                key[j], values[j] = key[j - gap], values[j - gap]
+                j -= gap
+            key[j], values[j] = k, v
+        gap //= 2

@@ -1,0 +1,282 @@
+"""What an order of stops is worth to a robot that may skip stops as it goes: a dynamic programme over what is left.
+
+At every stop and for every amount left (a grid) the robot drives on to one of the next few stops or straight to the
+end, whichever is worth most. ``worth`` is the reward still to come of missions that keep to the limits, ``success``
+the chance that they do; a mission that does counts ``bonus`` more. Both are linear between the points of the grid and 0
+below it.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from fieldhand.orienteering.kernels.compiled import compiled
+from fieldhand.orienteering.kernels.legs import Floats, Ints, length
+
+
+@compiled
+def drive(
+    worth: Floats,
+    success: Floats,
+    to_worth: Floats,
+    to_success: Floats,
+    leg: float,
+    service: float,
+    step: float,
+    points: Floats,
+    weights: Floats,
+) -> None:
+    """Expectations before a leg and the work at its end, from those after them.
+
+    Args:
+        worth, success: After them, by what is left.
+        to_worth, to_success: Overwritten.
+        leg, service: The leg's length; what the work takes.
+        step: Of the grid.
+        points, weights: What a leg of length 1 may cost and how likely; where ``weights`` is empty, ``points[0]`` and
+            an exponential part with mean ``points[1]`` on top.
+    """
+    size = len(worth)
+    for k in range(size):
+        to_worth[k] = 0.0
+        to_success[k] = 0.0
+    if len(weights) > 0:
+        for i in range(len(points)):
+            _shift(worth, success, to_worth, to_success, (service + leg * points[i]) / step, weights[i])
+        return
+    scale = leg * points[1]
+    at = (service + leg * points[0]) / step
+    if scale <= 1e-9 * step:
+        _shift(worth, success, to_worth, to_success, at, 1.0)
+        return
+    if at >= size:
+        return
+    whole = int(at)
+    part = at - whole
+    # The integral over the exponential part, exact for a function that is linear between grid points.
+    ratio = step / scale
+    stay = math.exp(-ratio)
+    mean = (1.0 - stay) / ratio
+    later, earlier = 1.0 - mean, mean - stay
+    was_worth, was_success = 0.0, 0.0
+    for k in range(1, size - whole):
+        is_worth = stay * was_worth + earlier * worth[k - 1] + later * worth[k]
+        is_success = stay * was_success + earlier * success[k - 1] + later * success[k]
+        to_worth[k + whole] = (1.0 - part) * is_worth + part * was_worth
+        to_success[k + whole] = (1.0 - part) * is_success + part * was_success
+        was_worth, was_success = is_worth, is_success
+
+
+@compiled
+def _shift(worth: Floats, success: Floats, to_worth: Floats, to_success: Floats, at: float, weight: float) -> None:
+    size = len(worth)
+    if at >= size:
+        return
+    whole = int(at)
+    part = at - whole
+    if part > 0.0:
+        for k in range(whole + 1, size):
+            to_worth[k] += weight * ((1.0 - part) * worth[k - whole] + part * worth[k - whole - 1])
+            to_success[k] += weight * ((1.0 - part) * success[k - whole] + part * success[k - whole - 1])
+    else:
+        for k in range(whole, size):
+            to_worth[k] += weight * worth[k - whole]
+            to_success[k] += weight * success[k - whole]
+
+
+@compiled
+def gather(
+    mass: Floats, choice: Ints, chosen: int, into: Floats, leg: float, service: float, step: float, points: Floats,
+    weights: Floats, work: Floats,
+) -> None:  # fmt: skip
+    """The transpose of :func:`drive`: where the missions are that choose to drive this leg, once they have."""
+    size = len(mass)
+    if len(weights) > 0:
+        for i in range(len(points)):
+            at = (service + leg * points[i]) / step
+            if at < size:
+                whole = int(at)
+                part = at - whole
+                for k in range(whole + (1 if part > 0.0 else 0), size):
+                    if choice[k] == chosen:
+                        into[k - whole] += weights[i] * (1.0 - part) * mass[k]
+                        if part > 0.0:
+                            into[k - whole - 1] += weights[i] * part * mass[k]
+        return
+    scale = leg * points[1]
+    at = (service + leg * points[0]) / step
+    if at >= size:
+        return
+    whole = int(at)
+    part = at - whole
+    for k in range(size):
+        work[k] = 0.0
+    for k in range(whole + 1, size):
+        if choice[k] == chosen:
+            work[k - whole] += (1.0 - part) * mass[k]
+            work[k - whole - 1] += part * mass[k]
+    if scale <= 1e-9 * step:
+        for k in range(size):
+            into[k] += work[k]
+        return
+    ratio = step / scale
+    stay = math.exp(-ratio)
+    mean = (1.0 - stay) / ratio
+    later, earlier = 1.0 - mean, mean - stay
+    coming = 0.0
+    for k in range(size - 1, 0, -1):
+        here = work[k] + stay * coming
+        into[k] += later * here + earlier * coming
+        coming = here
+    into[0] += earlier * coming
+
+
+@compiled
+def home(success: Floats, to_success: Floats, floor: float, step: float) -> None:
+    """Chances to keep to every limit, by what is left of the first; another asks that ``floor`` of it be left."""
+    size = len(success)
+    at = floor / step
+    whole = int(at)
+    part = at - whole
+    for k in range(size):
+        if k <= whole:
+            to_success[k] = success[0] if part <= 0.0 and k == whole else 0.0
+        else:
+            to_success[k] = (1.0 - part) * success[k - whole] + part * success[k - whole - 1]
+
+
+@compiled
+def backward(
+    route: Ints, matrix: Floats, xy: Floats, rewards: Floats, service: Floats, ends: Floats, floors: Floats,
+    bonus: float, step: float, skip: int, points: Floats, weights: Floats,
+    worth: Floats, success: Floats, ahead: Floats, choice: Ints,
+) -> None:  # fmt: skip
+    """Fill the programme from the end of ``route`` to its beginning.
+
+    Args:
+        route: From here to the end, both included.
+        matrix, xy: For :func:`length`.
+        rewards: Of each vertex.
+        service: What the work at each vertex takes of the first limit.
+        ends: By what is left at the end, the chance that what must follow there is within the limit.
+        floors: For each position what must be left of the first limit on going home from there, so that the others
+            keep; 0 where there is but one limit.
+        bonus: What a mission counts that keeps to the limits, beside the rewards from here on.
+        step: Of the grid; its last point is what is left here.
+        skip: How many stops ahead may be driven to.
+        points, weights: For :func:`drive`.
+        worth, success: Overwritten, shape (positions, points of the grid).
+        ahead: Overwritten: ``worth`` with the reward of the position itself.
+        choice: Overwritten: the position that is driven to.
+    """
+    last = len(route) - 1
+    size = worth.shape[1]
+    to_worth, to_success, arrived = np.empty(size), np.empty(size), np.empty(size)
+    for k in range(size):
+        worth[last, k] = 0.0
+        ahead[last, k] = 0.0
+        success[last, k] = ends[k]
+    collected = bonus
+    for i in range(1, last):
+        collected += rewards[route[i]]
+    for i in range(last - 1, -1, -1):
+        leg = length(matrix, xy, route[i], route[last])
+        home(ends, arrived, floors[i], step)
+        drive(worth[last], arrived, worth[i], success[i], leg, service[route[last]], step, points, weights)
+        for k in range(size):
+            choice[i, k] = last
+        reward = rewards[route[i]] if i > 0 else 0.0
+        for j in range(i + 1, min(i + skip, last - 1) + 1):
+            leg = length(matrix, xy, route[i], route[j])
+            drive(ahead[j], success[j], to_worth, to_success, leg, service[route[j]], step, points, weights)
+            for k in range(size):
+                if to_worth[k] + collected * to_success[k] > worth[i, k] + collected * success[i, k]:
+                    worth[i, k] = to_worth[k]
+                    success[i, k] = to_success[k]
+                    choice[i, k] = j
+        for k in range(size):
+            ahead[i, k] = worth[i, k] + reward * success[i, k]
+        collected -= reward
+
+
+@compiled
+def forward(
+    route: Ints, matrix: Floats, xy: Floats, service: Floats, step: float, skip: int, points: Floats, weights: Floats,
+    choice: Ints, mass: Floats,
+) -> None:  # fmt: skip
+    """Fill ``mass``: how likely a mission comes to each position with each amount left."""
+    last = len(route) - 1
+    size = mass.shape[1]
+    work = np.empty(size)
+    for i in range(last + 1):
+        for k in range(size):
+            mass[i, k] = 0.0
+    mass[0, size - 1] = 1.0
+    for i in range(last):
+        for to in range(i + 1, min(i + skip, last - 1) + 2):
+            j = to if to <= min(i + skip, last - 1) else last
+            going = 0.0
+            for k in range(size):
+                if choice[i, k] == j:
+                    going += mass[i, k]
+            if going > 1e-12:
+                leg = length(matrix, xy, route[i], route[j])
+                gather(mass[i], choice[i], j, mass[j], leg, service[route[j]], step, points, weights, work)
+
+
+@compiled
+def gains(
+    route: Ints, matrix: Floats, xy: Floats, rewards: Floats, service: Floats, ends: Floats, floors: Floats,
+    bonus: float, step: float, points: Floats, weights: Floats,
+    worth: Floats, success: Floats, ahead: Floats, mass: Floats, candidates: Ints, gain: Floats, place: Ints,
+) -> None:  # fmt: skip
+    """For each candidate, what the order gains when it may be visited after the one position where it gains most.
+
+    From there the robot drives on to the next position or to the end.
+    """
+    last = len(route) - 1
+    size = worth.shape[1]
+    then_worth, then_success = np.empty(size), np.empty(size)
+    to_worth, to_success, arrived = np.empty(size), np.empty(size), np.empty(size)
+    here = np.empty(last)
+    here[0] = bonus
+    for i in range(1, last):
+        here[i] = here[i - 1] + rewards[route[i]]
+    there = np.empty(last)
+    for i in range(last):
+        there[i] = 0.0
+        for k in range(size):
+            there[i] += mass[i, k]
+    for c in range(len(candidates)):
+        v = candidates[c]
+        gain[c] = 0.0
+        place[c] = 0
+        leg_home = length(matrix, xy, v, route[last])
+        for i in range(last):
+            if there[i] < 1e-3:
+                continue
+            value = here[i] + rewards[v]
+            home(ends, arrived, floors[i], step)
+            drive(worth[last], arrived, then_worth, then_success, leg_home, service[route[last]], step, points, weights)
+            if i + 1 < last:
+                leg = length(matrix, xy, v, route[i + 1])
+                work = service[route[i + 1]]
+                drive(ahead[i + 1], success[i + 1], to_worth, to_success, leg, work, step, points, weights)
+                for k in range(size):
+                    if to_worth[k] + value * to_success[k] > then_worth[k] + value * then_success[k]:
+                        then_worth[k] = to_worth[k]
+                        then_success[k] = to_success[k]
+            for k in range(size):
+                then_worth[k] += rewards[v] * then_success[k]
+            leg = length(matrix, xy, route[i], v)
+            drive(then_worth, then_success, to_worth, to_success, leg, service[v], step, points, weights)
+            found = 0.0
+            for k in range(size):
+                more = to_worth[k] - worth[i, k] + here[i] * (to_success[k] - success[i, k])
+                if more > 0.0:
+                    found += more * mass[i, k]
+            if found > gain[c]:
+                gain[c] = found
+                place[c] = i
