@@ -250,10 +250,25 @@ def test_trees_of_a_row_count_among_what_is_left_from_the_end_that_is_said(farm,
     expect(selector, farm, farm.in_file_order(kept))
 
 
-@given(farms(), st.integers(1, 4), st.integers(1, 4), st.booleans())
+def every_nth(rows, nth, start):
+    """Of each row by itself; where no row has as many trees, on from row to row."""
+    counted = [list(row) for row in rows]
+    if max(map(len, counted), default=0) < nth:
+        counted = [[t for row in counted for t in row]]
+    return [t for row in counted for t in row[start - 1 :: nth]]
+
+
+def test_every_fiftieth_tree_is_not_the_first_of_every_row():
+    rows = [(str(k + 1), [(6.0 * k, -4.0 * n) for n in range(12)]) for k in range(10)]
+    site = planted([("1", 0.0, rows)])
+    assert len(ids(s.EveryNth(nth=50), site)) == 3
+    assert any("goes on from row to row" in note for note in explain(s.EveryNth(nth=50), site, at_start(site)).notes)
+
+
+@given(farms(), st.integers(1, 6), st.integers(1, 4), st.booleans())
 def test_every_nth_tree_counts_along_each_row_among_what_is_left(farm, nth, start, only_old):
     group = [t for row in farm.rows for t in row if not only_old or old(farm, t)]
-    kept = [t for row in counted_in(farm, group, False) for t in row[start - 1 :: nth]]
+    kept = every_nth(counted_in(farm, group, False), nth, start)
     selector = s.EveryNth(nth=nth, start=start, of=s.Where(**OLD) if only_old else s.Trees())
     expect(selector, farm, farm.in_file_order(kept))
 
@@ -398,7 +413,7 @@ def test_every_third_old_tree_of_some_rows_in_a_half_is_counted_among_these(farm
     inside = {t.place.id for t, f in zip(farm.site.trees, far, strict=True) if f >= middle - 0.01}
     last = min(2, len(farm.rows))
     group = [t for row in farm.rows[:last] for t in row if t in inside and old(farm, t)]
-    kept = [t for row in counted_in(farm, group, False) for t in row[::nth]]
+    kept = every_nth(counted_in(farm, group, False), nth, 1)
     rows = {"first": "1", "last": str(last)}
     for of in (
         s.Where(**OLD, of=s.Half(side=side, of=s.Rows(**rows))),

@@ -16,10 +16,11 @@ from fieldhand.approval.legs import driven_through
 from fieldhand.approval.problem import Problem
 from fieldhand.errors import DriveFault, FieldhandError, PlaceError, TaskError
 from fieldhand.forecast.estimate import Estimate, estimate
-from fieldhand.forecast.routes import drives_for
+from fieldhand.forecast.routes import beginning, drives_for
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context
+from fieldhand.site.drives import Drives
 from fieldhand.site.model import Place, Site
 from fieldhand.site.places import resolve, resolve_one
 from fieldhand.task.codec import encode
@@ -126,6 +127,7 @@ def _resources(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]
 def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
     """Each selector that resolves before the robot moves: it finds something, one where one is needed, reachable."""
     drives = drives_for(site, robot)
+    yield from _exits(task, site, drives)
     for node in walk(task.composition.plan):
         selector = selector_of(node)
         if selector is None or is_relative(selector):
@@ -135,15 +137,46 @@ def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
         except PlaceError as error:
             yield _of_error(error, node.id)
             continue
-        for place in places:
-            reason = drives.problem(place)
-            if reason:
-                yield Problem(
-                    node=node.id,
-                    where=site.name,
-                    what=f"{place.kind} {place.id} is {reason}",
-                    advice="leave it out, or correct the site",
-                )
+        closed = [(place, reason) for place in places if (reason := drives.problem(place))]
+        if isinstance(node, ForEach) and node.optional and len(closed) < len(places):
+            yield from _left_out(node, closed, site)
+            continue
+        for place, reason in closed:
+            yield Problem(
+                node=node.id,
+                where=site.name,
+                what=f"{place.kind} {place.id} is {reason}",
+                advice="leave it out, or correct the site",
+            )
+
+
+def _left_out(node: ForEach, closed: list[tuple[Place, str]], site: Site) -> Iterator[Problem]:
+    """Optional visits that cannot be made are left out, and the person who approves is told."""
+    if closed:
+        place, reason = closed[0]
+        more = f" and {len(closed) - 1} more" if len(closed) > 1 else ""
+        yield Problem(
+            node=node.id,
+            where=site.name,
+            what=f"{place.kind} {place.id}{more} will be left out: {place.kind} {place.id} is {reason}",
+            advice="correct the site if that is wrong",
+            severity="warning",
+        )
+
+
+def _exits(task: Task, site: Site, drives: Drives) -> Iterator[Problem]:
+    """Where the robot goes when something goes wrong has to be reached from where it starts."""
+    start = beginning(drives)
+    for taken in task.composition.faulted:
+        home = site.home(taken.then, start)
+        reason = "" if home.xy == start.xy else drives.problem(home)
+        if reason:
+            yield Problem(
+                where=site.name,
+                what=f"the {home.id} marker, to which the robot is to go on the fault {taken.fault}, is {reason}",
+                advice="correct the site; else the robot will stop where it is then",
+                severity="warning",
+            )
 
 
 def _resolved(node: Node, selector: Selector, site: Site) -> tuple[Place, ...]:

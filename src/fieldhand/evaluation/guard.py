@@ -39,7 +39,7 @@ from fieldhand.orienteering.tail import chance_over
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context
 from fieldhand.site.model import Place, Site
-from fieldhand.task.frames import Task
+from fieldhand.task.frames import Task, Then
 from fieldhand.task.plan import ForEach
 
 if TYPE_CHECKING:
@@ -104,11 +104,11 @@ class BudgetGuard:
             return Verdict(go=True)
         resources = self._resources(state)
         here, then = state.context.here, exit_of(self._task, "low_budget")
-        home_now = _Way(legs_m=(self._length(here, self._site.home(then, here)),))
+        home_now = _Way(legs_m=(self._length(here, self._home(then, here)),))
         straight = self._figures(home_now, resources, state.spent)
         levels = self._levels(resources, state.spent)
         allowed = np.maximum(np.maximum(levels, self._accepted), self._chances(straight))
-        short = self._there_and_home(here, visit, self._site.home(then, visit.place))
+        short = self._there_and_home(here, visit, self._home(then, visit.place))
         on = self._there_and_on(state, visit, still_to_come) or short
         for way in (on, short):
             chances = self._chances(self._figures(way, resources, state.spent))
@@ -142,6 +142,11 @@ class BudgetGuard:
             return True
         self._granted = None
         return False
+
+    def _home(self, then: Then, at: Place) -> Place:
+        """Where the robot goes when little is left; it stays where there is no way to that (approval warned of it)."""
+        home = self._site.home(then, at)
+        return home if self._distances.linked(at, home) else at
 
     def _there_and_home(self, here: Place, visit: Visit, home: Place) -> _Way:
         legs = (self._length(here, visit.place), self._length(visit.place, home))

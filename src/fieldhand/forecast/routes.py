@@ -46,6 +46,12 @@ def standing(drives: Drives, here: Place, places: Sequence[Place]) -> tuple[Plac
     return drives.stands([at.get(p.xy, p) for p in places], here)
 
 
+def reachable(drives: Drives, places: Sequence[Place]) -> tuple[tuple[Place, ...], tuple[Place, ...]]:
+    """The places that can be driven to, and those that never can."""
+    open_ = tuple(p for p in places if not drives.problem(p))
+    return open_, tuple(p for p in places if p not in open_) if len(open_) < len(places) else ()
+
+
 def order_visits(drives: Drives, here: Place, places: Sequence[Place], home: Place | None) -> tuple[int, ...]:
     """The order of ``places`` that drives least from ``here``, and then to ``home`` where that is given.
 

@@ -185,7 +185,9 @@ class Walker:
         places = self._all(node, node.select)
         shed: tuple[Place, ...] = ()
         if node.optional:
+            places, closed = routes.reachable(self.drives, places)
             places, shed = self._affordable(node, routes.standing(self.drives, self._context.here, places))
+            shed = (*shed, *closed)
         else:
             home = routes.home_if_last(self.task, self.site, node.id, self._context.here)
             places = routes.visits_in_order(node, self.drives, self._context.here, places, home)
@@ -214,7 +216,7 @@ class Walker:
 
     def _affordable(self, node: ForEach, places: tuple[Place, ...]) -> tuple[tuple[Place, ...], tuple[Place, ...]]:
         """The optional visits that fit the budgets, in their order, and those that do not."""
-        if not self.optional:
+        if not self.optional or not places:
             return (), places
         from fieldhand.forecast.optional import affordable
 

@@ -67,6 +67,7 @@ class Drives:
         self.clearance_m = clearance_m
         self._layout = Layout(site, clearance_m, standoff_m)
         self._stands = Stands(site, self._layout, clearance_m, standoff_m)
+        self._problems: dict[tuple[XY, XY | None], str] = {}
         self._ways: dict[tuple[XY, XY], tuple[tuple[XY, ...], float] | None] = {}
 
     # --- drives -----------------------------------------------------------------------------------------------
@@ -205,7 +206,10 @@ class Drives:
         robot is 0.67 m", "out of reach: no way out of its aisle: keep-out 'pond' closes one end and the boundary the
         other", "cut off from where the robot starts".
         """
-        return self._impossible(place) or self._cut_off(place)
+        key = (place.xy, place.stand)
+        if key not in self._problems:
+            self._problems[key] = self._impossible(place) or self._cut_off(place)
+        return self._problems[key]
 
     def _impossible(self, place: Place) -> str:
         """Why a robot can never be at a place, wherever it comes from."""

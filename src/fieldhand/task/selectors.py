@@ -287,7 +287,7 @@ class InRow:
 
 @dataclass(frozen=True, kw_only=True)
 class EveryNth:
-    """Every ``nth`` tree along each row of ``of``, beginning with the ``start``-th of the row."""
+    """Every ``nth`` tree along each row of ``of``, from the ``start``-th on; row by row where no row has ``nth``."""
 
     nth: int
     start: int = 1

@@ -23,8 +23,8 @@ from fieldhand.execution.behaviors.surroundings import admitted, is_caught, shed
 from fieldhand.execution.conditions import evaluate
 from fieldhand.execution.goals import Steps, drive
 from fieldhand.forecast.optional import reward_of
-from fieldhand.forecast.routes import home_if_last, visits_in_order
-from fieldhand.forecast.state import Visit
+from fieldhand.forecast.routes import home_if_last, reachable, visits_in_order
+from fieldhand.forecast.state import Choice, Visit
 from fieldhand.site.model import Place
 from fieldhand.task.conditions import Condition
 from fieldhand.task.plan import ForEach, Node, Repeat
@@ -144,11 +144,17 @@ class ForEachPlace(Loop):
         node, attempt = self.node, self.attempt
         self.left, self.place, self._visited = [], None, []
         places = attempt.resolve(node.select)
+        closed: tuple[Place, ...] = ()
+        if node.optional:
+            places, closed = reachable(attempt.drives, places)
         home = home_if_last(attempt.task, attempt.site, node.id, attempt.here)
         ordered = visits_in_order(node, attempt.drives, attempt.standing, places, home)
         self.left = [visit_to(attempt, place, node.body, reward_of(node, place, attempt.site)) for place in ordered]
         ids = tuple(place.id for place in ordered)
         attempt.emit(Visiting(t=attempt.t, node=node.id, places=ids, optional=node.optional))
+        if closed:
+            why = f"{closed[0].kind} {closed[0].id} is {attempt.drives.problem(closed[0])}"
+            shed(attempt, node.id, closed, Choice(index=None, reason=f"cannot be reached: {why}"), optional=True)
 
     def begin_round(self) -> Next:
         if not self.left or self._enough():

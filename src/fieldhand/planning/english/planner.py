@@ -25,9 +25,9 @@ from fieldhand.site.context import Context
 from fieldhand.site.model import Site
 from fieldhand.site.places import resolve
 from fieldhand.task import plan as p
-from fieldhand.task.build import make_task
+from fieldhand.task.build import FAULTED_EXITS, make_task
 from fieldhand.task.codec_text import unwritable_character
-from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource, Task, Then
+from fieldhand.task.frames import Budget, BudgetKind, Constraints, FaultedExit, Resource, Task, Then
 
 _HOMEWARD: dict[Then, str] = {
     "return_to_end": "When all is done the robot drives to the end marker.",
@@ -170,6 +170,7 @@ def _planned(request: str, told: Told, site: Site, robot: RobotProfile) -> Outco
         ),
         constraints=_constraints(told.limits),
         nominal=nominal,
+        faulted=_faulted(nominal),
         assumptions=tuple(dict.fromkeys([*told.assumptions, *assumptions])),
     )
     problems = tuple(_impossible(task.composition.plan, site))
@@ -207,6 +208,13 @@ def _stays_if_home_is_far(task: Task, site: Site, robot: RobotProfile) -> Task:
         command=replace(task.command, assumptions=(*kept, said)),
         composition=replace(task.composition, nominal="stay"),
     )
+
+
+def _faulted(nominal: Then) -> tuple[FaultedExit, ...]:
+    """What every mission does about faults; one that is to return to the start goes there when little is left, too."""
+    if nominal != "return_to_start":
+        return FAULTED_EXITS
+    return tuple(replace(e, then=nominal) if e.fault == "low_budget" else e for e in FAULTED_EXITS)
 
 
 def _constraints(limits: Iterable[Limit]) -> Constraints:

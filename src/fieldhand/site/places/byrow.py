@@ -123,7 +123,10 @@ def in_row(spots: Spots, selector: InRow, tell: Tell) -> Spots:
 
 
 def every_nth(spots: Spots, selector: EveryNth, tell: Tell) -> Spots:
-    """Those whose number among the group in their row is ``start``, ``start + nth``, and so on."""
+    """Those whose number among the group in their row is ``start``, ``start + nth``, and so on.
+
+    Where no row has as many trees, the count goes on from row to row: "every 50th tree" is not the first of every row.
+    """
     if selector.nth < 1 or selector.start < 1:
         raise PlaceError(
             f"every {selector.nth}th tree from the {selector.start}th on is no tree",
@@ -135,7 +138,20 @@ def every_nth(spots: Spots, selector: EveryNth, tell: Tell) -> Spots:
     outside = int((number == 0).sum())
     if outside:
         tell.note(f"{outside} {'tree stands' if outside == 1 else 'trees stand'} in no row and cannot be counted")
+    if 0 < number.max(initial=0) < selector.nth:
+        number = _row_by_row(spots, number)
+        tell.rule = f"the trees that stand are counted row by row, in each row from {side}"
+        tell.note(f"no row has {selector.nth} of them, so the count goes on from row to row")
     return spots.keep((number >= selector.start) & ((number - selector.start) % selector.nth == 0))
+
+
+def _row_by_row(spots: Spots, number: Indices) -> Indices:
+    """The numbers in their rows counted on from one row to the next; 0 stays what is in no row."""
+    counted = np.flatnonzero(number)
+    row = spots.site.planting.row_of[spots.index[counted]]
+    on = np.zeros_like(number)
+    on[counted[np.lexsort((number[counted], row))]] = np.arange(1, len(counted) + 1)
+    return on
 
 
 def _in_rows(spots: Spots, rows: Sequence[Row]) -> Spots:

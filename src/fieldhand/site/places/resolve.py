@@ -264,6 +264,8 @@ class Resolution:
         """Several, each of which hangs on the ones before."""
         near = of if isinstance(selector, s.Take) else self.spots(selector.near)
         count = selector.count
+        if isinstance(selector, s.Take):
+            of = self._outside_keep_outs(of, tell)
         if count < 1 or len(of) < count:
             raise too_few(self.site, selector, count, len(of))
         match selector:
@@ -279,6 +281,16 @@ class Resolution:
             there_are = len(found) if isinstance(selector, s.Adjacent) else hand.longest_run(of)
             raise too_few(self.site, selector, count, there_are)
         return found
+
+    def _outside_keep_outs(self, of: Spots, tell: Tell) -> Spots:
+        """Where any of them will do, those that no robot may drive to are passed over."""
+        closed = np.zeros(len(of), dtype=bool)
+        for zone in self.site.zones_of("keep_out"):
+            shapely.prepare(zone.polygon)
+            closed |= shapely.contains_xy(zone.polygon, of.xy[:, 0], of.xy[:, 1])
+        if closed.any():
+            tell.note(f"{closed.sum()} of them {'stands' if closed.sum() == 1 else 'stand'} in a keep-out: passed over")
+        return of.keep(~closed)
 
     def _marker(self, name: str) -> Place:
         """A missing start is the first tree of the file, a missing end is the start; a charger has no stand-in."""
