@@ -38,9 +38,10 @@ def test_the_same_seed_gives_the_same_orchard_and_another_seed_another():
 
 def test_a_larger_orchard_has_several_blocks_that_run_their_own_way():
     planting = parse_site(benchmark_orchard(4000, 2), name="orchard").planting
-    assert len(planting.blocks) == 4
-    ways = [block.bearing_deg for block in planting.blocks]
-    assert len({round(way) for way in ways}) == 4
+    # A pond may cut the corner off a block; what is left of it there is no block of the plan.
+    large = [block for block in planting.blocks if sum(len(row.trees) for row in block.rows) > 100]
+    assert len(large) == 4
+    assert len({round(block.bearing_deg) for block in large}) == 4
     positions = sum(int(np.ptp(row.slots)) + 1 for row in planting.rows)
     assert 0.03 < 1 - 4000 / positions < 0.25
 

@@ -330,3 +330,23 @@ def test_scattered_farms_have_no_rows(name):
     planting = load_site(FARMS / f"{name}.geojson").planting
     assert planting.blocks == ()
     assert "scattered" in planting.why
+
+
+def test_rows_of_two_blocks_in_line_across_a_road_stay_apart():
+    """Two blocks planted alike, end to end: a road that every row stops at parts them, whatever trees are missing."""
+    for seed, road in ((1, 14.0), (2, 18.0), (3, 24.0)):
+        rng = np.random.default_rng(seed)
+        places = [(6.0 * row, 4.0 * n) for row in range(9) for n in range(14)]
+        one = np.array(places) + rng.normal(0, 0.3, (len(places), 2))
+        two = np.array(places) + rng.normal(0, 0.3, (len(places), 2)) + [2.0, 13 * 4.0 + road]
+        xy = np.vstack([one, two])[rng.random(2 * len(places)) > 0.1]
+        assert len(points_site(xy).planting.blocks) == 2
+
+
+def test_a_pond_leaves_the_rows_that_it_interrupts_whole():
+    places = np.array([(6.0 * row, 4.0 * n) for row in range(10) for n in range(30)])
+    rng = np.random.default_rng(5)
+    away = np.hypot(*(places - [27.0, 58.0]).T)
+    planting = points_site(places[away > 12.0] + rng.normal(0, 0.2, (int((away > 12.0).sum()), 2))).planting
+    (block,) = planting.blocks
+    assert len(block.rows) == 10

@@ -19,6 +19,9 @@ from fieldhand.site.planting import Planting
 from fieldhand.site.projection import Projection
 from fieldhand.task.selectors import Value
 
+#: The median over so many trees is that over all, to a millimetre or so.
+_ENOUGH_TREES = 5_000
+
 PlaceKind = Literal["tree", "marker", "point"]
 ZoneKind = Literal["boundary", "keep_out", "zone"]
 
@@ -139,6 +142,7 @@ class Site:
         """Blocks and rows: the file's own where it names them, else as they can be seen in how the trees stand."""
         from fieldhand.site.rows import planting_of
 
+        self.spacing_m  # noqa: B018  selectors over rows ask for it next, and should not have to wait for it
         return planting_of(self)
 
     @cached_property
@@ -158,7 +162,8 @@ class Site:
 
         if len(self.trees) < 2:
             return 5.0
-        nearest = np.asarray(cKDTree(self.xy).query(self.xy, k=[2])[0])
+        some = self.xy[:: max(1, len(self.trees) // _ENOUGH_TREES)]
+        nearest = np.asarray(cKDTree(self.xy).query(some, k=[2])[0])
         apart = nearest[nearest > 0.01]  # trees entered twice have no spacing
         return float(np.median(apart)) if apart.size else 5.0
 
