@@ -403,7 +403,6 @@ PLANNED = [
         "for Within(30, Marker(charger)): [picture]",
     ),
     ("husky", "From tree 4 drive to tree 9 and take a picture.", "go TreeIs(4); go TreeIs(9); picture"),
-    ("husky", "Photograph the western edge.", "picture @ Take(1, of Edge(west))"),
     ("husky", "Take a picture in the wet corner.", "picture @ Take(1, of InZone(wet corner))"),
     ("husky", "Take 3 pictures in the wet corner.", "for Take(3, of InZone(wet corner)): [picture]"),
     ("husky", "Take a picture of tree 4 and 2 CO2 readings at tree 9", "picture @ TreeIs(4); co2 x2 @ TreeIs(9)"),
@@ -527,6 +526,12 @@ ASKED = [
     ("husky", "Take a picture of all 12 trees.", "'all 12 trees': there are 169 such trees; which are meant?"),
     ("husky", "Survey the orchard.", "'Survey the orchard': what should be taken?"),
     ("husky", "Take a picture and then 2 CO2 readings at tree 9", "'Take a picture': at which tree or trees?"),
+    ("husky", "Photograph the western edge.", "'Photograph the western edge': at every tree, or at how many?"),
+    (
+        "husky",
+        "take a picture of the northern half",
+        "'take a picture of the northern half': at every tree, or at how many?",
+    ),
     ("husky", "Photograph the whole orchard.", "'Photograph the orchard': at every tree, or at how many?"),
 ]
 

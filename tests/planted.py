@@ -28,6 +28,21 @@ def two_blocks() -> Site:
     return _site("two blocks", trees)
 
 
+def crossed() -> Site:
+    """Block home of rows A1 to A5 that run north-south, and block river of rows B1 to B5 that run east-west."""
+    home = [
+        _point(6 * row, -4 * k, id=f"T{12 * row + k + 1}", block="home", row=f"A{row + 1}")
+        for row in range(5)
+        for k in range(12)
+    ]
+    river = [
+        _point(60 + 4 * k, -6 * row, id=f"T{12 * row + k + 61}", block="river", row=f"B{row + 1}")
+        for row in range(5)
+        for k in range(12)
+    ]
+    return _site("crossed", [*home, *river])
+
+
 def named_rows() -> Site:
     """8 rows of 10 trees, called A10 to A17; the trees' ids are no plain numbers."""
     trees = [

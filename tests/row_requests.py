@@ -475,6 +475,34 @@ PLANNED = [
         "measure co2 at every third tree of row 2. If it is above 420 ppm, take a picture.",
         "for EveryNth(3, of Rows(2, 2)): [co2 = r1; if r1 > 420 ppm: [picture]]",
     ),
+    (
+        "husky",
+        "take a picture of every tree of rows 3 and 4 except trees 40 and 60",
+        "for Excluding(Union(TreeIs(40)+TreeIs(60)), of Union(Rows(3, 3)+Rows(4, 4))): [picture]",
+    ),
+    (
+        "husky",
+        "take a picture of every tree in row 3 except tree 4 and tree 7",
+        "for Excluding(Union(InRow(4, 4, of Rows(3, 3))+InRow(7, 7, of Rows(3, 3))), of Rows(3, 3)): [picture]",
+    ),
+    (
+        "husky",
+        "take a picture of every tree in row 1 except the tree with id 2",
+        "for Excluding(TreeIs(2), of Rows(1, 1)): [picture]",
+    ),
+    (
+        "husky",
+        "Go to tree 12. Take a picture of every tree in the same row except the tree with id 12.",
+        "go TreeIs(12); for Excluding(TreeIs(12), of RowOf): [picture]",
+    ),
+    ("husky", "take pictures of the even rows", "for Rows(2, 2): [picture]"),
+    ("husky", "take a picture of every tree in the odd-numbered rows", "for Rows(1, 2): [picture]"),
+    ("husky", "take a picture of the first tree of every even row", "for InRow(1, 1, of Rows(2, 2)): [picture]"),
+    (
+        "husky",
+        "take a picture of every tree whose age_years is above 9",
+        "for Where(age_years, gt, 9): [picture]",
+    ),
     ("husky", "take a picture of every tree but not row 3", "for Excluding(Rows(3, 3)): [picture]"),
     (
         "husky",
@@ -875,6 +903,17 @@ ASKED = [
     ("husky", "take a picture of row 3, then of row 4", "'take a picture of row 3': at every tree, or at how many?"),
     ("husky", "take a picture of each row", "'take a picture of each row': at every tree, or at how many?"),
     ("husky", "take a picture in rows 2 to 5", "'take a picture in rows 2 to 5': one in each of them, or one in all?"),
+    (
+        "husky",
+        "Go to tree 12. Take a picture of every tree in the same row except tree 12.",
+        "'tree 12': by the number in the row, or by the tree's id?",
+    ),
+    (
+        "husky",
+        "take a picture of every tree of rows 1 and 2 except tree 5",
+        "'tree 5': by the number in the row, or by the tree's id?",
+    ),
+    ("husky", "take pictures in an even row", "'an even row': which row?"),
     ("husky", "take a picture of tree 5 in row 1", "'tree 5': by the number in the row, or by the tree's id?"),
     (
         "husky",
@@ -1287,6 +1326,11 @@ REFUSED = [
         "husky",
         "drive along rows 2 and 3 and take 3 pictures in each row",
         "'drive along rows 2 and 3': it does not say what to do along the row",
+    ),
+    (
+        "husky",
+        "take a picture of every tree in row 3 except trees 40 and 5",
+        "'trees 40 and 5': not all of these trees stand in those rows",
     ),
     ("husky", "take a picture at each", "'take a picture at each': which places are meant?"),
 ]

@@ -20,6 +20,7 @@ DEMO = open_site("demo")
 ROBOTS = {name: load_robot(name) for name in ("husky", "amiga")}
 SITES = {
     "blocks": planted.two_blocks(),
+    "crossed": planted.crossed(),
     "named": planted.named_rows(),
     "east-west": planted.east_west(),
     "scattered": planted.scattered(),
@@ -61,6 +62,106 @@ ELSEWHERE = [
         "in block B, take a picture of every third tree of row 2",
         "for EveryNth(3, of Rows(2, 2, of InBlock(B))): [picture]",
     ),
+    (
+        "crossed",
+        "take pictures of the second row from the north of block river",
+        "for Rows(2, 2, north, of InBlock(river)): [picture]",
+    ),
+    (
+        "crossed",
+        "take pictures of the second row from the east of block home",
+        "for Rows(2, 2, east, of InBlock(home)): [picture]",
+    ),
+    (
+        "crossed",
+        "take pictures of the second row from the west of block river",
+        "refuses 'the second row from the west': the rows run east-west: they are not counted from the west",
+    ),
+    (
+        "crossed",
+        "take pictures of the second row from the east",
+        "asks 'the second row from the east': of which block?",
+    ),
+    ("crossed", "take pictures of every other row of the river block", "for Rows(2, of InBlock(river)): [picture]"),
+    ("crossed", "take pictures of the first row of block river", "for Rows(1, 1, north, of InBlock(river)): [picture]"),
+    ("crossed", "take pictures of the third row of block river", "for Rows(3, 3, north, of InBlock(river)): [picture]"),
+    ("crossed", "take pictures of the third row of block home", "for Rows(3, 3, west, of InBlock(home)): [picture]"),
+    ("crossed", "take pictures of the middle row of block river", "for Rows(B3, B3, of InBlock(river)): [picture]"),
+    ("crossed", "take a picture of the tree 3 trees east of tree T64", "picture @ AlongRow(3, east, TreeIs(T64))"),
+    (
+        "crossed",
+        "take a picture of the tree 3 trees north of tree T64",
+        "refuses 'the tree 3 trees north': the rows run east-west: they have no end in the north",
+    ),
+    (
+        "crossed",
+        "take a picture of the tree across the aisle to the south of tree T64",
+        "picture @ Across(TreeIs(T64), south)",
+    ),
+    (
+        "crossed",
+        "take a picture of the tree across the aisle to the south of tree T4",
+        "refuses 'the tree across the aisle to the south': the rows run north-south: no aisle lies to the south",
+    ),
+    (
+        "crossed",
+        "take a picture of the tree at the western end of row B1",
+        "picture @ InRow(1, 1, west, of Rows(B1, B1))",
+    ),
+    (
+        "crossed",
+        "take a picture of the first three trees from the south of row A2",
+        "for InRow(1, 3, south, of Rows(A2, A2)): [picture]",
+    ),
+    (
+        "crossed",
+        "go to tree T64. go one row further east and take a picture",
+        "refuses 'one row further east': the rows of this site run different ways",
+    ),
+    ("crossed", "take pictures in the home block", "for InBlock(home): [picture]"),
+    (
+        "crossed",
+        "take a picture of every tree in row B1 of the river block",
+        "for Rows(B1, B1, of InBlock(river)): [picture]",
+    ),
+    (
+        "crossed",
+        "take a picture of each tree in the river and home blocks",
+        "for Union(InBlock(river)+InBlock(home)): [picture]",
+    ),
+    ("crossed", "take pictures in a block", "asks 'a block': which block?"),
+    ("blocks", "take pictures in the B block", "for InBlock(B): [picture]"),
+    ("blocks", "take pictures in a block", "asks 'a block': which block?"),
+    (
+        "crossed",
+        "take a picture of the northern half of block home",
+        "asks 'take a picture of the northern half of block home': at every tree, or at how many?",
+    ),
+    (
+        "crossed",
+        "take pictures of the trees in row A1 but not tree T5",
+        "for Excluding(TreeIs(T5), of Rows(A1, A1)): [picture]",
+    ),
+    (
+        "crossed",
+        "take pictures of the trees in row A1 except trees T5 and T7",
+        "for Excluding(Union(TreeIs(T5)+TreeIs(T7)), of Rows(A1, A1)): [picture]",
+    ),
+    (
+        "crossed",
+        "take pictures of the trees in row A1 except tree T64",
+        "refuses 'tree T64': not all of these trees stand in those rows",
+    ),
+    ("crossed", "take a picture of tree T5 in row A1", "picture @ TreeIs(T5)"),
+    (
+        "crossed",
+        "take a picture of tree T64 in row A1",
+        "refuses 'tree T64': not all of these trees stand in those rows",
+    ),
+    ("crossed", "take a picture of trees T5, T7 and T64", "for Union(TreeIs(T5)+TreeIs(T7)+TreeIs(T64)): [picture]"),
+    ("blocks", "take pictures of the even rows", "asks 'the even rows': of which block?"),
+    ("blocks", "take pictures of the odd rows of block B", "for Rows(1, 2, of InBlock(B)): [picture]"),
+    ("named", "take pictures of the even rows", "refuses 'the even rows': these rows are not numbered one after"),
     ("named", "take pictures of row A12", "for Rows(A12, A12): [picture]"),
     ("named", "take pictures of rows A12 to A14", "for Rows(A12, A14): [picture]"),
     (
@@ -147,11 +248,44 @@ def test_a_request_about_rows_becomes_this_plan_and_a_whole_task(robot: str, req
 )
 def test_groups_with_a_comma_alone_between_them_are_asked_about(first: str, second: str) -> None:
     asked = said(EnglishPlanner().plan(f"take a picture of {first}, {second}", DEMO, ROBOTS["husky"]))
-    assert asked == f"asks '{first}, {second}': all of these, or only what is both?"
+    assert asked == f"asks '{first}, {second}': one and the same trees, or each of them?"
     planned = said(
         EnglishPlanner().plan(f"take a picture of every tree of {first} and {second}", DEMO, ROBOTS["husky"])
     )
-    assert "all of these" not in planned
+    assert "one and the same" not in planned
+
+
+@pytest.mark.parametrize(
+    ("groups", "choices", "plans"),
+    [
+        (
+            "row 3, every other tree",
+            ("every other tree of row 3", "row 3 and also every other tree of the orchard"),
+            ("for EveryNth(2, of Rows(3, 3)): [picture]", "for Union(Rows(3, 3)+EveryNth(2)): [picture]"),
+        ),
+        (
+            "every third tree, rows 2 to 5",
+            ("every third tree of rows 2 to 5", "every third tree and also rows 2 to 5"),
+            ("for EveryNth(3, of Rows(2, 5)): [picture]", "for Union(EveryNth(3)+Rows(2, 5)): [picture]"),
+        ),
+        (
+            "the wet corner, yellow trees",
+            ("yellow trees in the wet corner", "the wet corner and also yellow trees of the orchard"),
+            (
+                "for Where(leaf_color, eq, yellow, of InZone(wet corner)): [picture]",
+                "for Union(InZone(wet corner)+Where(leaf_color, eq, yellow)): [picture]",
+            ),
+        ),
+    ],
+)
+def test_each_choice_between_two_groups_can_be_said_and_is_what_it_says(
+    groups: str, choices: tuple[str, ...], plans: tuple[str, ...]
+) -> None:
+    outcome = EnglishPlanner().plan(f"take a picture of {groups}", DEMO, ROBOTS["husky"])
+    assert isinstance(outcome, Clarify)
+    assert outcome.choices == choices
+    answers = [EnglishPlanner().plan(f"take a picture of {choice}", DEMO, ROBOTS["husky"]) for choice in choices]
+    assert tuple(said(answer) for answer in answers) == plans
 
 
 @pytest.mark.parametrize(("robot", "request_", "question"), ASKED, ids=lambda v: str(v)[:60])

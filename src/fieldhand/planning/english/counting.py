@@ -117,7 +117,8 @@ def _in_area(found: Found, part: Part, count: int | None, plural: bool) -> Found
         if found.selector == s.Trees():
             raise Question(f"'{text_of(part.terms)}': at every tree, or at how many?", ("at every tree", "at 4 trees"))
         return found
-    if count is None and found.selector == s.Trees():
+    of_it = part.relation is None or part.relation.kind == "OF"
+    if count is None and (found.selector == s.Trees() or of_it):  # "a picture of the northern half"
         raise Question(f"'{text_of(part.terms)}': at every tree, or at how many?", ("at every tree", "at 4 trees"))
     number = count or 1
     return Found(selector=s.Take(count=number, of=found.selector), many=number > 1, counted=number)

@@ -5,17 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from fieldhand.errors import PlaceError, TaskError
 from fieldhand.planning.english.attributes import filtered
 from fieldhand.planning.english.bag import Bag
+from fieldhand.planning.english.bare import named_trees
 from fieldhand.planning.english.faults import Question, text_of
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.rows import check_rows
 from fieldhand.planning.english.rowwords import From, Steps
 from fieldhand.planning.english.sets import Group
-from fieldhand.site.context import Context
+from fieldhand.planning.english.ways import check_over, side_along, trees_named
 from fieldhand.site.model import Site
-from fieldhand.site.places import resolve
 from fieldhand.task import selectors as s
 
 _AMBIGUOUS_ENDS = ("the northern one", "the southern one", "both")
@@ -28,7 +27,11 @@ def named_in_rows(bag: Bag, group: Group, site: Site) -> Found:
         Question: Trees with these ids stand in the row too, at other places.
     """
     check_rows(bag, site)
-    if group.anchor is not None or any(not name.isdigit() or int(name) < 1 for name in bag.ids):
+    if group.anchor is None and _only_ids(bag) and set(bag.ids) <= trees_named(group.kept(group.area), site):
+        return replace(named_trees(bag), assumed=group.assumed)
+    if _says_id(bag) or any(not name.isdigit() for name in bag.ids):
+        raise bag.fault("not all of these trees stand in those rows", "leave the row out, or name other trees")
+    if group.anchor is not None or _only_ids(bag):
         raise bag.fault("trees in a row count from 1", "say 'tree 4 of row 2', for example")
     if bag.count is not None and bag.count != len(bag.ids):
         raise bag.fault(f"{bag.count} or {len(bag.ids)} trees?", "let the number and the names agree")
@@ -53,9 +56,49 @@ def named_in_rows(bag: Bag, group: Group, site: Site) -> Found:
     return Found(selector=selector, many=many, each=bag.each or bool(group.one_by_one), assumed=group.assumed)
 
 
+def excepted_in_rows(bag: Bag, group: Group, site: Site) -> s.Selector:
+    """ "The trees of row 3 except trees 40 and 41": by their ids where all of these stand there, else by their numbers.
+
+    Raises:
+        Question: Both can be meant.
+        Unclear: Neither can.
+    """
+    trees = s.Union(parts=tuple(s.TreeIs(tree=name) for name in bag.ids))
+    by_id = trees.parts[0] if len(bag.ids) == 1 else trees
+    whole = trees_named(group.area, site)
+    known = not s.is_relative(group.area)
+    if _only_ids(bag):
+        if known and not set(bag.ids) <= whole:
+            raise bag.fault("not all of these trees stand in those rows", "leave out the ones that do not")
+        return by_id
+    text = text_of(bag.phrase.terms)
+    numbers = [s.InRow(first=int(name), last=int(name), of=group.area) for name in bag.ids]
+    counted = [trees_named(one, site) for one in numbers]
+    in_rows = [name in whole for name in bag.ids]
+    if not known or (all(counted) and all(in_rows) and set().union(*counted) != set(bag.ids)):
+        raise Question(
+            f"'{text}': by the number in the row, or by the tree's id?",
+            (f"the {_nth(int(bag.ids[0]))} tree of the row, and so on", f"the tree with id {bag.ids[0]}"),
+        )
+    if all(in_rows):
+        return by_id
+    if any(in_rows) or not all(counted):
+        raise bag.fault("not all of these trees stand in those rows", "leave out the ones that do not")
+    return named_in_rows(bag, group, site).selector
+
+
+def _only_ids(bag: Bag) -> bool:
+    """Whether trees are named by what can be no numbers in a row: "T12", "the tree with id 12"."""
+    return any(not name.isdigit() or int(name) < 1 for name in bag.ids) or _says_id(bag)
+
+
+def _says_id(bag: Bag) -> bool:
+    return any({"id", "ids"} & set(t.text.lower().split()) for t in bag.phrase.terms if t.kind == "IDS")
+
+
 def _by_id(bag: Bag, of: s.Selector, selector: s.Selector, site: Site) -> bool:
     """ "Tree 7 in row 3" may be the seventh of the row, or the tree whose id is 7 and that stands there."""
-    by_place, in_row = _ids(selector, site), _ids(of, site)
+    by_place, in_row = trees_named(selector, site), trees_named(of, site)
     by_id = set(bag.ids) & in_row
     if by_place and by_id == set(bag.ids) and by_place != by_id:
         first = bag.ids[0]
@@ -71,22 +114,13 @@ def _nth(number: int) -> str:
     return f"{number}{ending}"
 
 
-def _ids(selector: s.Selector, site: Site) -> set[str]:
-    if s.is_relative(selector):
-        return set()
-    try:
-        return {place.id for place in resolve(selector, site, Context(here=site.start))}
-    except (PlaceError, TaskError):
-        return set()
-
-
 def several_rows(of: s.Selector, group: Group, site: Site) -> bool:
     """Whether a selection may hold trees of several rows."""
     if group.one_by_one:
         return True
     if s.is_relative(of):
         return False
-    index = [site.by_id[name].index for name in _ids(of, site) if name in site.by_id]
+    index = [site.by_id[name].index for name in trees_named(of, site) if name in site.by_id]
     return len(set(site.planting.row_of[index].tolist())) > 1
 
 
@@ -117,7 +151,7 @@ def ranked_in_rows(bag: Bag, of: s.Selector, group: Group, site: Site) -> Found:
     if last is not None or behind is not None or start.far:
         first, end = -end, -first
     many = end > first or several_rows(of, group, site)
-    selector = s.InRow(first=first, last=end, counted_from=along(bag, start.side, site), of=of)
+    selector = s.InRow(first=first, last=end, counted_from=side_along(bag, start.side, of, site), of=of)
     return Found(selector=selector, many=many, each=bag.each or bool(group.one_by_one))
 
 
@@ -132,7 +166,7 @@ def ends_of_rows(bag: Bag, group: Group, site: Site) -> Found:
         if said is not None:
             if len(said.value) == 2:
                 raise bag.fault("a row has an end on one side", "say north, east, south or west")
-            side = along(bag, said.value, site)
+            side = side_along(bag, said.value, of, site)
     plural = bool((finish and finish.plural) or (tree and tree.plural) or bag.count == 2)
     if bag.count not in (None, 1, 2) or (start is not None and (plural or side != "usual")):
         raise bag.fault("a row has two ends", "say 'both ends of row 3'")
@@ -155,17 +189,6 @@ def ends_of_rows(bag: Bag, group: Group, site: Site) -> Found:
         return Found(selector=s.Union(parts=(first, last)), many=True, each=each, assumed=group.assumed)
     said_as = f"'{text_of(bag.phrase.terms)}' is the one where the count along the row ends."
     return Found(selector=last, many=several, each=each, assumed=(*group.assumed, said_as))
-
-
-def along(bag: Bag, side: s.CountedFrom, site: Site) -> s.CountedFrom:
-    """A side that trees along a row can be counted from."""
-    fitting = {True: ("usual", "west", "east"), False: ("usual", "north", "south")}
-    for block in site.planting.blocks:
-        if side not in fitting[block.runs_east_west]:
-            runs = "east-west" if block.runs_east_west else "north-south"
-            ends = "west or east" if block.runs_east_west else "north or south"
-            raise bag.fault(f"the rows run {runs}: they have no end in the {side}", f"say {ends}")
-    return side
 
 
 def every_nth(bag: Bag, group: Group, site: Site) -> Found:
@@ -226,9 +249,9 @@ def stepped(bag: Bag, group: Group, site: Site) -> Found:
     bag.take("OTHER")
     if bag.count is not None or bag.each or bag.any or bag.has("NEAREST", "NEARBY") or not group.plain:
         raise bag.fault("which tree is meant is not clear", "say 'the tree 5 trees down the row from tree 12'")
-    if steps.towards not in ("down", "up"):
-        along(bag, _side(steps.towards), site)
     origin = group.anchor or s.Here()
+    if steps.towards not in ("down", "up"):
+        side_along(bag, _side(steps.towards), origin, site)
     _check_origin(bag, origin)
     selector = s.AlongRow(trees=steps.trees, towards=steps.towards, origin=origin)
     return Found(selector=selector, counted=1)
@@ -266,11 +289,9 @@ def opposite(bag: Bag, group: Group, site: Site) -> Found:
     bag.take("TREE", "PLACE")
     if bag.count not in (None, 1) or bag.plural or bag.each or bag.any or not group.plain:
         raise bag.fault("one tree stands opposite", "say 'the tree opposite tree 12'")
-    if side != "usual":
-        ways = {block.runs_east_west for block in site.planting.blocks}
-        if any(side not in (("north", "south") if way else ("west", "east")) for way in ways):
-            raise bag.fault(f"the rows run along there: no aisle lies to the {side}", "say a side across the rows")
     origin = group.anchor or s.Here()
+    if side != "usual":
+        check_over(bag, side, origin, site, f"no aisle lies to the {side}")
     _check_origin(bag, origin)
     return Found(selector=s.Across(origin=origin, side=side), counted=1)
 

@@ -26,9 +26,15 @@ def check_of_row(places: Places, found: list[Found]) -> None:
 def check_comma(places: Places, found: list[Found]) -> None:
     """ "Row 3, every other tree": with a comma alone, the second may be of the first."""
     if all(set(join.text) <= set(", ") for join in places.joins) and sum(f.many for f in found) > 1:
-        parts = [text_of(chain.terms) for chain in places.chains]
-        both = f"{', '.join(parts[:-1])} and {parts[-1]}"
-        raise Question(f"'{', '.join(parts)}': all of these, or only what is both?", (both, "only what is both"))
+        parts = [text_of(chain.terms).replace(" ,", ",") for chain in places.chains]
+        asked = f"'{', '.join(parts)}': one and the same trees, or each of them?"
+        if len(found) != 2 or not any(f.region for f in found):
+            raise Question(asked, (f"{', '.join(parts[:-1])} and also {parts[-1]}",))
+        area = 0 if found[0].region else 1
+        inner, outer = parts[1 - area], parts[area]
+        joins = "of" if found[area].rows else "in"
+        also = f"{parts[0]} and also {parts[1]}" + (" of the orchard" if not found[1].region else "")
+        raise Question(asked, (f"{inner} {joins} {outer}", also))
 
 
 def from_each_other(found: list[Found]) -> list[Found]:

@@ -25,6 +25,8 @@ _SINGLE = {"stop": "STOPMARK", "comma": "COMMA", "dash": "DASH", "sign": "AND", 
 _NO_ORDER = frozenset(
     {"DIR", "MOST", "CORNER", "TREE", "IDS", "QUARTER", "HALF", "MIDDLE", "OF", "EDGE", "ROW", "SIDE", "FINISH", "ZONE"}
 )
+#: What a word that names a block may be besides: never an article or another word of the grammar ("a block").
+_MAY_NAME = frozenset({"UNKNOWN", "ATTRVAL", "ATTR", "START", "FINISH", "DIR", "ZONE", "IDS", "NAMED", "MIDDLE"})
 _TENS = ("twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety")
 _UNITS = ("one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 
@@ -62,7 +64,41 @@ class Lexicon:
                 term, used = self._match(words, at, longest=1) or (term, used)
             found.append(term)
             at += used
+        return self._with_blocks(found)
+
+    def _with_blocks(self, terms: list[Term]) -> list[Term]:
+        """ "The home block" and "the home and river blocks" as the blocks that they name."""
+        found: list[Term] = []
+        for k, term in enumerate(terms):
+            found.append(term)
+            after = terms[k + 1].kind if k + 1 < len(terms) else ""
+            if term.kind != "PLOT" or term.text.lower() not in ("block", "blocks") or after in ("NAMED", "NUM"):
+                continue
+            names: list[str] = []
+            at = begin = len(found) - 1
+            while (used := self._block_before(found, at)) is not None:
+                names.insert(0, used[0])
+                at = begin = used[1]
+                while term.plural and at > 0 and found[at - 1].kind in ("COMMA", "AND"):
+                    at -= 1
+                if at == begin:
+                    break
+            if names:
+                group, found = found[begin:], found[:begin]
+                text = " ".join(t.text for t in group)
+                value = tuple((name, name) for name in names)
+                start, plural = group[0].start, len(names) > 1
+                found.append(Term(kind="BLOCKIDS", text=text, start=start, end=term.end, value=value, plural=plural))
         return found
+
+    def _block_before(self, terms: list[Term], at: int) -> tuple[str, int] | None:
+        """The block whose name stands right before a term, and where the name begins; no article is a name."""
+        for length in (3, 2, 1):
+            words = terms[max(at - length, 0) : at]
+            name = self._blocks.get("".join(_spelt(t.text) for t in words)) if len(words) == length else None
+            if name is not None and all(t.kind in _MAY_NAME for t in words):
+                return name, at - length
+        return None
 
     @cached_property
     def _rows(self) -> Mapping[str, str]:
@@ -90,6 +126,8 @@ class Lexicon:
             found = self._blocks
         elif not listed and (head.kind == "TREE" or before[-1].kind == "NUMBERED"):
             return self.trees, "IDS"
+        elif head.kind == "IDS" and before[-1].kind in ("COMMA", "AND"):  # "trees T89 and T158"
+            return {spelt: name for spelt, name in self.trees.items() if (spelt,) not in _shared()}, "IDS"
         if listed:  # "row B and a picture": a name that is a word besides stands right behind "row"
             found = {spelt: name for spelt, name in found.items() if (spelt,) not in _shared()}
         return found, "NAMED"

@@ -76,8 +76,10 @@ def site_entries(site: Site) -> Iterator[tuple[Phrase, Entry]]:
     for attribute, found in site.attributes.items():
         for text in _texts(found):
             values.setdefault(split(text), []).append((attribute, text))
-        for phrase in _spoken(attribute):
-            names.setdefault(phrase, []).append(attribute)
+        as_written = (attribute.lower(),) if split(attribute) else ()  # "yield_kg"
+        for phrase in filter(None, (*_spoken(attribute), as_written)):
+            if attribute not in names.setdefault(phrase, []):
+                names[phrase].append(attribute)
     for phrase, meant in values.items():
         yield phrase, Entry(kind="ATTRVAL", value=tuple(meant))
         yield _plural(phrase), Entry(kind="ATTRVAL", value=tuple(meant), plural=True)

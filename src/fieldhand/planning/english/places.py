@@ -13,7 +13,7 @@ from fieldhand.planning.english.bag import Bag, bag_of
 from fieldhand.planning.english.bare import named_trees, quantity_alone
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
-from fieldhand.planning.english.inrow import named_in_rows, successive_trees
+from fieldhand.planning.english.inrow import excepted_in_rows, named_in_rows, successive_trees
 from fieldhand.planning.english.joining import (
     check_comma,
     check_of_row,
@@ -268,7 +268,10 @@ def _describe(
             group.within(relation.value, _single(behind, inner))
         case "EXCEPT" if inner.bag.ids and group.rows is not None and not inner.in_rows:
             of_row = Group(area=group.area, rows=group.rows, one_by_one=group.one_by_one)
-            group.without(named_in_rows(inner.bag, of_row, site).selector, *excepted)
+            bare = [one for one in excepted if isinstance(one, s.TreeIs)]  # "except tree 4 and tree 7"
+            inner.bag.ids = [*inner.bag.ids, *(one.tree for one in bare)]
+            others = [one for one in excepted if one not in bare]
+            group.without(excepted_in_rows(inner.bag, of_row, site), *others)
         case "OUTSIDE" | "EXCEPT":
             group.without(behind.selector, *excepted)
         case _:

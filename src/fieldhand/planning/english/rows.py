@@ -12,6 +12,7 @@ from fieldhand.planning.english.onebyone import one_by_one
 from fieldhand.planning.english.rowwords import From, Over
 from fieldhand.planning.english.sets import Group
 from fieldhand.planning.english.tokens import Term
+from fieldhand.planning.english.ways import blocks_named, check_over, side_across
 from fieldhand.site.model import Site
 from fieldhand.task import selectors as s
 
@@ -130,18 +131,18 @@ def _over(bag: Bag, group: Group, site: Site) -> Found:
     if bag.has("TREE", "PLACE") or bag.count is not None:
         raise bag.fault("it is not clear which tree is meant", "say 'the tree two rows over', or 'the next row'")
     bag.any = False
-    ways = {block.runs_east_west for block in site.planting.blocks}
+    origin = group.row_of or s.Here()
+    ways = {block.runs_east_west for block in blocks_named(origin, site)}
     rows, assumed = over.rows, ""
     if over.side:
-        across = {True: ("north", "south"), False: ("west", "east")}
-        if any(over.side not in across[way] for way in ways):
-            runs = "east-west" if True in ways else "north-south"
-            raise bag.fault(f"the rows run {runs}: no row lies further {over.side}", "say a side across the rows")
+        check_over(bag, over.side, origin, site, f"no row lies further {over.side}")
+        if len(ways) > 1:  # the selection counts rows by their numbers: a side along them would be lost
+            raise bag.fault("the rows of this site run different ways", "name the row, or say 'the next row'")
         rows = -rows if over.side in ("west", "north") else rows
     else:
         higher = "higher" if rows > 0 else "lower"
         assumed = f"'{text_of(bag.phrase.terms)}' is counted towards {higher} row numbers ({_way(rows, ways)})."
-    selector = s.RowOf(origin=group.row_of or s.Here(), over=rows, of=group.area)
+    selector = s.RowOf(origin=origin, over=rows, of=group.area)
     return Found(selector=selector, many=True, region=True, rows=True, assumed=(assumed,) if assumed else ())
 
 
@@ -185,9 +186,15 @@ def _described(bag: Bag, group: Group, size: int | None, site: Site) -> Found:
         kind, first = begin.value if begin is not None else ("row", "")
         if kind == "tree" or bag.count is not None or start.far:
             raise bag.fault("every how many rows, and from where?", "say 'every third row starting with row 2'")
+        called = f"row {first}"
+        if kind == "parity":
+            if not plural and every.text.split()[0].lower() not in ("every", "each"):
+                raise Question(f"'{text_of(bag.phrase.terms)}': which row?")
+            _check_numbers(bag, of, site)
+            called = f"the {text_of(bag.phrase.terms)}".replace("the the", "the")
         if first:
-            _in_one_block(bag, f"row {first}", first, of, site)
-        rows = s.Rows(first=first, every=int(every.value), counted_from=_across(bag, start.side, site), of=of)
+            _in_one_block(bag, called, first, of, site)
+        rows = s.Rows(first=first, every=int(every.value), counted_from=side_across(bag, start.side, of, site), of=of)
         bag.each = True
         return _area(rows, bag, site, several=True)
     ranked = _ranked(bag, start, of, site)
@@ -212,6 +219,19 @@ def _described(bag: Bag, group: Group, size: int | None, site: Site) -> Found:
                    f"'{text_of(bag.phrase.terms)}': which rows?", some)  # fmt: skip
 
 
+def _check_numbers(bag: Bag, of: s.Selector, site: Site) -> None:
+    """Rows are even or odd where they are called by their numbers, and none is left out.
+
+    Raises:
+        Unclear: They have other names.
+    """
+    for block in blocks_named(of, site):
+        if [row.name for row in block.rows] != [str(k) for k in range(1, len(block.rows) + 1)]:
+            raise bag.fault(
+                "these rows are not numbered one after the other", "say 'every other row', or name the rows"
+            )
+
+
 def _of_size(bag: Bag, of: s.Selector, size: int) -> Found:
     """ "A row of 5 trees": 5 trees of one row, one after the other."""
     if bag.definite or bag.each or bag.count not in (None, 1) or not bag.only():
@@ -233,7 +253,7 @@ def _ranked(bag: Bag, start: From, of: s.Selector, site: Site) -> Found | None:
         if start != From() or len(most.value) == 2 or last is not None or behind is not None:
             raise bag.fault("which row is meant is said in two ways", _WHICH)
         side = most.value
-    side = _across(bag, side, site)
+    side = side_across(bag, side, of, site)
     number = int(rank.value) if rank is not None else int(behind.value) if behind is not None else 1
     count = bag.count or 1
     if count > 1 and number > 1:
@@ -245,33 +265,26 @@ def _ranked(bag: Bag, start: From, of: s.Selector, site: Site) -> Found | None:
         first, end = -end, -first
     bag.any = False
     _in_one_block(bag, f"the {text_of(bag.phrase.terms)}".replace("the the", "the"), "", of, site)
-    if side == "usual" and first > 0 and not any(str(first) == row.name for row in site.planting.rows):
-        side = "north" if site.planting.blocks[0].runs_east_west else "west"  # by number, whatever the names are
+    blocks = blocks_named(of, site)
+    if side == "usual" and first > 0 and not any(str(first) == row.name for block in blocks for row in block.rows):
+        side = "north" if blocks[0].runs_east_west else "west"  # by number, whatever the names are
     rows = s.Rows(first=str(first), last=str(end), counted_from=side, of=of)
     return _area(rows, bag, site, several=count > 1)
 
 
 def _middle(bag: Bag, of: s.Selector, site: Site) -> Found:
     bag.take("MIDDLE")
-    blocks = site.planting.blocks
     _in_one_block(bag, "the middle row", "", of, site)
+    blocks = blocks_named(of, site)
+    if len(blocks) > 1:
+        raise bag.fault("blocks have a middle row each", "name the block")
     rows = blocks[0].rows
     if len(rows) % 2 == 0 or bag.plural or bag.count not in (None, 1):
         half = len(rows) // 2
-        raise Question(f"'{text_of(bag.phrase.terms)}': there are {len(rows)} rows", (f"row {half}", f"row {half + 1}"))
+        choices = tuple(f"row {row.name}" for row in rows[half - 1 : half + 1])
+        raise Question(f"'{text_of(bag.phrase.terms)}': there are {len(rows)} rows", choices)
     number = rows[len(rows) // 2].name
     return _area(s.Rows(first=number, last=number, of=of), bag, site, several=False)
-
-
-def _across(bag: Bag, side: s.CountedFrom, site: Site) -> s.CountedFrom:
-    """A side that rows can be counted from: one that lies across them."""
-    fitting = {True: ("usual", "north", "south"), False: ("usual", "west", "east")}
-    for block in site.planting.blocks:
-        if side not in fitting[block.runs_east_west]:
-            runs = "east-west" if block.runs_east_west else "north-south"
-            ends = "north or south" if block.runs_east_west else "west or east"
-            raise bag.fault(f"the rows run {runs}: they are not counted from the {side}", f"count from {ends}")
-    return side
 
 
 def _in_one_block(bag: Bag, called: str, name: str, of: s.Selector, site: Site) -> None:

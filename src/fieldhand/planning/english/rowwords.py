@@ -133,6 +133,15 @@ def _every(group: list[Term], _before: Term | None) -> list[Term] | None:
     return [merged(group, "EVERYNTH", nth)] if nth >= 2 else None
 
 
+def _even_or_odd(group: list[Term], _before: Term | None) -> list[Term] | None:
+    """ "The even rows", "all odd-numbered rows"; "even" alone is another word elsewhere."""
+    word = group[-1].text.lower()
+    if not word.startswith(("even", "odd")):
+        return None
+    every = merged(group, "EVERYNTH", 2)
+    return [every, replace(silent("STARTNTH", every.end), value=("parity", "2" if word.startswith("even") else "1"))]
+
+
 def _from_behind(group: list[Term], _before: Term | None) -> list[Term]:
     """ "Second to last", "next to last", "last but one"."""
     rank = next((int(t.value) for t in group if t.kind == "ORD"), 2)
@@ -203,6 +212,7 @@ _RULES: tuple[Rule, ...] = (
     (re.compile(r"<WHICH><ROW>"), _pointing),
     (re.compile(r"<THEN\.next><NUM\.\w+><TREE>"), _next_few),
     (re.compile(r"<EACH\.(?:every|each)><ORD\.\d+>|<EACH\.(?:every|all_the)><OTHER\.other>"), _every),
+    (re.compile(r"(?:<EACH\.\w+>|<DET>)*(?:<STILL>|<PARITY>)(?=<ROW>)"), _even_or_odd),
     (re.compile(r"(?:<EACH\.(?:every|each)>)?<ALTERNATE>|<EACH\.(?:every|each)><NUM\.\w+>(?=<TREE>|<ROW>)"), _every),
     (re.compile(r"<ORD\.\d+>(?:<AT\.to>)?<LAST>|<NEXTTO><LAST>|<LAST><AND\.but><NUM\.one>|<PENULT>"), _from_behind),
     (re.compile(r"<ROW><AS>"), _same_as),
@@ -230,7 +240,7 @@ _STARTING = re.compile(
 def _starts(terms: list[Term]) -> list[Term]:
     """ "Every third row, starting with row 2": where the count begins stands beside the count."""
     every = [t for t in terms if t.kind == "EVERYNTH"]
-    if len(every) != 1:
+    if len(every) != 1 or any(t.kind == "STARTNTH" for t in terms):
         return terms
     moved: list[Term] = []
 
