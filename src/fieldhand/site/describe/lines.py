@@ -25,6 +25,7 @@ from fieldhand.site.describe.rows import (
 )
 from fieldhand.site.kinds import number_text
 from fieldhand.site.model import Site, ZoneKind
+from fieldhand.site.places.faults import listed
 
 _KINDS: dict[ZoneKind, str] = {"boundary": "boundary", "keep_out": "keep-out", "zone": "zone"}
 #: More rows than this are not listed unless they are asked for.
@@ -87,7 +88,9 @@ def _planting_lines(s: SiteSummary, most: int) -> list[str]:
         lines.append(f"And {len(s.blocks) + s.blocks_left_out - most} more blocks; {s.rows:,} rows in all.")
     ways = list(dict.fromkeys(counting_words(b) for b in s.blocks))
     lines.append(
-        f"{_capital(ways[0])}." if len(ways) == 1 else "Rows count from west, or from north where they run east-west."
+        f"{_capital(ways[0])}."
+        if len(ways) == 1
+        else f"Rows count from {listed([f'{b.counted_from} in {_in_block(b.name)}' for b in s.blocks[:most]])}."
     )
     if s.in_no_row:
         ids = ", ".join(s.in_no_row_ids) + (" ..." if s.in_no_row > len(s.in_no_row_ids) else "")
@@ -182,3 +185,8 @@ def _capital(text: str) -> str:
 
 def _lower(text: str, keep: bool) -> str:
     return text if keep else text[:1].lower() + text[1:]
+
+
+def _in_block(name: str) -> str:
+    called = block_name(name)
+    return called if called == name else called[0].lower() + called[1:]

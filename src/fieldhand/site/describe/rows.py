@@ -10,9 +10,11 @@ import numpy as np
 
 from fieldhand.site.features import clean
 from fieldhand.site.model import Site
+from fieldhand.site.places.counted import rows_from
 from fieldhand.site.planting import Block, Known, Row
 
 _LONGEST = 40
+_OPPOSITE = {"north": "south", "south": "north", "west": "east", "east": "west"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -21,7 +23,7 @@ class RowSummary:
 
     Attributes:
         block: Name of its block.
-        number: In the block, from 1.
+        number: In the block, from 1, as they are counted there.
         trees: That stand in it.
         missing: Planting positions between its ends at which no tree stands.
         length_m: From its first tree to its last.
@@ -73,13 +75,19 @@ class BlockSummary:
 
 
 def row_table(site: Site) -> tuple[RowSummary, ...]:
-    """Every row, block after block."""
-    return tuple(_row(site, block, row) for block in site.planting.blocks for row in block.rows)
+    """Every row, block after block, in the order in which they are counted: from the side that the site's names say."""
+    return tuple(
+        _row(site, block, row, number)
+        for block in site.planting.blocks
+        for number, row in enumerate(rows_from(site, block, "usual")[0], start=1)
+    )
 
 
 def block_summary(site: Site, block: Block) -> BlockSummary:
     """One block in figures."""
-    lengths = [len(row.trees) for row in block.rows]
+    rows, _ = rows_from(site, block, "usual")
+    usual = "north" if block.runs_east_west else "west"
+    lengths = [len(row.trees) for row in rows]
     shortest, longest = int(np.argmin(lengths)), int(np.argmax(lengths))
     spacing, apart = block.row_spacing_m, block.tree_spacing_m
     return BlockSummary(
@@ -88,11 +96,11 @@ def block_summary(site: Site, block: Block) -> BlockSummary:
         bearing_deg=block.bearing_deg,
         row_spacing_m=None if math.isnan(spacing) else spacing,
         tree_spacing_m=apart if max(lengths) > 1 and math.isfinite(apart) else None,
-        counted_from="north" if block.runs_east_west else "west",
+        counted_from=usual if rows[0] is block.rows[0] else _OPPOSITE[usual],
         trees=sum(lengths),
         missing=sum(_missing(row) for row in block.rows),
-        shortest=_row(site, block, block.rows[shortest]),
-        longest=_row(site, block, block.rows[longest]),
+        shortest=_row(site, block, rows[shortest], shortest + 1),
+        longest=_row(site, block, rows[longest], longest + 1),
         known=block.rows[0].known,
         confidence=block.confidence,
     )
@@ -116,9 +124,9 @@ def block_words(block: BlockSummary, *, several: bool) -> str:
 
 def counting_words(block: BlockSummary) -> str:
     """From where rows and the trees in them are counted."""
-    if block.counted_from == "north":
-        return "rows count from north to south, trees in a row from west to east"
-    return "rows count from west to east, trees in a row from north to south"
+    side = block.counted_from
+    trees = "west to east" if side in ("north", "south") else "north to south"
+    return f"rows count from {side} to {_OPPOSITE[side]}, trees in a row from {trees}"
 
 
 def block_name(name: str) -> str:
@@ -166,12 +174,12 @@ def shortened(text: str, longest: int = _LONGEST) -> str:
     return text if len(text) <= longest else text[: longest - 3] + "..."
 
 
-def _row(site: Site, block: Block, row: Row) -> RowSummary:
+def _row(site: Site, block: Block, row: Row, number: int) -> RowSummary:
     first, last = int(row.trees[0]), int(row.trees[-1])
     return RowSummary(
         block=shortened(block.name),
         name=shortened(row.name),
-        number=row.number,
+        number=number,
         trees=len(row.trees),
         missing=_missing(row),
         length_m=float(np.hypot(*(site.xy[last] - site.xy[first]))),
