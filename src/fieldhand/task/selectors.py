@@ -4,7 +4,8 @@ A selector is an expression. The innermost part is a source (every tree, a marke
 it keeps, orders or picks from what its ``of`` selects. "Yellow trees in the northern half" is
 ``Where(attribute="leaf_color", test="eq", value="yellow", of=Half(side="north", of=Trees()))``.
 
-What each one means is computed by :mod:`fieldhand.site.places`, in local metres; the definitions stand there.
+What each one means is computed by :mod:`fieldhand.site.places`, in local metres; the definitions stand there. This file
+is long because it is the vocabulary, to be read as a whole, and its parts nest in each other.
 """
 
 from __future__ import annotations
