@@ -112,7 +112,7 @@ class Lookout:
         longest = max(len(stops), LONG)
         grown, figures = np.empty(longest + 2, np.int64), np.empty(3)
         count = grow(
-            stops, self._here, self.free, longest, insertions, ground.matrix, ground.xy, ground.rewards,
+            stops, self._here, self.free, longest, insertions, ground.ways, ground.rewards,
             self._service, self._budgets, self.ends(), bonus, depth.skip, ground.points, ground.weights,
             grown, figures,
         )  # fmt: skip
@@ -127,11 +127,11 @@ class Lookout:
         choice, floors = np.empty((len(route), size), np.int64), np.empty(len(route))
         floors_of(route, self._service, self._budgets, floors)
         backward(
-            route, ground.matrix, ground.xy, ground.rewards, self._service[0], self.ends(), floors, bonus, step,
+            route, ground.ways, ground.rewards, self._service[0], self.ends(), floors, bonus, step,
             depth.skip, ground.points, ground.weights, worth, success, ahead, choice,
         )  # fmt: skip
         forward(
-            route, ground.matrix, ground.xy, self._service[0], step, depth.skip, ground.points, ground.weights,
+            route, ground.ways, self._service[0], step, depth.skip, ground.points, ground.weights,
             choice, mass,
         )  # fmt: skip
         return np.asarray(mass[1:-1].sum(axis=1))

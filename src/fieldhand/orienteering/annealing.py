@@ -50,13 +50,13 @@ class Annealing:
         self._sums, self._used = np.empty(5), np.empty(limits)
         self._best = np.empty(nodes, np.int64)
         self._record = np.array([-1.0, np.inf, 0.0])
-        self._given = (ground.matrix, ground.xy)
+        self._ways = ground.ways
         self._priced = (ground.rewards, ground.service)
         self._limits = (budgets, ground.cumulants, tables)
         self._ground, self._here, self._state = ground, here, state
         begin(
             here, stops, ground.afterwards, self._after, self._before, self._sums, self._used,
-            *self._given, *self._priced, *self._limits,
+            self._ways, *self._priced, *self._limits,
         )  # fmt: skip
         self.feasible = bool(excess(self._sums, self._used, *self._limits) <= 0.0)
         if self.feasible:
@@ -92,7 +92,7 @@ class Annealing:
         worth = _WORTH / max(float(self._limits[0].max()), 1e-300)
         anneal(
             self._here, self._free, self._after, self._before, self._sums, self._used,
-            *self._given, self._ground.near, *self._priced, *self._limits,
+            self._ways, self._ground.near, *self._priced, *self._limits,
             worth, hot * (cold / hot) ** done, hot * (cold / hot) ** then, rounds, self._state,
             self._best, self._record,
         )  # fmt: skip

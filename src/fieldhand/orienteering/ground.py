@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.orienteering.costs import slices
+from fieldhand.orienteering.kernels.legs import Ways
 from fieldhand.orienteering.problem import Problem
 from fieldhand.orienteering.tail import quantile_table
 
@@ -24,8 +25,7 @@ class Ground:
     """What never changes in a mission.
 
     Attributes:
-        matrix: Lengths between vertices and the end, shape (n + 1, n + 1); empty where ``xy`` gives them.
-        xy: Coordinates of vertices and end, shape (n + 1, 2); empty where there is a matrix.
+        ways: Lengths of the legs between nodes: the vertices and the end.
         near: Nearest vertices of each node, nearest first, shape (n + 1, k).
         rewards: Of vertices and end, shape (n + 1,); 0 for the end.
         service: For each limit what work takes at each node, shape (limits, n + 1).
@@ -36,8 +36,7 @@ class Ground:
     """
 
     problem: Problem
-    matrix: Floats
-    xy: Floats
+    ways: Ways
     near: Ints
     rewards: Floats
     service: Floats
@@ -52,17 +51,12 @@ class Ground:
         """Number of vertices, and the number of the end's node."""
         return len(self.rewards) - 1
 
-    def length(self, u: int, v: int) -> float:
-        """Of one leg between nodes."""
-        if len(self.matrix):
-            return float(self.matrix[u, v])
-        return float(np.hypot(*(self.xy[u] - self.xy[v])))
-
     def row(self, u: int) -> Floats:
         """Lengths from a node to every vertex."""
-        if len(self.matrix):
-            return np.asarray(self.matrix[u, :-1])
-        return np.asarray(np.hypot(*(self.xy[:-1] - self.xy[u]).T))
+        matrix, xy = self.ways
+        if len(matrix):
+            return np.asarray(matrix[u, :-1])
+        return np.asarray(np.hypot(*(xy[:-1] - xy[u]).T))
 
 
 def ground_of(problem: Problem) -> Ground:
@@ -74,6 +68,7 @@ def ground_of(problem: Problem) -> Ground:
         matrix = np.ascontiguousarray(problem.distances[np.ix_(nodes, nodes)], dtype=np.float64)
     else:
         xy = np.ascontiguousarray(np.vstack([problem.plane, problem.plane[end]]), dtype=np.float64)
+    ways = Ways(matrix, xy)
     service = np.zeros((len(problem.limits), n + 1))
     for row, limit in zip(service, problem.limits, strict=True):
         if limit.service is not None:
@@ -84,9 +79,8 @@ def ground_of(problem: Problem) -> Ground:
     rewards = np.append(problem.rewards, 0.0).astype(np.float64)
     return Ground(
         problem=problem,
-        matrix=matrix,
-        xy=xy,
-        near=_nearest(matrix, xy),
+        ways=ways,
+        near=_nearest(ways),
         rewards=rewards,
         service=service,
         afterwards=np.array([after.sum(), (after**2).sum(), (after**3).sum()]),
@@ -97,8 +91,9 @@ def ground_of(problem: Problem) -> Ground:
     )
 
 
-def _nearest(matrix: Floats, xy: Floats) -> Ints:
+def _nearest(ways: Ways) -> Ints:
     """The nearest vertices of each node; the end's node is nobody's neighbour, nor is a vertex its own."""
+    matrix, xy = ways
     size = max(len(matrix), len(xy))
     count = min(NEAREST, size - 2)
     if count < 1:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.orienteering.kernels.compiled import compiled
-from fieldhand.orienteering.kernels.legs import Floats, Ints, Seeds, copy, length, needed, sort_by, uniform
+from fieldhand.orienteering.kernels.legs import Floats, Ints, Seeds, Ways, copy, length, needed, sort_by, uniform
 
 # Entries of ``sums``: of the legs' lengths, squares and cubes; the reward; the number of stops.
 
@@ -32,12 +32,11 @@ def excess(sums: Floats, used: Floats, budgets: Floats, cumulants: Floats, quant
 
 @compiled
 def link(
-    p: int, v: int, after: Ints, before: Ints, sums: Floats, used: Floats, matrix: Floats, xy: Floats, rewards: Floats,
-    service: Floats,
+    p: int, v: int, after: Ints, before: Ints, sums: Floats, used: Floats, ways: Ways, rewards: Floats, service: Floats,
 ) -> None:  # fmt: skip
     """Put v into the route after p."""
     q = after[p]
-    a, b, c = length(matrix, xy, p, v), length(matrix, xy, v, q), length(matrix, xy, p, q)
+    a, b, c = length(ways, p, v), length(ways, v, q), length(ways, p, q)
     sums[0] += a + b - c
     sums[1] += a * a + b * b - c * c
     sums[2] += a * a * a + b * b * b - c * c * c
@@ -53,12 +52,11 @@ def link(
 
 @compiled
 def unlink(
-    v: int, after: Ints, before: Ints, sums: Floats, used: Floats, matrix: Floats, xy: Floats, rewards: Floats,
-    service: Floats,
+    v: int, after: Ints, before: Ints, sums: Floats, used: Floats, ways: Ways, rewards: Floats, service: Floats,
 ) -> None:  # fmt: skip
     """Take v out of the route."""
     p, q = before[v], after[v]
-    a, b, c = length(matrix, xy, p, v), length(matrix, xy, v, q), length(matrix, xy, p, q)
+    a, b, c = length(ways, p, v), length(ways, v, q), length(ways, p, q)
     sums[0] -= a + b - c
     sums[1] -= a * a + b * b - c * c
     sums[2] -= a * a * a + b * b * b - c * c * c
@@ -74,8 +72,8 @@ def unlink(
 
 @compiled
 def begin(
-    here: int, stops: Ints, afterwards: Floats, after: Ints, before: Ints, sums: Floats, used: Floats, matrix: Floats,
-    xy: Floats, rewards: Floats, service: Floats, budgets: Floats, cumulants: Floats, quantiles: Floats,
+    here: int, stops: Ints, afterwards: Floats, after: Ints, before: Ints, sums: Floats, used: Floats, ways: Ways,
+    rewards: Floats, service: Floats, budgets: Floats, cumulants: Floats, quantiles: Floats,
 ) -> None:  # fmt: skip
     """Lay the route from here over ``stops`` to the end; leave out those worth least while a limit is exceeded."""
     end = len(rewards) - 1
@@ -84,7 +82,7 @@ def begin(
         before[v] = -1
     after[here] = end
     before[end] = here
-    c = length(matrix, xy, here, end)
+    c = length(ways, here, end)
     sums[0] = c + afterwards[0]
     sums[1] = c * c + afterwards[1]
     sums[2] = c * c * c + afterwards[2]
@@ -94,14 +92,14 @@ def begin(
         used[limit] = service[limit, end]
     last = here
     for v in stops:
-        link(last, v, after, before, sums, used, matrix, xy, rewards, service)
+        link(last, v, after, before, sums, used, ways, rewards, service)
         last = v
     while sums[4] > 0.0 and excess(sums, used, budgets, cumulants, quantiles) > 0.0:
         worst, least = -1, np.inf
         v = after[here]
         while v != end:
             p, q = before[v], after[v]
-            detour = length(matrix, xy, p, v) + length(matrix, xy, v, q) - length(matrix, xy, p, q)
+            detour = length(ways, p, v) + length(ways, v, q) - length(ways, p, q)
             for limit in range(len(used)):
                 detour += service[limit, v]
             if detour > 0.0 and rewards[v] / detour < least:
@@ -109,12 +107,12 @@ def begin(
             v = q
         if worst < 0:
             break
-        unlink(worst, after, before, sums, used, matrix, xy, rewards, service)
+        unlink(worst, after, before, sums, used, ways, rewards, service)
 
 
 @compiled
 def _best_place(
-    v: int, here: int, end: int, after: Ints, before: Ints, near: Ints, matrix: Floats, xy: Floats, blink: float,
+    v: int, here: int, end: int, after: Ints, before: Ints, near: Ints, ways: Ways, blink: float,
     state: Seeds,
 ) -> int:  # fmt: skip
     """The node after which v lengthens the route least, among those beside v's neighbours and the route's ends."""
@@ -130,7 +128,7 @@ def _best_place(
             if blink > 0.0 and uniform(state) < blink:
                 continue
             q = after[p]
-            more = length(matrix, xy, p, v) + length(matrix, xy, v, q) - length(matrix, xy, p, q)
+            more = length(ways, p, v) + length(ways, v, q) - length(ways, p, q)
             if more < best:
                 best, place = more, p
     return place
@@ -139,7 +137,7 @@ def _best_place(
 @compiled
 def _take_out(
     seed: int, here: int, turn: int, allowed: NDArray[np.bool_], seen: Ints, moves: Ints, after: Ints, before: Ints,
-    sums: Floats, used: Floats, matrix: Floats, xy: Floats, near: Ints, rewards: Floats, service: Floats, state: Seeds,
+    sums: Floats, used: Floats, ways: Ways, near: Ints, rewards: Floats, service: Floats, state: Seeds,
 ) -> int:  # fmt: skip
     """Take one or two strings of stops near ``seed`` out of the route; how many stops, which ``moves`` tells."""
     end = len(rewards) - 1
@@ -164,16 +162,14 @@ def _take_out(
             q = after[u]
             moves[steps, 0], moves[steps, 1], moves[steps, 2] = u, before[u], 0
             steps += 1
-            unlink(u, after, before, sums, used, matrix, xy, rewards, service)
+            unlink(u, after, before, sums, used, ways, rewards, service)
             seen[u] = turn
             u = q
     return steps
 
 
 @compiled
-def _rank(
-    out: Ints, key: Floats, count: int, seed: int, matrix: Floats, xy: Floats, rewards: Floats, state: Seeds
-) -> None:
+def _rank(out: Ints, key: Floats, count: int, seed: int, ways: Ways, rewards: Floats, state: Seeds) -> None:
     """Sort the stops that may be put in: at random, by reward, by reward with noise, or by nearness to ``seed``."""
     rule = int(uniform(state) * 4.0)
     for i in range(count):
@@ -185,7 +181,7 @@ def _rank(
         elif rule == 2:
             key[i] = -rewards[v] * (0.3 + uniform(state))
         else:
-            key[i] = length(matrix, xy, v, seed)
+            key[i] = length(ways, v, seed)
     sort_by(key, out, count)
 
 
@@ -217,7 +213,7 @@ def _undo(moves: Ints, steps: int, after: Ints, before: Ints) -> None:
 @compiled
 def anneal(
     here: int, free: Ints, after: Ints, before: Ints, sums: Floats, used: Floats,
-    matrix: Floats, xy: Floats, near: Ints, rewards: Floats, service: Floats, budgets: Floats, cumulants: Floats,
+    ways: Ways, near: Ints, rewards: Floats, service: Floats, budgets: Floats, cumulants: Floats,
     quantiles: Floats, worth: float, hot: float, cold: float, rounds: int, state: Seeds, best: Ints, record: Floats,
 ) -> int:  # fmt: skip
     """Better the route in ``after`` and ``before`` by ``rounds`` rounds.
@@ -226,7 +222,7 @@ def anneal(
         here: Where the route begins.
         free: Vertices that may be visited; each of them not in the route has -1 in ``after``.
         after, before, sums, used: The route and its figures, changed in place.
-        matrix, xy, near: Lengths, and the nearest vertices of each, nearest first.
+        ways, near: Lengths, and the nearest vertices of each, nearest first.
         rewards, service, budgets: ``service`` has limits along its first axis.
         cumulants, quantiles: For :func:`needed`; ``quantiles`` has limits along its first axis.
         worth: What part of the best reward a unit of length counts for.
@@ -258,7 +254,7 @@ def anneal(
         else:
             if sums[4] > 0.0:
                 steps = _take_out(
-                    seed, here, turn, allowed, seen, moves, after, before, sums, used, matrix, xy, near, rewards,
+                    seed, here, turn, allowed, seen, moves, after, before, sums, used, ways, near, rewards,
                     service, state,
                 )  # fmt: skip
             for i in range(steps):
@@ -270,16 +266,16 @@ def anneal(
                     seen[u] = turn
                     out[count] = u
                     count += 1
-        _rank(out, key, count, seed, matrix, xy, rewards, state)
+        _rank(out, key, count, seed, ways, rewards, state)
         over = excess(sums, used, budgets, cumulants, quantiles)
         for i in range(count):
             v = out[i]
-            p = _best_place(v, here, end, after, before, near, matrix, xy, _BLINK, state)
+            p = _best_place(v, here, end, after, before, near, ways, _BLINK, state)
             if p < 0:
                 continue
             copy(sums, one_sums)
             copy(used, one_used)
-            link(p, v, after, before, sums, used, matrix, xy, rewards, service)
+            link(p, v, after, before, sums, used, ways, rewards, service)
             now = excess(sums, used, budgets, cumulants, quantiles)
             if now <= 0.0 or now < over:
                 moves[steps, 0], moves[steps, 1], moves[steps, 2] = v, p, 1

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.orienteering.kernels.compiled import compiled
-from fieldhand.orienteering.kernels.legs import Floats, Ints, length, sort_by
+from fieldhand.orienteering.kernels.legs import Floats, Ints, Ways, length, sort_by
 from fieldhand.orienteering.kernels.value import backward, forward, gains
 
 #: Vertices that are tried for insertion.
@@ -29,7 +29,7 @@ def floors_of(route: Ints, service: Floats, budgets: Floats, floors: Floats) -> 
 
 @compiled
 def _promising(
-    route: Ints, free: Ints, inside: NDArray[np.bool_], matrix: Floats, xy: Floats, rewards: Floats, service: Floats
+    route: Ints, free: Ints, inside: NDArray[np.bool_], ways: Ways, rewards: Floats, service: Floats
 ) -> Ints:
     """The free vertices outside the route with most reward for the way that they add."""
     count = 0
@@ -38,10 +38,10 @@ def _promising(
         if inside[v]:
             continue
         least = np.inf
-        came = length(matrix, xy, route[0], v)
+        came = length(ways, route[0], v)
         for i in range(1, len(route)):
-            goes = length(matrix, xy, route[i], v)
-            least = min(least, came + goes - length(matrix, xy, route[i - 1], route[i]))
+            goes = length(ways, route[i], v)
+            least = min(least, came + goes - length(ways, route[i - 1], route[i]))
             came = goes
         outside[count] = v
         score[count] = -rewards[v] / (least + service[v] + 1e-300)
@@ -54,7 +54,7 @@ def _promising(
 
 @compiled
 def grow(
-    stops: Ints, here: int, free: Ints, longest: int, insertions: int, matrix: Floats, xy: Floats, rewards: Floats,
+    stops: Ints, here: int, free: Ints, longest: int, insertions: int, ways: Ways, rewards: Floats,
     service: Floats, budgets: Floats, ends: Floats, bonus: float, skip: int, points: Floats, weights: Floats,
     order: Ints, figures: Floats,
 ) -> int:  # fmt: skip
@@ -66,7 +66,7 @@ def grow(
         free: Vertices that may be inserted.
         longest: Stops that the order may have.
         insertions: How many may be inserted.
-        matrix, xy, rewards, service, budgets, ends, bonus, skip, points, weights: As for :func:`backward`; ``service``
+        ways, rewards, service, budgets, ends, bonus, skip, points, weights: As for :func:`backward`; ``service``
             and ``budgets`` of every limit, the one with the least budget first.
         order: Overwritten: the order's stops.
         figures: Overwritten: reward still to come of missions that keep to the limits, chance that they do, and the
@@ -91,13 +91,13 @@ def grow(
         route[i + 1] = stops[i]
         inside[stops[i]] = True
     route[count + 1] = end
-    candidates = _promising(route[: count + 2], free, inside, matrix, xy, rewards, service[0])
+    candidates = _promising(route[: count + 2], free, inside, ways, rewards, service[0])
     gain, place = np.empty(len(candidates)), np.empty(len(candidates), np.int64)
     for trial in range(insertions + 1):
         n = count + 2
         floors_of(route[:n], service, budgets, floors[:n])
         backward(
-            route[:n], matrix, xy, rewards, service[0], ends, floors[:n], bonus, step, skip, points, weights,
+            route[:n], ways, rewards, service[0], ends, floors[:n], bonus, step, skip, points, weights,
             worth[:n], success[:n], ahead[:n], choice[:n],
         )  # fmt: skip
         if trial == insertions or n >= capacity:
@@ -105,9 +105,9 @@ def grow(
         left = len(candidates) - trial
         if left == 0:
             break
-        forward(route[:n], matrix, xy, service[0], step, skip, points, weights, choice[:n], mass[:n])
+        forward(route[:n], ways, service[0], step, skip, points, weights, choice[:n], mass[:n])
         gains(
-            route[:n], matrix, xy, rewards, service[0], ends, floors[:n], bonus, step, points, weights,
+            route[:n], ways, rewards, service[0], ends, floors[:n], bonus, step, points, weights,
             worth[:n], success[:n], ahead[:n], mass[:n], candidates[:left], gain[:left], place[:left],
         )  # fmt: skip
         most = 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,19 @@ from fieldhand.orienteering.kernels.compiled import compiled
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Seeds = NDArray[np.uint64]
+
+
+class Ways(NamedTuple):
+    """How long the leg between any two nodes is.
+
+    Attributes:
+        matrix: Lengths, shape (nodes, nodes); empty where ``xy`` gives them.
+        xy: Coordinates, shape (nodes, 2); empty where there is a matrix.
+    """
+
+    matrix: Floats
+    xy: Floats
+
 
 #: Skewness at the first entry of a table of quantiles, and entries per unit of skewness.
 TABLE_FROM = -4.0
@@ -30,11 +44,11 @@ def uniform(state: Seeds) -> float:
 
 
 @compiled
-def length(matrix: Floats, xy: Floats, u: int, v: int) -> float:
+def length(ways: Ways, u: int, v: int) -> float:
     """Of the leg from u to v: an entry of the matrix where there is one, else the straight line."""
-    if matrix.shape[0] > 0:
-        return matrix[u, v]  # type: ignore[no-any-return]
-    x, y = xy[u, 0] - xy[v, 0], xy[u, 1] - xy[v, 1]
+    if ways.matrix.shape[0] > 0:
+        return ways.matrix[u, v]  # type: ignore[no-any-return]
+    x, y = ways.xy[u, 0] - ways.xy[v, 0], ways.xy[u, 1] - ways.xy[v, 1]
     return math.sqrt(x * x + y * y)
 
 

@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from fieldhand.orienteering.kernels.compiled import compiled
-from fieldhand.orienteering.kernels.legs import Floats, Ints, length
+from fieldhand.orienteering.kernels.legs import Floats, Ints, Ways, length
 
 
 @compiled
@@ -149,7 +149,7 @@ def home(success: Floats, to_success: Floats, floor: float, step: float) -> None
 
 @compiled
 def backward(
-    route: Ints, matrix: Floats, xy: Floats, rewards: Floats, service: Floats, ends: Floats, floors: Floats,
+    route: Ints, ways: Ways, rewards: Floats, service: Floats, ends: Floats, floors: Floats,
     bonus: float, step: float, skip: int, points: Floats, weights: Floats,
     worth: Floats, success: Floats, ahead: Floats, choice: Ints,
 ) -> None:  # fmt: skip
@@ -157,7 +157,7 @@ def backward(
 
     Args:
         route: From here to the end, both included.
-        matrix, xy: For :func:`length`.
+        ways: For :func:`length`.
         rewards: Of each vertex.
         service: What the work at each vertex takes of the first limit.
         ends: By what is left at the end, the chance that what must follow there is within the limit.
@@ -182,14 +182,14 @@ def backward(
     for i in range(1, last):
         collected += rewards[route[i]]
     for i in range(last - 1, -1, -1):
-        leg = length(matrix, xy, route[i], route[last])
+        leg = length(ways, route[i], route[last])
         home(ends, arrived, floors[i], step)
         drive(worth[last], arrived, worth[i], success[i], leg, service[route[last]], step, points, weights)
         for k in range(size):
             choice[i, k] = last
         reward = rewards[route[i]] if i > 0 else 0.0
         for j in range(i + 1, min(i + skip, last - 1) + 1):
-            leg = length(matrix, xy, route[i], route[j])
+            leg = length(ways, route[i], route[j])
             drive(ahead[j], success[j], to_worth, to_success, leg, service[route[j]], step, points, weights)
             for k in range(size):
                 if to_worth[k] + collected * to_success[k] > worth[i, k] + collected * success[i, k]:
@@ -203,7 +203,7 @@ def backward(
 
 @compiled
 def forward(
-    route: Ints, matrix: Floats, xy: Floats, service: Floats, step: float, skip: int, points: Floats, weights: Floats,
+    route: Ints, ways: Ways, service: Floats, step: float, skip: int, points: Floats, weights: Floats,
     choice: Ints, mass: Floats,
 ) -> None:  # fmt: skip
     """Fill ``mass``: how likely a mission comes to each position with each amount left."""
@@ -222,13 +222,13 @@ def forward(
                 if choice[i, k] == j:
                     going += mass[i, k]
             if going > 1e-12:
-                leg = length(matrix, xy, route[i], route[j])
+                leg = length(ways, route[i], route[j])
                 gather(mass[i], choice[i], j, mass[j], leg, service[route[j]], step, points, weights, work)
 
 
 @compiled
 def gains(
-    route: Ints, matrix: Floats, xy: Floats, rewards: Floats, service: Floats, ends: Floats, floors: Floats,
+    route: Ints, ways: Ways, rewards: Floats, service: Floats, ends: Floats, floors: Floats,
     bonus: float, step: float, points: Floats, weights: Floats,
     worth: Floats, success: Floats, ahead: Floats, mass: Floats, candidates: Ints, gain: Floats, place: Ints,
 ) -> None:  # fmt: skip
@@ -253,7 +253,7 @@ def gains(
         v = candidates[c]
         gain[c] = 0.0
         place[c] = 0
-        leg_home = length(matrix, xy, v, route[last])
+        leg_home = length(ways, v, route[last])
         for i in range(last):
             if there[i] < 1e-3:
                 continue
@@ -261,7 +261,7 @@ def gains(
             home(ends, arrived, floors[i], step)
             drive(worth[last], arrived, then_worth, then_success, leg_home, service[route[last]], step, points, weights)
             if i + 1 < last:
-                leg = length(matrix, xy, v, route[i + 1])
+                leg = length(ways, v, route[i + 1])
                 work = service[route[i + 1]]
                 drive(ahead[i + 1], success[i + 1], to_worth, to_success, leg, work, step, points, weights)
                 for k in range(size):
@@ -270,7 +270,7 @@ def gains(
                         then_success[k] = to_success[k]
             for k in range(size):
                 then_worth[k] += rewards[v] * then_success[k]
-            leg = length(matrix, xy, route[i], v)
+            leg = length(ways, route[i], v)
             drive(then_worth, then_success, to_worth, to_success, leg, service[v], step, points, weights)
             found = 0.0
             for k in range(size):
