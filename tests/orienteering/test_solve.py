@@ -139,7 +139,7 @@ def _distances(value, both=True):
         ({"after": (-1.0,)}, "after the end"),
         ({"distances": np.zeros((0, 0)), "plane": np.array([[0.0, 0.0], [1.0, np.nan], [2.0, 0.0]])}, "vertex 1"),
         ({"distances": np.zeros((0, 0)), "plane": np.zeros((2, 2))}, "coordinates of shape"),
-        ({"plane": np.zeros((3, 2))}, "give one of them"),
+        ({"plane": np.zeros((3, 2))}, "more than one way"),
         ({"distances": np.array([[0, 1, np.inf], [1, 0, np.inf], [np.inf, np.inf, 0]])}, "no way"),
     ],
 )

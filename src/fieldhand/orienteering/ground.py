@@ -8,16 +8,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.orienteering.costs import slices
+from fieldhand.orienteering.kernels.labels import distances_from
 from fieldhand.orienteering.kernels.legs import Ways
+from fieldhand.orienteering.labels import NEAREST
 from fieldhand.orienteering.problem import Problem
 from fieldhand.orienteering.tail import quantile_table
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-#: Neighbours of each vertex that a search looks at.
-NEAREST = 24
 _ALL = 400
+
+_NOWHERE = Ways(
+    matrix=np.zeros((0, 0)),
+    xy=np.zeros((0, 2)),
+    spans=np.zeros((0, 2), dtype=np.int64),
+    hubs=np.zeros(0, dtype=np.int32),
+    gaps=np.zeros(0),
+    close=np.zeros((0, 0), dtype=np.int32),
+    close_gaps=np.zeros((0, 0)),
+)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -53,22 +63,20 @@ class Ground:
 
     def row(self, u: int) -> Floats:
         """Lengths from a node to every vertex."""
-        matrix, xy = self.ways
-        if len(matrix):
-            return np.asarray(matrix[u, :-1])
-        return np.asarray(np.hypot(*(xy[:-1] - xy[u]).T))
+        ways = self.ways
+        if len(ways.matrix):
+            return np.asarray(ways.matrix[u, :-1])
+        if len(ways.xy):
+            return np.asarray(np.hypot(*(ways.xy[:-1] - ways.xy[u]).T))
+        away = np.empty(self.size)
+        distances_from(u, ways.spans, ways.hubs, ways.gaps, away)
+        return away
 
 
 def ground_of(problem: Problem) -> Ground:
     """The arrays of a problem."""
     n, end = problem.size, problem.end
-    matrix, xy = np.zeros((0, 0)), np.zeros((0, 2))
-    if problem.plane is None:
-        nodes = np.append(np.arange(n), end)
-        matrix = np.ascontiguousarray(problem.distances[np.ix_(nodes, nodes)], dtype=np.float64)
-    else:
-        xy = np.ascontiguousarray(np.vstack([problem.plane, problem.plane[end]]), dtype=np.float64)
-    ways = Ways(matrix, xy)
+    ways = _ways(problem)
     service = np.zeros((len(problem.limits), n + 1))
     for row, limit in zip(service, problem.limits, strict=True):
         if limit.service is not None:
@@ -80,7 +88,7 @@ def ground_of(problem: Problem) -> Ground:
     return Ground(
         problem=problem,
         ways=ways,
-        near=_nearest(ways),
+        near=_nearest(ways, problem),
         rewards=rewards,
         service=service,
         afterwards=np.array([after.sum(), (after**2).sum(), (after**3).sum()]),
@@ -91,9 +99,26 @@ def ground_of(problem: Problem) -> Ground:
     )
 
 
-def _nearest(ways: Ways) -> Ints:
+def _ways(problem: Problem) -> Ways:
+    nodes = np.append(np.arange(problem.size), problem.end)
+    if problem.labels is not None:
+        labels = problem.labels
+        spans = np.stack([labels.starts[nodes], labels.starts[nodes + 1]], axis=1)
+        return _NOWHERE._replace(
+            spans=spans, hubs=labels.hubs, gaps=labels.gaps, close=labels.close[nodes],
+            close_gaps=labels.close_gaps[nodes],
+        )  # fmt: skip
+    if problem.plane is not None:
+        return _NOWHERE._replace(xy=np.ascontiguousarray(problem.plane[nodes], dtype=np.float64))
+    return _NOWHERE._replace(matrix=np.ascontiguousarray(problem.distances[np.ix_(nodes, nodes)], dtype=np.float64))
+
+
+def _nearest(ways: Ways, problem: Problem) -> Ints:
     """The nearest vertices of each node; the end's node is nobody's neighbour, nor is a vertex its own."""
-    matrix, xy = ways
+    if problem.labels is not None:
+        near = problem.labels.near
+        return np.vstack([near, near[problem.end]])
+    matrix, xy = ways.matrix, ways.xy
     size = max(len(matrix), len(xy))
     count = min(NEAREST, size - 2)
     if count < 1:

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.errors import ProblemError
 from fieldhand.orienteering.costs import CostModel
+from fieldhand.orienteering.labels import Labels, labels_of
 from fieldhand.orienteering.problem import Limit, Problem
 
 Floats = NDArray[np.float64]
 
-#: Vertices whose distances to each other are kept: their table is 200 MB then.
-MOST = 5_000
+#: Vertices up to which a table of their distances is kept; labels take less memory and less time to make from there on.
+TABLE = 1_000
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -51,22 +54,37 @@ class Network:
 
     def distances(self, nodes: Sequence[int]) -> Floats:
         """Shortest distances between some nodes, shape (k, k); ``inf`` where there is no way."""
-        from scipy.sparse import coo_array
+        from scipy.sparse import csr_array
         from scipy.sparse.csgraph import dijkstra
 
-        a, b = self.ways.T
-        # Of several ways between two nodes the shortest counts; entries of 0 would mean no way.
-        order = np.argsort(-self.lengths, kind="stable")
-        shortest = {(int(min(a[i], b[i])), int(max(a[i], b[i]))): float(self.lengths[i]) for i in order}
-        pairs = np.array(list(shortest), dtype=np.int64).reshape(-1, 2)
-        values = np.maximum(np.array(list(shortest.values())), 1e-12)
-        graph = coo_array((values, (pairs[:, 0], pairs[:, 1])), shape=(self.nodes, self.nodes)).tocsr()
+        starts, heads, lengths = self._leaving
+        # An entry of 0 would mean no way.
+        graph = csr_array((np.maximum(lengths, 1e-300), heads, starts), shape=(self.nodes, self.nodes))
         chosen = np.array(nodes, dtype=np.int64)
         found = np.empty((len(chosen), len(chosen)))
         for first in range(0, len(chosen), 256):
             part = chosen[first : first + 256]
-            found[first : first + 256] = dijkstra(graph, directed=False, indices=part)[:, chosen]
+            found[first : first + 256] = dijkstra(graph, indices=part)[:, chosen]
         return np.minimum(found, found.T)
+
+    def labels(self, nodes: Sequence[int]) -> Labels:
+        """What gives the shortest distances between some nodes, each named once, without a table of them."""
+        return labels_of(*self._leaving, np.array(nodes, dtype=np.int64))
+
+    @cached_property
+    def _leaving(self) -> tuple[NDArray[np.int64], NDArray[np.int32], Floats]:
+        """The ways that leave each node, in both directions: where its entries begin, where they lead, how long."""
+        tails, heads = (np.concatenate([self.ways[:, i], self.ways[:, 1 - i]]) for i in range(2))
+        lengths = np.concatenate([self.lengths, self.lengths])
+        order = np.lexsort((lengths, heads, tails))
+        order = order[tails[order] != heads[order]]
+        tails, heads = tails[order], heads[order]
+        # Of several ways between two nodes the shortest counts.
+        other = np.ones(len(order), dtype=bool)
+        other[1:] = (np.diff(tails) != 0) | (np.diff(heads) != 0)
+        starts = np.zeros(self.nodes + 1, dtype=np.int64)
+        np.cumsum(np.bincount(tails[other], minlength=self.nodes), out=starts[1:])
+        return starts, heads[other].astype(np.int32), lengths[order][other].astype(np.float64)
 
     def problem(
         self,
@@ -75,6 +93,7 @@ class Network:
         end: int,
         limits: tuple[Limit, ...],
         costs: CostModel | None = None,
+        lengths: Literal["table", "labels"] | None = None,
     ) -> tuple[Problem, tuple[int, ...]]:
         """The problem over the nodes that are worth a visit, with the node of each of its vertices.
 
@@ -83,9 +102,10 @@ class Network:
             start, end: Nodes.
             limits: With service for every node, where there is any.
             costs: How legs cost.
+            lengths: How the distances are kept; None: in a table up to ``TABLE`` vertices, in labels beyond.
 
         Raises:
-            ProblemError: As :class:`Problem`; or more than ``MOST`` nodes are worth a visit.
+            ProblemError: As :class:`Problem`.
         """
         if rewards.shape != (self.nodes,):
             raise ProblemError(f"rewards of shape {rewards.shape} do not fit {self.nodes} nodes")
@@ -95,14 +115,12 @@ class Network:
         wanted = ~(rewards == 0.0)
         wanted[[start, end]] = True
         kept = np.flatnonzero(wanted)
-        if len(kept) > MOST:
-            raise ProblemError(
-                f"{len(kept)} nodes are worth a visit, {MOST} can be at most", advice="give coordinates instead"
-            )
+        table = len(kept) <= TABLE if lengths is None else lengths == "table"
         at = {int(node): vertex for vertex, node in enumerate(kept)}
         services = [None if x.service is None else x.service[kept] for x in limits]
         made = Problem(
-            distances=self.distances(kept.tolist()),
+            distances=self.distances(kept.tolist()) if table else np.zeros((0, 0)),
+            labels=None if table else self.labels(kept.tolist()),
             rewards=rewards[kept],
             start=at[start],
             end=at[end],

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from fieldhand.errors import ProblemError
 from fieldhand.orienteering.costs import CostModel, Deterministic, ShiftedExponential
+from fieldhand.orienteering.labels import Labels
 
 Floats = NDArray[np.float64]
 
@@ -39,13 +40,15 @@ class Problem:
     cost model says otherwise that is ``d * (alpha + X)``, X exponential with mean ``1 - alpha``.
 
     Attributes:
-        distances: Symmetric, shape (n, n), in any unit; ``inf`` where there is no way. Not where there is a plane.
+        distances: Symmetric, shape (n, n), in any unit; ``inf`` where there is no way. Not where a plane or labels
+            give them.
         rewards: What visiting each vertex is worth, shape (n,); the start's and the end's do not count.
         limits: At least one.
         alpha: The certain part of a leg's cost, 0 to 1; 1 is a deterministic problem.
         costs: Another cost model; ``alpha`` is not used then.
         plane: Coordinates, shape (n, 2), in place of distances: the legs are straight, and thousands of vertices need
             no table of distances.
+        labels: Of a sparse network, in place of distances (:meth:`fieldhand.orienteering.network.Network.problem`).
         after: Lengths of legs that will be driven from the end on, whatever the route is; they count for every limit.
 
     Raises:
@@ -62,6 +65,7 @@ class Problem:
     after: tuple[float, ...] = field(default=())
     costs: CostModel | None = None
     plane: Floats | None = None
+    labels: Labels | None = None
 
     def __post_init__(self) -> None:
         _check_graph(self)
@@ -83,9 +87,11 @@ class Problem:
 
     def length(self, u: int, v: int) -> float:
         """Of the leg between two vertices."""
-        if self.plane is None:
-            return float(self.distances[u, v])
-        return float(np.hypot(*(self.plane[u] - self.plane[v])))
+        if self.labels is not None:
+            return self.labels.length(u, v)
+        if self.plane is not None:
+            return float(np.hypot(*(self.plane[u] - self.plane[v])))
+        return float(self.distances[u, v])
 
 
 def under_way(
@@ -99,6 +105,7 @@ def under_way(
     after: tuple[float, ...] = (),
     costs: CostModel | None = None,
     plane: Floats | None = None,
+    labels: Labels | None = None,
 ) -> Problem:
     """A problem whose mission has begun: nothing is checked, since what is left may be too small for the way home."""
     problem = object.__new__(Problem)
@@ -112,6 +119,7 @@ def under_way(
         "after": after,
         "costs": costs,
         "plane": plane,
+        "labels": labels,
     }.items():
         object.__setattr__(problem, name, value)
     return problem
@@ -122,8 +130,13 @@ def _check_graph(problem: Problem) -> None:
     n = len(rewards)
     if n < 2:
         raise ProblemError(f"{n} vertices are no problem", advice="give a start and an end at least")
+    if (len(d) > 0) + (problem.plane is not None) + (problem.labels is not None) > 1:
+        raise ProblemError("lengths are given in more than one way", advice="give distances, coordinates or labels")
     if problem.plane is not None:
-        _check_plane(problem.plane, d, n)
+        _check_plane(problem.plane, n)
+    elif problem.labels is not None:
+        if problem.labels.size != n:
+            raise ProblemError(f"labels of {problem.labels.size} vertices do not fit {n} rewards")
     elif d.shape != (n, n):
         raise ProblemError(f"distances of shape {d.shape} do not fit {n} rewards", advice=f"give {n} by {n} distances")
     if np.isnan(d).any() or (d < 0).any():
@@ -151,9 +164,7 @@ def _check_graph(problem: Problem) -> None:
         raise ProblemError("a leg after the end is negative or not a number")
 
 
-def _check_plane(plane: Floats, distances: Floats, n: int) -> None:
-    if len(distances):
-        raise ProblemError("there are distances and coordinates too", advice="give one of them")
+def _check_plane(plane: Floats, n: int) -> None:
     if plane.shape != (n, 2):
         raise ProblemError(f"coordinates of shape {plane.shape} do not fit {n} rewards", advice=f"give {n} pairs")
     if not np.isfinite(plane).all():

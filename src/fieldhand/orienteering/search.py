@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fieldhand.errors import ProblemError
 from fieldhand.orienteering.order import Floats, Ints, improve, shortest_order
 from fieldhand.orienteering.problem import Problem
 from fieldhand.orienteering.route import Route
@@ -36,6 +37,8 @@ class Search:
     """Local search on one problem, with a level for each limit that the chance of exceeding it may not pass."""
 
     def __init__(self, problem: Problem, levels: Floats) -> None:
+        if not len(problem.distances):
+            raise ProblemError("this search takes a table of distances", advice="use a policy for other problems")
         self._problem = problem
         self._levels = levels[:, None]
         self._d = problem.distances

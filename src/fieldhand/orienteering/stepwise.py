@@ -98,6 +98,7 @@ def left_of(problem: Problem, vertex: int, left: tuple[float, ...], collected: t
         after=problem.after,
         costs=problem.costs,
         plane=problem.plane,
+        labels=problem.labels,
     )
 
 

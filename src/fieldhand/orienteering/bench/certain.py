@@ -46,7 +46,7 @@ def compare(problem: Problem, seed: int, seconds: float) -> tuple[Certain, Certa
     Raises:
         ProblemError: PyVRP is not installed, or the problem is of another kind.
     """
-    if len(problem.limits) != 1 or problem.plane is not None or problem.limits[0].service is not None or problem.after:
+    if len(problem.limits) != 1 or not len(problem.distances) or problem.limits[0].service is not None or problem.after:
         raise ProblemError("the comparison takes problems with distances, one limit and no service only")
     certain = replace(problem, costs=Deterministic())
     began = time.perf_counter()

@@ -32,7 +32,7 @@ class TreeSearch:
     """
 
     def __init__(self, problem: Problem, seed: int, simulations: int = 2000) -> None:
-        if len(problem.limits) != 1 or problem.plane is not None or problem.after:
+        if len(problem.limits) != 1 or not len(problem.distances) or problem.after:
             raise ProblemError("the plain tree search takes problems with distances and one limit only")
         self._problem, self._simulations = problem, simulations
         self._state = np.array([seed], dtype=np.uint64)

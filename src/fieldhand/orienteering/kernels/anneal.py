@@ -121,14 +121,17 @@ def _best_place(
         u = here if i == -2 else (before[end] if i == -1 else near[v, i])
         if u != here and after[u] < 0:
             continue
+        there = length(ways, u, v)
         for side in range(2):
             if side == 1 and u == here:
                 continue
-            p = u if side == 0 else before[u]
             if blink > 0.0 and uniform(state) < blink:
                 continue
-            q = after[p]
-            more = length(ways, p, v) + length(ways, v, q) - length(ways, p, q)
+            p = u if side == 0 else before[u]
+            if side == 0:
+                more = there + length(ways, v, after[u]) - length(ways, u, after[u])
+            else:
+                more = length(ways, p, v) + there - length(ways, p, u)
             if more < best:
                 best, place = more, p
     return place

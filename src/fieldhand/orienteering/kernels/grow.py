@@ -91,7 +91,8 @@ def grow(
         route[i + 1] = stops[i]
         inside[stops[i]] = True
     route[count + 1] = end
-    candidates = _promising(route[: count + 2], free, inside, ways, rewards, service[0])
+    outside = free if insertions > 0 else free[:0]
+    candidates = _promising(route[: count + 2], outside, inside, ways, rewards, service[0])
     gain, place = np.empty(len(candidates)), np.empty(len(candidates), np.int64)
     for trial in range(insertions + 1):
         n = count + 2

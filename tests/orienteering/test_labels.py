@@ -1,0 +1,149 @@
+"""Hub labels: they tell the same distances as a table, and problems made with them are solved just as well."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fieldhand.errors import ProblemError
+from fieldhand.orienteering.ground import ground_of
+from fieldhand.orienteering.kernels.legs import length
+from fieldhand.orienteering.network import Network
+from fieldhand.orienteering.policy import Policy, State, left_of, solve
+from fieldhand.orienteering.problem import Limit, Problem
+from fieldhand.orienteering.route import Stop
+from fieldhand.orienteering.stepwise import decide
+from fieldhand.orienteering.trials import drive
+
+seeds = st.integers(0, 10_000)
+
+
+def sparse(nodes, seed, ways=1.3):
+    """Ways at random: some of length 0, some twice, some from a node to itself; often in several parts."""
+    rng = np.random.default_rng(seed)
+    pairs = rng.integers(0, nodes, (int(ways * nodes) + 1, 2))
+    lengths = rng.random(len(pairs)) * (rng.random(len(pairs)) > 0.15)
+    twice = rng.integers(0, len(pairs), 3)
+    return Network(
+        nodes=nodes, ways=np.concatenate([pairs, pairs[twice, ::-1]]), lengths=np.append(lengths, rng.random(3))
+    )
+
+
+def grid(side, seed=0):
+    """A square grid of roads, each a little longer than 1."""
+    at = np.arange(side * side).reshape(side, side)
+    ways = np.concatenate(
+        [np.stack([at[:, :-1], at[:, 1:]], -1).reshape(-1, 2), np.stack([at[:-1], at[1:]], -1).reshape(-1, 2)]
+    )
+    return Network(nodes=side * side, ways=ways, lengths=1.0 + 0.2 * np.random.default_rng(seed).random(len(ways)))
+
+
+def both(network, rewards, start, end, *limits):
+    """The same problem by a table and by labels."""
+    return [network.problem(rewards, start, end, limits, lengths=form)[0] for form in ("table", "labels")]
+
+
+@given(nodes=st.integers(2, 60), seed=seeds, ways=st.floats(0.5, 2.5))
+@settings(max_examples=40, deadline=None)
+def test_lengths_from_labels_are_those_of_dijkstra(nodes, seed, ways):
+    network = sparse(nodes, seed, ways)
+    chosen = np.random.default_rng(seed).permutation(nodes)[: nodes // 2 + 1]
+    labels, table = network.labels(chosen), network.distances(chosen)
+    found = np.array([[labels.length(u, v) for v in range(len(chosen))] for u in range(len(chosen))])
+    assert np.isinf(found).tolist() == np.isinf(table).tolist()
+    assert found[np.isfinite(table)] == pytest.approx(table[np.isfinite(table)], abs=1e-9)
+
+
+@given(seed=seeds, start=st.integers(0, 29))
+@settings(max_examples=15, deadline=None)
+def test_loops_and_problem_see_the_same_lengths_in_a_table_and_in_labels(seed, start):
+    table, labels = both(sparse(30, seed), np.ones(30), start, start, Limit(budget=1.0))
+    first, second = ground_of(table), ground_of(labels)
+    for u in range(31):
+        assert second.row(u) == pytest.approx(first.row(u), abs=1e-9)
+        for v in range(31):
+            assert length(second.ways, u, v) == pytest.approx(length(first.ways, u, v), abs=1e-9)
+    assert labels.length(3, 17) == pytest.approx(table.length(3, 17), abs=1e-9)
+
+
+@given(seed=seeds)
+@settings(max_examples=15, deadline=None)
+def test_neighbours_are_the_nearest_along_the_ways(seed):
+    network = sparse(60, seed, 2.0)
+    table, labels = network.distances(range(60)), network.labels(range(60))
+    np.fill_diagonal(table, np.inf)
+    for v in range(60):
+        near = [u for u in labels.near[v] if u != v]
+        nearest = np.sort(table[v][np.isfinite(table[v])])[: labels.near.shape[1]]
+        assert table[v][near] == pytest.approx(nearest, abs=1e-9)
+        assert len(set(near)) == len(near)
+
+
+@given(seed=st.integers(0, 500))
+@settings(max_examples=5, deadline=None)
+def test_routes_and_missions_are_as_valid_and_as_good_as_with_a_table(seed):
+    rewards = np.random.default_rng(seed).random(49)
+    rewards[::3] = 0.0
+    table, labels = both(grid(7, seed), rewards, 0, 48, Limit(budget=26.0))
+    routes = [solve(problem, seed, Stop(rounds=3000)) for problem in (table, labels)]
+    assert routes[1].reward >= 0.97 * routes[0].reward
+    assert routes[1].chances[0] <= 0.1 + 1e-9
+    legs = sum(table.distances[a, b] for a, b in pairwise(routes[1].vertices))
+    assert routes[1].length == pytest.approx(legs)
+    made = drive(labels, Policy(labels, seed).next, np.random.default_rng(seed))
+    assert (made.path[0], made.path[-1]) == (labels.start, labels.end)
+    assert len(set(made.path)) == len(made.path)
+    assert drive(labels, Policy(labels, seed).next, np.random.default_rng(seed)) == made
+
+
+def test_what_is_left_of_a_problem_keeps_its_labels():
+    labels = both(grid(5), np.ones(25), 0, 24, Limit(budget=14.0))[1]
+    policy = Policy(labels, 0)
+    first = policy.next(State(vertex=0, left=(14.0,)))
+    rest = left_of(labels, first, (12.0,), (first, 0))
+    assert rest.labels is labels.labels
+    assert Policy(rest, 0, price=policy.price).next(State(vertex=first, left=(12.0,))) not in (0, first)
+
+
+def test_many_vertices_are_kept_in_labels_and_few_in_a_table():
+    limits = (Limit(budget=100.0),)
+    few, many = (grid(side).problem(np.ones(side**2), 0, 0, limits)[0] for side in (10, 40))
+    assert (few.labels, many.distances.size) == (None, 0)
+    assert many.labels.nbytes < 0.2 * 8 * many.size**2
+
+
+def test_an_end_without_a_way_to_it_is_refused():
+    network = Network(nodes=4, ways=np.array([[0, 1], [2, 3]]), lengths=np.ones(2))
+    for form in ("table", "labels"):
+        with pytest.raises(ProblemError, match="no way"):
+            network.problem(np.ones(4), 0, 3, (Limit(budget=9.0),), lengths=form)
+
+
+@pytest.mark.parametrize("form", ["table", "labels"])
+def test_what_cannot_be_reached_is_never_visited(form):
+    near, far = grid(4), grid(5, 1)
+    apart = Network(
+        nodes=41, ways=np.concatenate([near.ways, far.ways + 16]), lengths=np.append(near.lengths, far.lengths)
+    )
+    given_, nodes = apart.problem(np.r_[np.ones(16), np.full(25, 9.0)], 0, 15, (Limit(budget=30.0),), lengths=form)
+    made = drive(given_, Policy(given_, 0).next, np.random.default_rng(0))
+    for way in (solve(given_, 0, Stop(rounds=500)).vertices, made.path):
+        assert max(nodes[v] for v in way) < 16
+        assert len(way) > 8
+
+
+def test_labels_that_do_not_belong_to_a_problem_are_refused():
+    labels = grid(3).labels(range(9))
+    values = {"start": 0, "end": 1, "limits": (Limit(budget=9.0),)}
+    with pytest.raises(ProblemError, match="labels of 9"):
+        Problem(labels=labels, rewards=np.ones(8), **values)
+    with pytest.raises(ProblemError, match="more than one way"):
+        Problem(labels=labels, plane=np.zeros((9, 2)), rewards=np.ones(9), **values)
+
+
+def test_a_search_over_a_table_says_that_it_needs_one():
+    labels = both(grid(3), np.ones(9), 0, 8, Limit(budget=9.0))[1]
+    with pytest.raises(ProblemError, match="table"):
+        decide(labels, (0.1,), np.random.default_rng(0))
