@@ -78,6 +78,7 @@ class Lookout:
         free: Whether each vertex may still be visited, shape (n,).
         depth: How much to search.
         state: Of the random numbers.
+        most: Stops that may still be visited; None for any number.
     """
 
     def __init__(
@@ -88,7 +89,9 @@ class Lookout:
         free: NDArray[np.bool_],
         depth: Depth,
         state: NDArray[np.uint64],
+        most: int | None = None,
     ) -> None:
+        self._most = ground.size if most is None else most
         self._ground, self._here, self._depth, self._state = ground, here, depth, state
         self._left = np.array(left, dtype=np.float64)
         # The programme runs over what is left of the limit with least; the others come in by what they ask of it.
@@ -102,14 +105,14 @@ class Lookout:
         """Stops of a fixed route that exceeds no limit more often than ``level``, found from ``warm``."""
         tables = np.tile(table_of(level), (len(self._budgets), 1))
         stops = stops_of(warm, self.free)
-        found = Annealing(self._ground, self._here, self.free, self._left, tables, stops, self._state)
+        found = Annealing(self._ground, self._here, self.free, self._left, tables, stops, self._state, self._most)
         found.improve(rounds, WARM if len(stops) else HOT)
         return found.best
 
     def order(self, stops: Ints, bonus: float, insertions: int) -> Order:
         """An order after it has gained up to ``insertions`` stops."""
         ground, depth = self._ground, self._depth
-        longest = max(len(stops), LONG)
+        longest = min(max(len(stops), LONG), self._most)
         grown, figures = np.empty(longest + 2, np.int64), np.empty(3)
         count = grow(
             stops, self._here, self.free, longest, insertions, ground.ways, ground.rewards,
@@ -138,7 +141,7 @@ class Lookout:
 
     def best(self, bonus: float, warm: Sequence[int]) -> Order:
         """The order worth most of those that are made of ``warm`` and of fixed routes of several levels."""
-        options = [stops_of(warm, self.free)]
+        options = [stops_of(warm, self.free)[: self._most]]
         for level in self._depth.levels:
             stops = self.route(level, options[0].tolist(), self._depth.rounds)
             if not any(np.array_equal(stops, option) for option in options):

@@ -32,6 +32,7 @@ class Annealing:
         tables: For each limit the quantiles of the cost that may not exceed its budget (:func:`quantile_table`).
         stops: The route to begin with; where it takes too much, those of its stops worth least are left out.
         state: One word, the state of the random numbers.
+        most: Stops that the route may have; None for any number.
     """
 
     def __init__(
@@ -43,6 +44,7 @@ class Annealing:
         tables: Floats,
         stops: Ints,
         state: NDArray[np.uint64],
+        most: int | None = None,
     ) -> None:
         nodes, limits = ground.size + 1, len(budgets)
         self._free = free
@@ -53,10 +55,11 @@ class Annealing:
         self._ways = ground.ways
         self._priced = (ground.rewards, ground.service)
         self._limits = (budgets, ground.cumulants, tables)
+        self._most = ground.size if most is None else min(most, ground.size)
         self._ground, self._here, self._state = ground, here, state
         begin(
             here, stops, ground.afterwards, self._after, self._before, self._sums, self._used,
-            self._ways, *self._priced, *self._limits,
+            self._ways, *self._priced, *self._limits, self._most,
         )  # fmt: skip
         self.feasible = bool(excess(self._sums, self._used, *self._limits) <= 0.0)
         if self.feasible:
@@ -92,7 +95,7 @@ class Annealing:
         worth = _WORTH / max(float(self._limits[0].max()), 1e-300)
         anneal(
             self._here, self._free, self._after, self._before, self._sums, self._used,
-            self._ways, self._ground.near, *self._priced, *self._limits,
+            self._ways, self._ground.near, *self._priced, *self._limits, self._most,
             worth, hot * (cold / hot) ** done, hot * (cold / hot) ** then, rounds, self._state,
             self._best, self._record,
         )  # fmt: skip

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fieldhand.errors import ProblemError
-from fieldhand.orienteering.problem import Limit, Problem
+from fieldhand.orienteering.problem import Limit, Problem, visits
 from fieldhand.orienteering.route import Route, Stop, solve
 from fieldhand.orienteering.stepwise import RESOLVE, SOLVE, Decision, Effort, decide, left_of
 
@@ -159,9 +159,15 @@ class Policy:
         self._last = None
         free = self._free.copy()
         free[list(state.visited)] = False
-        lookout = Lookout(self._ground, state.vertex, state.left, free, self._depth, self._state)
-        if min(state.left) <= 0.0 or not len(lookout.free):
+        most = self._problem.most
+        if most is not None:
+            most = max(0, most - visits(self._problem, state.visited))
+            free &= most > 0
+        lookout = Lookout(self._ground, state.vertex, state.left, free, self._depth, self._state, most)
+        if min(state.left) <= 0.0:
             return self._settle(state, None)
+        if not len(lookout.free):
+            return self._settle(state, lookout.order(lookout.free, 0.0, 0))
         if len(lookout.free) > LONG:
             route = lookout.route(0.5, self._warm, self._rounds(lookout))
             while seconds is not None and time.perf_counter() - began < seconds:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -49,6 +50,7 @@ class Problem:
         plane: Coordinates, shape (n, 2), in place of distances: the legs are straight, and thousands of vertices need
             no table of distances.
         labels: Of a sparse network, in place of distances (:meth:`fieldhand.orienteering.network.Network.problem`).
+        most: Vertices with a reward that may be visited at most, start and end not counted; None for as many as fit.
         after: Lengths of legs that will be driven from the end on, whatever the route is; they count for every limit.
 
     Raises:
@@ -66,6 +68,7 @@ class Problem:
     costs: CostModel | None = None
     plane: Floats | None = None
     labels: Labels | None = None
+    most: int | None = None
 
     def __post_init__(self) -> None:
         _check_graph(self)
@@ -106,6 +109,7 @@ def under_way(
     costs: CostModel | None = None,
     plane: Floats | None = None,
     labels: Labels | None = None,
+    most: int | None = None,
 ) -> Problem:
     """A problem whose mission has begun: nothing is checked, since what is left may be too small for the way home."""
     problem = object.__new__(Problem)
@@ -120,9 +124,15 @@ def under_way(
         "costs": costs,
         "plane": plane,
         "labels": labels,
+        "most": most,
     }.items():
         object.__setattr__(problem, name, value)
     return problem
+
+
+def visits(problem: Problem, vertices: Iterable[int]) -> int:
+    """How many of these vertices count against :attr:`Problem.most`."""
+    return sum(problem.rewards[v] > 0.0 for v in set(vertices) - {problem.start, problem.end})
 
 
 def _check_graph(problem: Problem) -> None:
@@ -158,6 +168,9 @@ def _check_graph(problem: Problem) -> None:
             raise ProblemError(f"the {name} is vertex {vertex}, which is none of 0 to {n - 1}")
     if not 0.0 <= problem.alpha <= 1.0:
         raise ProblemError(f"alpha is {problem.alpha:g}", advice="give a number from 0 to 1")
+    most = problem.most
+    if most is not None and not (most >= 0 and most % 1 == 0):
+        raise ProblemError(f"at most {most} visits are allowed", advice="give a whole number, 0 or more")
     if not problem.limits:
         raise ProblemError("there is no limit", advice="give a budget")
     if not all(np.isfinite(leg) and leg >= 0 for leg in problem.after):

@@ -79,7 +79,7 @@ def solve(problem: Problem, seed: int, stop: Stop | None = None) -> Route:
     state = np.array([seed], dtype=np.uint64)
     nothing = np.zeros(0, dtype=np.int64)
     vertices = np.flatnonzero(free).astype(np.int64)
-    search = Annealing(ground, problem.start, vertices, budgets, ground.tables, nothing, state)
+    search = Annealing(ground, problem.start, vertices, budgets, ground.tables, nothing, state, problem.most)
     _anneal(search, stop or Stop())
     route = described(problem, search.best.tolist())
     if search.reward < 0.0:

@@ -37,8 +37,10 @@ class Search:
     """Local search on one problem, with a level for each limit that the chance of exceeding it may not pass."""
 
     def __init__(self, problem: Problem, levels: Floats) -> None:
-        if not len(problem.distances):
-            raise ProblemError("this search takes a table of distances", advice="use a policy for other problems")
+        if not len(problem.distances) or problem.most is not None:
+            raise ProblemError(
+                "this search takes a table of distances and any number of visits", advice="use a policy instead"
+            )
         self._problem = problem
         self._levels = levels[:, None]
         self._d = problem.distances

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fieldhand.orienteering.order import Floats, Ints
-from fieldhand.orienteering.problem import Problem, under_way
+from fieldhand.orienteering.problem import Problem, under_way, visits
 from fieldhand.orienteering.route import Route
 from fieldhand.orienteering.search import Search
 from fieldhand.orienteering.split import Split, split
@@ -86,6 +86,7 @@ def _split(problem: Problem, route: Ints, levels: Floats) -> Split | None:
 def left_of(problem: Problem, vertex: int, left: tuple[float, ...], collected: tuple[int, ...] = ()) -> Problem:
     """The problem that is left at ``vertex`` with these budgets; what was collected is worth nothing any more."""
     rewards = problem.rewards.copy()
+    most = None if problem.most is None else max(0, problem.most - visits(problem, collected))
     rewards[list(collected)] = 0.0
     limits = tuple(replace(limit, budget=budget) for limit, budget in zip(problem.limits, left, strict=True))
     return under_way(
@@ -99,6 +100,7 @@ def left_of(problem: Problem, vertex: int, left: tuple[float, ...], collected: t
         costs=problem.costs,
         plane=problem.plane,
         labels=problem.labels,
+        most=most,
     )
 
 

@@ -73,9 +73,10 @@ def unlink(
 @compiled
 def begin(
     here: int, stops: Ints, afterwards: Floats, after: Ints, before: Ints, sums: Floats, used: Floats, ways: Ways,
-    rewards: Floats, service: Floats, budgets: Floats, cumulants: Floats, quantiles: Floats,
+    rewards: Floats, service: Floats, budgets: Floats, cumulants: Floats, quantiles: Floats, most: int,
 ) -> None:  # fmt: skip
-    """Lay the route from here over ``stops`` to the end; leave out those worth least while a limit is exceeded."""
+    """Lay the route from here over ``stops`` to the end; leave out those worth least while a limit is exceeded, or
+    while there are more than ``most``."""
     end = len(rewards) - 1
     for v in range(end + 1):
         after[v] = -1
@@ -94,7 +95,7 @@ def begin(
     for v in stops:
         link(last, v, after, before, sums, used, ways, rewards, service)
         last = v
-    while sums[4] > 0.0 and excess(sums, used, budgets, cumulants, quantiles) > 0.0:
+    while sums[4] > most or (sums[4] > 0.0 and excess(sums, used, budgets, cumulants, quantiles) > 0.0):
         worst, least = -1, np.inf
         v = after[here]
         while v != end:
@@ -105,6 +106,8 @@ def begin(
             if detour > 0.0 and rewards[v] / detour < least:
                 worst, least = v, rewards[v] / detour
             v = q
+        if worst < 0 and sums[4] > most:
+            worst = before[end]
         if worst < 0:
             break
         unlink(worst, after, before, sums, used, ways, rewards, service)
@@ -217,7 +220,8 @@ def _undo(moves: Ints, steps: int, after: Ints, before: Ints) -> None:
 def anneal(
     here: int, free: Ints, after: Ints, before: Ints, sums: Floats, used: Floats,
     ways: Ways, near: Ints, rewards: Floats, service: Floats, budgets: Floats, cumulants: Floats,
-    quantiles: Floats, worth: float, hot: float, cold: float, rounds: int, state: Seeds, best: Ints, record: Floats,
+    quantiles: Floats, most: int, worth: float, hot: float, cold: float, rounds: int, state: Seeds, best: Ints,
+    record: Floats,
 ) -> int:  # fmt: skip
     """Better the route in ``after`` and ``before`` by ``rounds`` rounds.
 
@@ -228,6 +232,7 @@ def anneal(
         ways, near: Lengths, and the nearest vertices of each, nearest first.
         rewards, service, budgets: ``service`` has limits along its first axis.
         cumulants, quantiles: For :func:`needed`; ``quantiles`` has limits along its first axis.
+        most: Stops that the route may have.
         worth: What part of the best reward a unit of length counts for.
         hot, cold: Temperature of the first and of the last round, in reward.
         state: Of the random numbers.
@@ -272,6 +277,8 @@ def anneal(
         _rank(out, key, count, seed, ways, rewards, state)
         over = excess(sums, used, budgets, cumulants, quantiles)
         for i in range(count):
+            if sums[4] >= most:
+                break
             v = out[i]
             p = _best_place(v, here, end, after, before, near, ways, _BLINK, state)
             if p < 0:
