@@ -9,8 +9,9 @@ from fieldhand.orienteering.kernels.compiled import compiled
 from fieldhand.orienteering.kernels.legs import Floats, Ints, Ways, length, sort_by
 from fieldhand.orienteering.kernels.value import backward, forward, gains
 
-#: Vertices that are tried for insertion.
+#: Vertices that are tried for the first insertion, and for those after it.
 CANDIDATES = 24
+_AGAIN = 8
 
 
 @compiled
@@ -94,6 +95,7 @@ def grow(
     outside = free if insertions > 0 else free[:0]
     candidates = _promising(route[: count + 2], outside, inside, ways, rewards, service[0])
     gain, place = np.empty(len(candidates)), np.empty(len(candidates), np.int64)
+    left = len(candidates)
     for trial in range(insertions + 1):
         n = count + 2
         floors_of(route[:n], service, budgets, floors[:n])
@@ -101,10 +103,7 @@ def grow(
             route[:n], ways, rewards, service[0], ends, floors[:n], bonus, step, skip, points, weights,
             worth[:n], success[:n], ahead[:n], choice[:n],
         )  # fmt: skip
-        if trial == insertions or n >= capacity:
-            break
-        left = len(candidates) - trial
-        if left == 0:
+        if trial == insertions or n >= capacity or left == 0:
             break
         forward(route[:n], ways, service[0], step, skip, points, weights, choice[:n], mass[:n])
         gains(
@@ -115,13 +114,24 @@ def grow(
         for i in range(left):
             if gain[i] > gain[most]:
                 most = i
-        if gain[most] <= 1e-4 * rewards[candidates[most]]:
+        chosen, at = candidates[most], place[most]
+        if gain[most] <= 1e-4 * rewards[chosen]:
             break
-        for i in range(count + 1, place[most], -1):
+        for i in range(count + 1, at, -1):
             route[i + 1] = route[i]
-        route[place[most] + 1] = candidates[most]
-        candidates[most] = candidates[left - 1]
+        route[at + 1] = chosen
         count += 1
+        # What gains little now gains no more beside another stop, as a rule.
+        for i in range(left):
+            gain[i] = -gain[i]
+        sort_by(gain, candidates, left)
+        left = min(left, _AGAIN + 1)
+        at = 0
+        for i in range(left):
+            if candidates[i] != chosen:
+                candidates[at] = candidates[i]
+                at += 1
+        left = at
     for i in range(count):
         order[i] = route[i + 1]
     figures[0], figures[1] = worth[0, size - 1], success[0, size - 1]

@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from fieldhand.orienteering.kernels.compiled import compiled
-from fieldhand.orienteering.kernels.legs import Floats, Ints, Ways, length
+from fieldhand.orienteering.kernels.legs import Floats, Ints, Ways, copy, length
 
 
 @compiled
@@ -53,20 +53,36 @@ def drive(
         return
     if at >= size:
         return
-    whole = int(at)
-    part = at - whole
-    # The integral over the exponential part, exact for a function that is linear between grid points.
-    ratio = step / scale
-    stay = math.exp(-ratio)
-    mean = (1.0 - stay) / ratio
-    later, earlier = 1.0 - mean, mean - stay
+    # Exact for a function that is linear between grid points: over whole cells from point to point, then over the part
+    # of a cell to where the leg's certain cost leads.
+    whole = math.ceil(at)
+    stay, earlier, later = cell(1.0, scale / step)
+    last_stay, last_earlier, last_later = cell(whole - at, scale / step)
     was_worth, was_success = 0.0, 0.0
+    # What is left then lies below the grid's second point.
+    if whole < size:
+        to_worth[whole] = last_earlier * worth[0] + last_later * worth[min(1, size - 1)]
+        to_success[whole] = last_earlier * success[0] + last_later * success[min(1, size - 1)]
     for k in range(1, size - whole):
-        is_worth = stay * was_worth + earlier * worth[k - 1] + later * worth[k]
-        is_success = stay * was_success + earlier * success[k - 1] + later * success[k]
-        to_worth[k + whole] = (1.0 - part) * is_worth + part * was_worth
-        to_success[k + whole] = (1.0 - part) * is_success + part * was_success
-        was_worth, was_success = is_worth, is_success
+        was_worth = stay * was_worth + earlier * worth[k - 1] + later * worth[k]
+        was_success = stay * was_success + earlier * success[k - 1] + later * success[k]
+        next_worth, next_success = worth[min(k + 1, size - 1)], success[min(k + 1, size - 1)]
+        to_worth[k + whole] = last_stay * was_worth + last_earlier * worth[k] + last_later * next_worth
+        to_success[k + whole] = last_stay * was_success + last_earlier * success[k] + last_later * next_success
+
+
+@compiled
+def cell(width: float, mean: float) -> tuple[float, float, float]:
+    """The expectation over an exponential cost at ``width`` above a grid point, both in cells of the grid.
+
+    Returns:
+        Factors of the expectation at that point, of the function there, and of the function at the point after it.
+    """
+    if width <= 0.0:
+        return 1.0, 0.0, 0.0
+    stay = math.exp(-width / mean)
+    later = width - mean * (1.0 - stay)
+    return stay, 1.0 - stay - later, later
 
 
 @compiled
@@ -109,22 +125,25 @@ def gather(
     at = (service + leg * points[0]) / step
     if at >= size:
         return
-    whole = int(at)
-    part = at - whole
     for k in range(size):
         work[k] = 0.0
-    for k in range(whole + 1, size):
-        if choice[k] == chosen:
-            work[k - whole] += (1.0 - part) * mass[k]
-            work[k - whole - 1] += part * mass[k]
     if scale <= 1e-9 * step:
-        for k in range(size):
-            into[k] += work[k]
+        whole = int(at)
+        part = at - whole
+        for k in range(whole + (1 if part > 0.0 else 0), size):
+            if choice[k] == chosen:
+                into[k - whole] += (1.0 - part) * mass[k]
+                if part > 0.0:
+                    into[k - whole - 1] += part * mass[k]
         return
-    ratio = step / scale
-    stay = math.exp(-ratio)
-    mean = (1.0 - stay) / ratio
-    later, earlier = 1.0 - mean, mean - stay
+    whole = math.ceil(at)
+    stay, earlier, later = cell(1.0, scale / step)
+    last_stay, last_earlier, last_later = cell(whole - at, scale / step)
+    for k in range(whole, size):
+        if choice[k] == chosen:
+            work[k - whole] += last_stay * mass[k]
+            into[k - whole] += last_earlier * mass[k]
+            into[min(k - whole + 1, size - 1)] += last_later * mass[k]
     coming = 0.0
     for k in range(size - 1, 0, -1):
         here = work[k] + stay * coming
@@ -240,6 +259,7 @@ def gains(
     size = worth.shape[1]
     then_worth, then_success = np.empty(size), np.empty(size)
     to_worth, to_success, arrived = np.empty(size), np.empty(size), np.empty(size)
+    home_worth, home_success = np.empty(size), np.empty(size)
     here = np.empty(last)
     here[0] = bonus
     for i in range(1, last):
@@ -254,12 +274,18 @@ def gains(
         gain[c] = 0.0
         place[c] = 0
         leg_home = length(ways, v, route[last])
+        floor = -1.0
         for i in range(last):
             if there[i] < 1e-3:
                 continue
             value = here[i] + rewards[v]
-            home(ends, arrived, floors[i], step)
-            drive(worth[last], arrived, then_worth, then_success, leg_home, service[route[last]], step, points, weights)
+            if floors[i] != floor:
+                floor = floors[i]
+                work = service[route[last]]
+                home(ends, arrived, floor, step)
+                drive(worth[last], arrived, home_worth, home_success, leg_home, work, step, points, weights)
+            copy(home_worth, then_worth)
+            copy(home_success, then_success)
             if i + 1 < last:
                 leg = length(ways, v, route[i + 1])
                 work = service[route[i + 1]]
