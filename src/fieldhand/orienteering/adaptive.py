@@ -24,6 +24,10 @@ Ints = NDArray[np.int64]
 
 #: Stops in an order from which on it is driven as planned, without a programme of what to skip.
 LONG = 64
+#: Levels of the fixed routes that a mission's first order is grown from.
+_FIRST = (0.15, 0.4)
+#: Stops in an order from which on it is taken apart less often.
+_SHORT = 24
 #: How far out of reach, as legs cost on average, a vertex may be that luck may bring within it.
 _LUCK = 1.15
 
@@ -38,6 +42,7 @@ class Depth:
         insertions: Stops that the order made of each may gain.
         skip: Stops ahead that may be driven to.
         points: Of the grid of what is left.
+        remakes: How often the first order of a mission is partly taken apart and grown again.
     """
 
     levels: tuple[float, ...] = (0.4,)
@@ -45,6 +50,27 @@ class Depth:
     insertions: int = 4
     skip: int = 6
     points: int = 64
+    remakes: int = 40
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Foresight:
+    """The chance to keep to the limits after a leg, as the programme has it before the leg is driven.
+
+    Attributes:
+        limit: The programme runs over what is left of this one.
+        step: Between the points of its grid, from 0 on.
+        success: The chance at each of them, after the leg and the work at its end.
+    """
+
+    limit: int
+    step: float
+    success: Floats
+
+    def at(self, left: Floats) -> Floats:
+        """The chance where so much is left after the leg; 0 below nothing."""
+        grid = self.step * np.arange(len(self.success))
+        return np.asarray(np.interp(left, grid, self.success, left=0.0))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -96,7 +122,8 @@ class Lookout:
         self._left = np.array(left, dtype=np.float64)
         # The programme runs over what is left of the limit with least; the others come in by what they ask of it.
         by_budget = np.argsort(self._left, kind="stable")
-        self._budgets = self._left[by_budget]
+        self._binding, self._budgets = int(by_budget[0]), self._left[by_budget]
+        self._step = max(float(self._budgets[0]), 1e-300) / depth.points
         self._service = np.ascontiguousarray(ground.service[by_budget])
         self.free = self._reachable(free)
         self._ends: Floats | None = None
@@ -123,21 +150,35 @@ class Lookout:
 
     def chances(self, stops: Ints, bonus: float) -> Floats:
         """For each stop of an order, how likely a mission that only skips some of them comes to it."""
-        ground, depth, size = self._ground, self._depth, self._depth.points + 1
-        route = np.array([self._here, *stops, ground.size], dtype=np.int64)
-        step = float(self._budgets[0]) / (size - 1)
-        worth, success, ahead, mass = (np.empty((len(route), size)) for _ in range(4))
-        choice, floors = np.empty((len(route), size), np.int64), np.empty(len(route))
-        floors_of(route, self._service, self._budgets, floors)
-        backward(
-            route, ground.ways, ground.rewards, self._service[0], self.ends(), floors, bonus, step,
-            depth.skip, ground.points, ground.weights, worth, success, ahead, choice,
-        )  # fmt: skip
+        ground, step = self._ground, self._step
+        route, choice, _ = self._programme(stops, bonus)
+        mass = np.empty(choice.shape)
         forward(
-            route, ground.ways, self._service[0], step, depth.skip, ground.points, ground.weights,
-            choice, mass,
-        )  # fmt: skip
+            route, ground.ways, self._service[0], step, self._depth.skip, ground.points, ground.weights, choice, mass
+        )
         return np.asarray(mass[1:-1].sum(axis=1))
+
+    def foresight(self, order: Order, bonus: float) -> Foresight:
+        """What the programme of an order says of the leg that is driven now."""
+        success = self._programme(order.stops, bonus)[2]
+        return Foresight(limit=self._binding, step=self._step, success=success[order.first + 1])
+
+    def planned(self, bonus: float, warm: Sequence[int], rounds: int) -> Order:
+        """The order that a mission begins with: of several levels, each taken apart and grown again."""
+        orders = [self.order(self.route(level, warm, rounds), bonus, self._depth.insertions) for level in _FIRST]
+        if warm:
+            orders.append(self.order(stops_of(warm, self.free), bonus, self._depth.insertions))
+        return max((self.remade(order, bonus) for order in orders), key=lambda order: order.value(bonus))
+
+    def remade(self, order: Order, bonus: float) -> Order:
+        """The order, or a better one: a few stops are taken out, and those that gain most put in."""
+        # Programmes of long orders take long; they are made anew under way.
+        for _ in range(self._depth.remakes * _SHORT // max(_SHORT, len(order.stops))):
+            kept = self._thinned(order.stops)
+            other = self.order(kept, bonus, len(order.stops) - len(kept) + 1)
+            if other.value(bonus) > order.value(bonus):
+                order = other
+        return order
 
     def best(self, bonus: float, warm: Sequence[int]) -> Order:
         """The order worth most of those that are made of ``warm`` and of fixed routes of several levels."""
@@ -160,13 +201,37 @@ class Lookout:
         """By what is left at the end, the chance that the legs after it are within the limit."""
         if self._ends is None:
             ground, size = self._ground, self._depth.points + 1
-            step = max(float(self._budgets[0]), 1e-300) / (size - 1)
             now, then, nothing, unused = np.ones(size), np.empty(size), np.zeros(size), np.empty(size)
             for leg in reversed(ground.problem.after):
-                drive(nothing, now, unused, then, leg, 0.0, step, ground.points, ground.weights)
+                drive(nothing, now, unused, then, leg, 0.0, self._step, ground.points, ground.weights)
                 now, then = then, now
             self._ends = now
         return self._ends
+
+    def _programme(self, stops: Ints, bonus: float) -> tuple[Ints, Ints, Floats]:
+        """The route over stops; for each position on it and each amount left, what is driven to, and the success."""
+        ground, depth, size = self._ground, self._depth, self._depth.points + 1
+        route = np.array([self._here, *stops, ground.size], dtype=np.int64)
+        worth, success, ahead = (np.empty((len(route), size)) for _ in range(3))
+        choice, floors = np.empty((len(route), size), np.int64), np.empty(len(route))
+        floors_of(route, self._service, self._budgets, floors)
+        backward(
+            route, ground.ways, ground.rewards, self._service[0], self.ends(), floors, bonus, self._step,
+            depth.skip, ground.points, ground.weights, worth, success, ahead, choice,
+        )  # fmt: skip
+        return route, choice, success
+
+    def _thinned(self, stops: Ints) -> Ints:
+        """Stops without one to three of them that follow each other or lie near some free vertex."""
+        gone = 1 + int(3.0 * uniform(self._state))
+        if uniform(self._state) < 0.5:
+            first = int(uniform(self._state) * len(stops))
+            return np.delete(stops, np.arange(first, min(first + gone, len(stops))))
+        around = int(self.free[int(uniform(self._state) * len(self.free))])
+        near = [around, *self._ground.near[around].tolist()]
+        inside = set(stops.tolist())
+        out = [v for v in near if v in inside][:gone]
+        return stops[~np.isin(stops, out)]
 
     def _reachable(self, free: NDArray[np.bool_]) -> Ints:
         ground = self._ground

@@ -19,7 +19,7 @@ from fieldhand.orienteering.route import Route, Stop, solve
 from fieldhand.orienteering.stepwise import RESOLVE, SOLVE, Decision, Effort, decide, left_of
 
 if TYPE_CHECKING:
-    from fieldhand.orienteering.adaptive import Depth, Lookout, Order
+    from fieldhand.orienteering.adaptive import Depth, Foresight, Lookout, Order
     from fieldhand.orienteering.ground import Ground
 
 # What forecast and guard decide by stands in stepwise.
@@ -118,7 +118,7 @@ class Policy:
         self._free = problem.rewards > 0.0
         self._free[[problem.start, problem.end]] = False
         self._price, self._least_price = price, 0.0
-        self._collected, self._warm = collected, tuple(warm)
+        self._collected, self._warm, self._first, self._begun = collected, tuple(warm), tuple(warm), False
         self._last: tuple[Lookout, Order, float] | None = None
         self._outlook = Outlook(vertices=(), reward=0.0, success=1.0)
 
@@ -139,7 +139,10 @@ class Policy:
 
     def again(self, seed: int, price: float | None = None) -> Policy:
         """The policy for another mission through the same problem, at a price of a failure."""
-        return Policy(self._problem, seed, depth=self._depth, daring=self._daring, price=price, ground=self._ground)
+        return Policy(
+            self._problem, seed, depth=self._depth, daring=self._daring, price=price, warm=self._first,
+            ground=self._ground,
+        )  # fmt: skip
 
     def next(self, state: State, seconds: float | None = None) -> int:
         """The vertex to go to next; the problem's end when nothing more is worth it.
@@ -179,8 +182,10 @@ class Policy:
             [*(state.visited - {self._problem.start, self._problem.end}), self._problem.end]
         )
         if self._price is None:
-            self._warm = tuple(lookout.route(0.4, self._warm, self._rounds(lookout)).tolist())
             self._price = self._priced(lookout, collected)
+        elif not (self._begun or self._warm):
+            self._plan(lookout.planned(self._price + collected, (), self._rounds(lookout)))
+        self._begun = True
         order = lookout.best(self._price + collected, self._warm)
         while seconds is not None and time.perf_counter() - began < seconds:
             order = lookout.bettered(order, self._price + collected)
@@ -199,6 +204,13 @@ class Policy:
         found = lookout.chances(order.stops, bonus)[order.first :]
         return {vertex: min(1.0, float(chance)) for vertex, chance in zip(ahead, found, strict=True)}
 
+    def foresight(self) -> Foresight | None:
+        """What was foreseen of the leg to the vertex given last; None where no programme chose it."""
+        if self._last is None:
+            return None
+        lookout, order, bonus = self._last
+        return lookout.foresight(order, bonus)
+
     def _check(self, state: State) -> None:
         size, limits = self._problem.size, len(self._problem.limits)
         for vertex in (state.vertex, *state.visited):
@@ -213,7 +225,7 @@ class Policy:
         """The least price at which the best order fails no more often than the limit that binds accepts."""
         accepted = 1.0 - _AIM * min(limit.failure_probability for limit in self._problem.limits)
         price = 0.0
-        order = lookout.best(price + collected, self._warm)
+        order = lookout.planned(collected, self._warm, self._rounds(lookout))
         for _ in range(_PRICINGS):
             expected = order.worth / max(order.success, 1e-9) + collected
             self._least_price = -self._daring * expected
@@ -225,8 +237,14 @@ class Policy:
                 else:
                     low = middle
             price = high
-            order = lookout.best(price + collected, order.stops.tolist())
+            order = lookout.order(order.stops, price + collected, self._depth.insertions)
+            order = lookout.remade(order, price + collected)
+        self._plan(order)
         return price
+
+    def _plan(self, order: Order) -> None:
+        """Keep the order that the mission begins with."""
+        self._warm = self._first = tuple(order.stops.tolist())
 
     def _settle(self, state: State, order: Order | None) -> int:
         """Remember what is planned, and give its first vertex."""
@@ -241,7 +259,7 @@ class Policy:
 
     def _rounds(self, lookout: Lookout) -> int:
         """More for the first plan of a mission: all others begin with what is left of the one before."""
-        return self._depth.rounds if self._warm else 50 * self._depth.rounds + 20 * len(lookout.free)
+        return self._depth.rounds if self._warm or self._begun else 50 * self._depth.rounds + 20 * len(lookout.free)
 
     def _reward(self, vertices: Sequence[int]) -> float:
         return float(self._problem.rewards[list(vertices)].sum())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,10 +13,18 @@ from fieldhand.orienteering.policy import Policy, State
 from fieldhand.orienteering.problem import Problem
 from fieldhand.orienteering.tail import exceeding
 
-#: What a policy that is set by trials aims at, of the chance that is accepted: trials are few.
-_AIM = 0.9
-#: How the logit of the chance of failing falls with the logarithm of reward and price, and how firmly that is held.
-_SLOPE, _FIRM = -1.0, 2.0
+if TYPE_CHECKING:
+    from fieldhand.orienteering.adaptive import Foresight
+
+#: What a policy that is set by trials aims at, of the chance that is accepted: what is learnt is not exact.
+_AIM = 0.92
+#: How fast the logit of the chance of failing falls with the logarithm of reward and price, how far it may be from
+#: that, and how far its curve from a straight line.
+_SLOPE, _FIRM, _BEND = 1.0, 0.5, 0.5
+#: Prices that are tried, and the farthest step between two of them, in that logarithm.
+_TRIALS, _STEP = 8, 0.7
+#: Equally likely costs of a leg over which what was foreseen is averaged.
+_COSTS = 512
 
 Floats = NDArray[np.float64]
 
@@ -28,7 +37,9 @@ class Mission:
         path: Vertices in their order, start and end included.
         reward: Of every vertex arrived at, the end's included, as long as no limit was exceeded.
         left: Of each limit at the end; negative where it was exceeded.
-        chance: Of exceeding a limit, as it stood before the last leg.
+        chance: Of exceeding a limit, as it stood before the last leg; without the luck of the legs before, as far as
+            it was foreseen what that would mean. Its mean over missions is the chance of failing; of a single one it
+            may lie outside 0 to 1.
     """
 
     path: tuple[int, ...]
@@ -42,44 +53,57 @@ class Mission:
         return min(self.left) >= 0.0
 
 
-def drive(problem: Problem, following: Callable[[State], int], rng: np.random.Generator) -> Mission:
+def drive(
+    problem: Problem,
+    following: Callable[[State], int],
+    rng: np.random.Generator,
+    foresight: Callable[[], Foresight | None] | None = None,
+) -> Mission:
     """Drive one mission.
 
     Args:
         problem: As it stands before the mission.
         following: The vertex to go to next.
         rng: For what the legs cost.
+        foresight: What was foreseen of the leg to that vertex; asked after ``following``.
     """
-    path, visited, reward, over, chance = [problem.start], frozenset[int](), 0.0, False, 1.0
+    path, visited, reward, over, chance, luck = [problem.start], frozenset[int](), 0.0, False, 1.0, 0.0
     left = np.array([limit.budget for limit in problem.limits])
+    factors = problem.model.quantile((np.arange(_COSTS) + 0.5) / _COSTS)
     while len(path) == 1 or path[-1] != problem.end:
         vertex = following(State(vertex=path[-1], left=tuple(left.tolist()), visited=visited))
+        seen = foresight() if foresight is not None and vertex != problem.end else None
         if vertex == problem.end:
             chance = 1.0 if over else _last_chance(problem, path[-1], left)
-        left = left - problem.length(path[-1], vertex) * float(problem.model.draw(rng, 1)[0]) - _work(problem, vertex)
+        leg, work = problem.length(path[-1], vertex), _work(problem, vertex)
+        before = left - work
+        left = before - leg * float(problem.model.draw(rng, 1)[0])
+        if seen is not None:
+            # A control variate: its mean is 0, and it is high where the legs were cheap.
+            luck += float(seen.at(left[seen.limit]) - seen.at(before[seen.limit] - leg * factors).mean())
         if vertex == problem.end:
-            for leg in problem.after:
-                left = left - leg * float(problem.model.draw(rng, 1)[0])
+            for after in problem.after:
+                left = left - after * float(problem.model.draw(rng, 1)[0])
         over = over or bool((left < 0.0).any())
         if not over and vertex not in visited:
             reward += float(problem.rewards[vertex])
         visited |= {vertex}
         path.append(vertex)
-    return Mission(path=tuple(path), reward=reward, left=tuple(left.tolist()), chance=chance)
+    return Mission(path=tuple(path), reward=reward, left=tuple(left.tolist()), chance=chance + luck)
 
 
 def tried(policy: Policy, problem: Problem, seed: int, missions: int) -> Policy:
     """The policy with the price of a failure that missions of its own teach.
 
     The price a policy begins with is right for a mission that only shortens its order; this one makes it anew after
-    every leg. So missions are driven at several prices, and a logistic curve through their chances of failing says at
-    which price it is the accepted one.
+    every leg. So missions are driven at one price after another, each nearer to where they fail as often as is
+    accepted. The least price is taken that missions have been driven at and did not fail too often.
 
     Args:
         policy: As it is.
         problem: What it is a policy for.
         seed: Of the missions.
-        missions: How many; a few hundred bring the chance within a percent or two.
+        missions: How many; a few hundred bring the chance within a few thousandths.
     """
     accepted = _AIM * min(limit.failure_probability for limit in problem.limits)
     policy.next(State(vertex=problem.start, left=tuple(limit.budget for limit in problem.limits)))
@@ -91,35 +115,48 @@ def tried(policy: Policy, problem: Problem, seed: int, missions: int) -> Policy:
     def price_of(x: float) -> float:
         return max(policy.least_price, typical * (float(np.exp(x)) - 1.0))
 
-    middle, least = (float(np.log1p(p / typical)) for p in (policy.price, policy.least_price))
+    at, least = (float(np.log1p(p / typical)) for p in (policy.price, policy.least_price))
     rng = np.random.default_rng(seed)
-    at, chances = np.zeros(0), np.zeros(0)
-    for count, width in ((missions // 3, 0.7), (missions - missions // 3, 0.4)):
-        for x in np.maximum(least, middle + width * (2.0 * (np.arange(count) + 0.5) / max(count, 1) - 1.0)):
-            made = drive(problem, policy.again(int(rng.integers(2**31)), price_of(x)).next, rng)
-            at, chances = np.append(at, x), np.append(chances, made.chance)
-        if len(at):
-            middle = max(least, _crossing(at, chances, accepted))
-    return policy.again(seed, price_of(middle))
+    known: list[_Trial] = []
+    for count in np.diff(np.linspace(0, missions, _TRIALS + 1).astype(int)):
+        if count:
+            known.append(_trial(policy, problem, rng, at, price_of(at), int(count)))
+            at = max(least, _nearer(known, accepted))
+    return policy.again(seed, price_of(at))
 
 
-def _crossing(at: Floats, chances: Floats, accepted: float) -> float:
-    """Where the logistic curve through the chances comes down to the accepted one.
+@dataclass(frozen=True)
+class _Trial:
+    """At a logarithm of reward and price: the chance of failing, and its standard error."""
 
-    Few missions say little about the slope: it is held near ``_SLOPE``, which is what most problems have.
-    """
-    around = at - at.mean()
-    level, slope = float(np.log(accepted / (1.0 - accepted))), _SLOPE
-    for _ in range(30):
-        curve = 1.0 / (1.0 + np.exp(-(level + slope * around)))
-        weight = np.maximum(curve * (1.0 - curve), 1e-6)
-        gradient = np.array([(chances - curve).sum(), ((chances - curve) * around).sum() - _FIRM * (slope - _SLOPE)])
-        curvature = np.array([[weight.sum(), (weight * around).sum()], [(weight * around).sum(), 0.0]])
-        curvature[1, 1] = (weight * around**2).sum() + _FIRM
-        move = np.clip(np.linalg.solve(curvature, gradient), -0.5, 0.5)
-        level, slope = level + float(move[0]), min(-0.2, slope + float(move[1]))
-    wanted = float(np.log(accepted / (1.0 - accepted)))
-    return float(at.mean()) + float(np.clip((wanted - level) / slope, -1.5, 1.5))
+    at: float
+    chance: float
+    error: float
+
+
+def _trial(policy: Policy, problem: Problem, rng: np.random.Generator, at: float, price: float, count: int) -> _Trial:
+    chances = np.empty(count)
+    for i in range(count):
+        again = policy.again(int(rng.integers(2**31)), price)
+        chances[i] = drive(problem, again.next, rng, again.foresight).chance
+    error = float(chances.std(ddof=1)) if count > 1 else 1.0
+    return _Trial(at, float(chances.mean()), max(error, 1e-3) / np.sqrt(count))
+
+
+def _nearer(known: list[_Trial], accepted: float) -> float:
+    """Where the straight line through the logits of the chances comes down to the accepted one."""
+    at, chance, error = (np.array([getattr(trial, name) for trial in known]) for name in ("at", "chance", "error"))
+    chance = np.clip(chance, 0.1 * accepted, 1.0 - 0.1 * (1.0 - accepted))
+    logit, wanted = np.log(chance / (1.0 - chance)), float(np.log(accepted / (1.0 - accepted)))
+    # The line is only straight near the accepted chance, so what lies nearest counts most.
+    around = at - at[np.argmin(np.abs(logit - wanted))]
+    weight = 1.0 / ((error / (chance * (1.0 - chance))) ** 2 + (_BEND * around) ** 2)
+    gradient = np.array([(weight * logit).sum(), (weight * logit * around).sum() - _SLOPE / _FIRM**2])
+    curvature = np.array([[weight.sum(), (weight * around).sum()], [0.0, (weight * around**2).sum() + _FIRM**-2]])
+    curvature[1, 0] = curvature[0, 1]
+    level, slope = np.linalg.solve(curvature, gradient)
+    move = (wanted - level) / min(float(slope), -0.2)
+    return float(at[-1] - around[-1] + np.clip(move, around.min() - _STEP, around.max() + _STEP))
 
 
 def _work(problem: Problem, vertex: int) -> Floats:
