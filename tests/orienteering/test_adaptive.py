@@ -64,6 +64,18 @@ def test_an_order_is_never_worth_less_for_stops_that_it_gains(seed, bonus):
     assert len(set(after.stops.tolist())) == len(after.stops)
 
 
+@given(seed=st.integers(0, 10_000))
+@settings(max_examples=10, deadline=None)
+def test_an_order_made_again_is_worth_no_less_and_visits_nothing_twice(seed):
+    view = lookout(problem(20, seed, budget=2.0), 0, (2.0,))
+    if not len(view.free):
+        return
+    before = view.best(1.0, ())
+    after = view.remade(before, 1.0)
+    assert after.value(1.0) >= before.value(1.0)
+    assert len(set(after.stops.tolist())) == len(after.stops)
+
+
 def test_success_costs_reward():
     given_ = problem(30, 1, budget=2.0)
     bold, careful = (lookout(given_, 0, (2.0,)).best(bonus, ()) for bonus in (0.0, 50.0))

@@ -15,7 +15,7 @@ from fieldhand.orienteering.policy import Policy, State, left_of, solve
 from fieldhand.orienteering.problem import Limit, Problem
 from fieldhand.orienteering.split import Option, split
 from fieldhand.orienteering.tail import chance_over
-from fieldhand.orienteering.trials import drive, tried
+from fieldhand.orienteering.trials import drive
 from graphs import mission, problem
 
 MISSIONS = 25
@@ -125,13 +125,6 @@ def test_more_time_gives_an_order_no_worse():
     slow.next(state, seconds=0.3)
     values = [p.outlook.reward + 1.0 * p.outlook.success for p in (quick, slow)]
     assert values[1] >= values[0] - 1e-9
-
-
-def test_a_price_learnt_from_missions_brings_their_failures_to_the_accepted_chance():
-    given_ = problem(15, 4, budget=2.0)
-    policy = tried(Policy(given_, 0, daring=0.9), given_, 1, 150)
-    driven = [drive(given_, policy.again(s, policy.price).next, np.random.default_rng([s, 3])) for s in range(150)]
-    assert 0.03 < np.mean([m.chance for m in driven]) < 0.16
 
 
 def test_the_chances_of_visits_add_up_to_what_the_outlook_expects():

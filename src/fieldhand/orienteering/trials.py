@@ -16,13 +16,16 @@ from fieldhand.orienteering.tail import exceeding
 if TYPE_CHECKING:
     from fieldhand.orienteering.adaptive import Foresight
 
-#: What a policy that is set by trials aims at, of the chance that is accepted: what is learnt is not exact.
-_AIM = 0.92
+#: What a policy that is set by trials aims at, of the chance that is accepted, and by how many standard errors of
+#: what it learnt it stays below that.
+_AIM, _CARE = 0.97, 1.5
 #: How fast the logit of the chance of failing falls with the logarithm of reward and price, how far it may be from
 #: that, and how far its curve from a straight line.
-_SLOPE, _FIRM, _BEND = 1.0, 0.5, 0.5
+_SLOPE, _FIRM, _BEND = 0.6, 0.25, 0.3
 #: Prices that are tried, and the farthest step between two of them, in that logarithm.
-_TRIALS, _STEP = 8, 0.7
+_TRIALS, _STEP = 8, 0.5
+#: Standard errors below the accepted chance at which the least price needs no more missions.
+_SURE = 3.0
 #: Equally likely costs of a leg over which what was foreseen is averaged.
 _COSTS = 512
 
@@ -96,14 +99,14 @@ def tried(policy: Policy, problem: Problem, seed: int, missions: int) -> Policy:
     """The policy with the price of a failure that missions of its own teach.
 
     The price a policy begins with is right for a mission that only shortens its order; this one makes it anew after
-    every leg. So missions are driven at one price after another, each nearer to where they fail as often as is
-    accepted. The least price is taken that missions have been driven at and did not fail too often.
+    every leg. So missions are driven at one price after another, each where a line through what the ones before told
+    comes down to the accepted chance, less what is still uncertain.
 
     Args:
         policy: As it is.
         problem: What it is a policy for.
         seed: Of the missions.
-        missions: How many; a few hundred bring the chance within a few thousandths.
+        missions: At most so many; a few hundred bring the chance within some hundredths of itself.
     """
     accepted = _AIM * min(limit.failure_probability for limit in problem.limits)
     policy.next(State(vertex=problem.start, left=tuple(limit.budget for limit in problem.limits)))
@@ -121,17 +124,18 @@ def tried(policy: Policy, problem: Problem, seed: int, missions: int) -> Policy:
     for count in np.diff(np.linspace(0, missions, _TRIALS + 1).astype(int)):
         if count:
             known.append(_trial(policy, problem, rng, at, price_of(at), int(count)))
-            at = max(least, _nearer(known, accepted))
-    return policy.again(seed, price_of(at))
+            if at <= least and known[-1].chances.mean() + _SURE * _error(known)[-1] < accepted:
+                return policy.again(seed, policy.least_price)
+            at = max(least, _nearer(known, accepted, 0.0))
+    return policy.again(seed, price_of(_nearer(known, accepted, _CARE) if known else at))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Trial:
-    """At a logarithm of reward and price: the chance of failing, and its standard error."""
+    """At a logarithm of reward and price: the chance of failing in each mission."""
 
     at: float
-    chance: float
-    error: float
+    chances: Floats
 
 
 def _trial(policy: Policy, problem: Problem, rng: np.random.Generator, at: float, price: float, count: int) -> _Trial:
@@ -139,13 +143,28 @@ def _trial(policy: Policy, problem: Problem, rng: np.random.Generator, at: float
     for i in range(count):
         again = policy.again(int(rng.integers(2**31)), price)
         chances[i] = drive(problem, again.next, rng, again.foresight).chance
-    error = float(chances.std(ddof=1)) if count > 1 else 1.0
-    return _Trial(at, float(chances.mean()), max(error, 1e-3) / np.sqrt(count))
+    return _Trial(at, chances)
 
 
-def _nearer(known: list[_Trial], accepted: float) -> float:
-    """Where the straight line through the logits of the chances comes down to the accepted one."""
-    at, chance, error = (np.array([getattr(trial, name) for trial in known]) for name in ("at", "chance", "error"))
+def _error(known: list[_Trial]) -> Floats:
+    """The standard error of each mean chance. Missions spread alike at all prices; few of them rarely show how far."""
+    counts = np.array([len(trial.chances) for trial in known])
+    squares = sum(float(((trial.chances - trial.chances.mean()) ** 2).sum()) for trial in known)
+    freedom = int((counts - 1).sum())
+    spread = np.sqrt(squares / freedom) if freedom else 1.0
+    return np.asarray((spread + 1e-3) / np.sqrt(counts))
+
+
+def _nearer(known: list[_Trial], accepted: float, care: float) -> float:
+    """Where a straight line through the logits of the chances comes down to the accepted one.
+
+    Args:
+        known: What was tried.
+        accepted: The chance.
+        care: How many standard errors of the line to stay on the safe side.
+    """
+    at, chance = np.array([trial.at for trial in known]), np.array([trial.chances.mean() for trial in known])
+    error = _error(known)
     chance = np.clip(chance, 0.1 * accepted, 1.0 - 0.1 * (1.0 - accepted))
     logit, wanted = np.log(chance / (1.0 - chance)), float(np.log(accepted / (1.0 - accepted)))
     # The line is only straight near the accepted chance, so what lies nearest counts most.
@@ -154,8 +173,11 @@ def _nearer(known: list[_Trial], accepted: float) -> float:
     gradient = np.array([(weight * logit).sum(), (weight * logit * around).sum() - _SLOPE / _FIRM**2])
     curvature = np.array([[weight.sum(), (weight * around).sum()], [0.0, (weight * around**2).sum() + _FIRM**-2]])
     curvature[1, 0] = curvature[0, 1]
-    level, slope = np.linalg.solve(curvature, gradient)
-    move = (wanted - level) / min(float(slope), -0.2)
+    spread = np.linalg.inv(curvature)
+    level, slope = spread @ gradient
+    slope = min(float(slope), -0.3)
+    move = (wanted - level) / slope
+    move -= care * float(np.sqrt(np.array([1.0, move]) @ spread @ np.array([1.0, move]))) / slope
     return float(at[-1] - around[-1] + np.clip(move, around.min() - _STEP, around.max() + _STEP))
 
 
