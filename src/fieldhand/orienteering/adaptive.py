@@ -167,7 +167,7 @@ class Lookout:
         """The order that a mission begins with: of several levels, each taken apart and grown again."""
         orders = [self.order(self.route(level, warm, rounds), bonus, self._depth.insertions) for level in _FIRST]
         if warm:
-            orders.append(self.order(stops_of(warm, self.free), bonus, self._depth.insertions))
+            orders.append(self.order(stops_of(warm, self.free)[: self._most], bonus, self._depth.insertions))
         return max((self.remade(order, bonus) for order in orders), key=lambda order: order.value(bonus))
 
     def remade(self, order: Order, bonus: float) -> Order:
