@@ -41,7 +41,7 @@ __all__ = [
 
 #: The chance at which the first order is priced, of that which is accepted. A mission whose order is made anew after
 #: every leg fails more or less often than one whose order is only shortened: measured, by up to a third.
-_AIM = 0.85
+_AIM = 0.8
 _PRICINGS = 3
 _BISECTIONS = 24
 
