@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -266,10 +266,18 @@ class Policy:
 
 
 def compile_ahead() -> None:
-    """Compile the inner loops now and keep them on disk, so that no later process waits for it (some ten seconds)."""
-    x = np.linspace(0.0, 1.0, 12)
-    limits = (Limit(budget=2.0),)
-    table = Problem(distances=np.abs(x[:, None] - x), rewards=np.ones(12), start=0, end=11, limits=limits)
-    plane = Problem(plane=np.stack([x, x], axis=1), rewards=np.ones(12), start=0, end=11, limits=limits)
-    for problem in (table, plane):
-        Policy(problem, 0).next(State(vertex=0, left=(2.0,)))
+    """Compile the inner loops now and keep them on disk, so that no later process waits for it (some ten seconds).
+
+    Covers fixed routes, policies and their chances, over tables, coordinates and labels: the loops take all three.
+    """
+    from fieldhand.orienteering.network import Network
+
+    ways = np.array([[i, i + 1] for i in range(11)], dtype=np.int64)
+    chain = Network(nodes=12, ways=ways, lengths=np.full(11, 0.1))
+    problem, _ = chain.problem(np.ones(12), 0, 11, (Limit(budget=2.0),), lengths="labels")
+    problem = replace(problem, after=(0.1,))
+    solve(problem, 0, Stop(rounds=1))
+    policy = Policy(problem, 0)
+    for seconds in (None, 0.05):
+        policy.next(State(vertex=0, left=(2.0,)), seconds)
+    policy.chances()
