@@ -48,8 +48,11 @@ def standing(drives: Drives, here: Place, places: Sequence[Place]) -> tuple[Plac
 
 def reachable(drives: Drives, places: Sequence[Place]) -> tuple[tuple[Place, ...], tuple[Place, ...]]:
     """The places that can be driven to, and those that never can."""
-    open_ = tuple(p for p in places if not drives.problem(p))
-    return open_, tuple(p for p in places if p not in open_) if len(open_) < len(places) else ()
+    closed = drives.problems(places)
+    return (
+        tuple(p for p, reason in zip(places, closed, strict=True) if not reason),
+        tuple(p for p, reason in zip(places, closed, strict=True) if reason),
+    )
 
 
 def order_visits(drives: Drives, here: Place, places: Sequence[Place], home: Place | None) -> tuple[int, ...]:

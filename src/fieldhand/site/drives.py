@@ -7,7 +7,8 @@ marker beside the pond) the clearance gives way; the keep-out itself never does.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,14 +16,16 @@ import shapely
 from numpy.typing import NDArray
 
 from fieldhand.errors import DriveFault
-from fieldhand.site.driving.layout import Layout, Spot
+from fieldhand.site.driving.layout import Layout
 from fieldhand.site.driving.network import Network, network_of
 from fieldhand.site.driving.reasons import cut_off, no_stand
 from fieldhand.site.driving.sides import Visited, few_lanes, pick
+from fieldhand.site.driving.spots import Spot
 from fieldhand.site.driving.stands import Candidate, Stands
 from fieldhand.site.model import Place, Site
 
 XY = tuple[float, float]
+Key = tuple[str, str, XY, XY | None]
 
 
 @dataclass(frozen=True)
@@ -67,7 +70,8 @@ class Drives:
         self.clearance_m = clearance_m
         self._layout = Layout(site, clearance_m, standoff_m)
         self._stands = Stands(site, self._layout, clearance_m, standoff_m)
-        self._problems: dict[tuple[XY, XY | None], str] = {}
+        self._closed: dict[Key, str] = {}
+        self._problems: dict[Key, str] = {}
         self._ways: dict[tuple[XY, XY], tuple[tuple[XY, ...], float] | None] = {}
 
     # --- drives -----------------------------------------------------------------------------------------------
@@ -94,26 +98,28 @@ class Drives:
         points, length = best
         return Drive(points, length, replace(a, stand=points[0]), replace(b, stand=points[-1]))
 
-    def lengths(self, places: Sequence[Place]) -> NDArray[np.float64]:
-        """Metres of the drive between every two of the places, shape (n, n), symmetric, 0 on the diagonal.
+    def lengths(self, places: Sequence[Place], to: Sequence[Place] | None = None) -> NDArray[np.float64]:
+        """Metres of the drive from each of the places to each of those in ``to``, shape (n, m).
 
-        Between their stands; those that are still open are chosen as :meth:`stands` does.
+        Without ``to`` between every two of the places: shape (n, n), symmetric, 0 on the diagonal. Lengths are between
+        stands; those that are still open are chosen as :meth:`stands` does, for all of them together.
 
         Raises:
             DriveFault: As :meth:`between`, for any two of them.
         """
-        if len(places) == 0:
-            return np.zeros((0, 0))
-        standing = self.stands(places)
+        others = () if to is None else to
+        standing = self.stands([*places, *others])
         self._check(standing)
         xy = [p.stand or p.xy for p in standing]
+        one, two = xy[: len(places)], xy[len(places) :] if to is not None else xy
         if not self._layout.open:
-            at = np.array(xy)
-            return np.asarray(np.hypot(*(at[:, None, :] - at[None, :, :]).transpose(2, 0, 1)))
-        lengths = self._layout.lengths([self._layout.spot(p) for p in xy])
+            at, there = np.array(one).reshape(-1, 2), np.array(two).reshape(-1, 2)
+            return np.asarray(np.hypot(*(at[:, None, :] - there[None, :, :]).transpose(2, 0, 1)))
+        spots = self._layout.spots
+        lengths = self._layout.lengths(spots.at(one), None if to is None else spots.at(two))
         if np.isinf(lengths).any():
             i, j = np.argwhere(np.isinf(lengths))[0].tolist()
-            raise self._no_way(places[i], places[j])
+            raise self._no_way(places[i], (places if to is None else to)[j])
         return lengths
 
     # --- stands -----------------------------------------------------------------------------------------------
@@ -128,11 +134,11 @@ class Drives:
         if all(p.stand is not None for p in places):
             return tuple(places)
         origin = self._origin(here)
-        options = [self._stands.of(p) for p in places]
-        metres = [self._metres(p, c, origin) for p, c in zip(places, options, strict=True)]
+        options = self._stands.of_all(places)
+        metres = self._metres(places, options, origin)
         rows: dict[tuple[int, int], Visited] = {}
-        for place, candidates, away in zip(places, options, metres, strict=True):
-            key = self._row_of(place)
+        keys = [self._row_of(place, candidates) for place, candidates in zip(places, options, strict=True)]
+        for key, candidates, away in zip(keys, options, metres, strict=True):
             if key is not None:
                 lanes = [c.lane for c in candidates]
                 row = rows.setdefault(key, Visited(lanes[0], lanes[-1]))  # type: ignore[arg-type]
@@ -141,19 +147,15 @@ class Drives:
                 )
         used = frozenset(lane for p in places if p.stand is not None and (lane := self._lane_at(p.stand)) is not None)
         preferred = few_lanes(rows, used)
-        found = []
-        for place, candidates, away in zip(places, options, metres, strict=True):
-            key = self._row_of(place)
-            lane = preferred.get(key) if key is not None else None
-            found.append(replace(place, stand=pick(candidates, lane, away).xy))
-        return tuple(found)
+        return tuple(
+            replace(place, stand=pick(candidates, None if key is None else preferred.get(key), away).xy)
+            for place, key, candidates, away in zip(places, keys, options, metres, strict=True)
+        )
 
-    def _row_of(self, place: Place) -> tuple[int, int] | None:
+    @staticmethod
+    def _row_of(place: Place, candidates: Sequence[Candidate]) -> tuple[int, int] | None:
         """The body and the line of a tree whose stand is open; None for all else."""
-        if place.stand is not None:
-            return None
-        candidates = self._stands.of(place)
-        if len(candidates) < 2 or candidates[0].lane is None:
+        if place.stand is not None or len(candidates) < 2 or candidates[0].lane is None:
             return None
         body, _, line = candidates[0].lane
         return body, line
@@ -171,27 +173,36 @@ class Drives:
         able = self._able(place) or self._stands.of(place)
         return self._layout.spot(able[0].xy)
 
-    def _metres(self, place: Place, candidates: Sequence[Candidate], origin: Spot) -> list[float]:
-        """Metres in a straight line from the origin to each candidate; inf for one that cannot be driven to."""
-        if place.stand is not None:
-            return [0.0]
-        parts = self._layout.parts(origin)
-        return [
-            float(np.hypot(c.xy[0] - origin.xy[0], c.xy[1] - origin.xy[1]))
-            if not c.why_not and self._connected(self._layout.spot(c.xy), origin, parts)
-            else np.inf
-            for c in candidates
+    def _metres(
+        self, places: Sequence[Place], options: Sequence[Sequence[Candidate]], origin: Spot
+    ) -> list[list[float]]:
+        """Metres in a straight line from the origin to each candidate of each place whose stand is open; inf for one
+        that cannot be driven to."""
+        able = [
+            c
+            for place, option in zip(places, options, strict=True)
+            if place.stand is None
+            for c in option
+            if not c.why_not
         ]
-
-    def _connected(self, spot: Spot, origin: Spot, parts: frozenset[int]) -> bool:
-        if not self._layout.open or not parts.isdisjoint(self._layout.parts(spot)):
-            return True
-        return self._layout.way(spot, origin) is not None
+        linked = self._layout.linked(self._layout.spots.at([c.xy for c in able]), origin)
+        away = np.hypot(*(np.array([c.xy for c in able]).reshape(-1, 2) - origin.xy).T).tolist()
+        metres = {c.xy: m for c, m, is_linked in zip(able, away, linked, strict=True) if is_linked}
+        return [
+            [0.0 if place.stand is not None else math.inf if c.why_not else metres.get(c.xy, math.inf) for c in option]
+            for place, option in zip(places, options, strict=True)
+        ]
 
     def _able(self, place: Place) -> list[Candidate]:
         """The candidates for a place's stand at which the robot can be."""
-        able = [c for c in self._stands.of(place) if not c.why_not]
-        return [c for c in able if self._layout.is_free(c.xy)]
+        return self._able_of((place,))[0]
+
+    def _able_of(self, places: Sequence[Place]) -> list[list[Candidate]]:
+        """For each place the candidates for its stand at which the robot can be."""
+        options = self._stands.of_all(places)
+        able = [c.xy for option in options for c in option if not c.why_not]
+        free = iter(self._layout.are_free(np.array(able).reshape(-1, 2)).tolist())
+        return [[c for c in option if not c.why_not and next(free)] for option in options]
 
     def network(self) -> Network:
         """Aisles, headlands, gates and the links between them, as lines."""
@@ -206,36 +217,52 @@ class Drives:
         robot is 0.67 m", "out of reach: no way out of its aisle: keep-out 'pond' closes one end and the boundary the
         other", "cut off from where the robot starts".
         """
-        key = (place.xy, place.stand)
-        if key not in self._problems:
-            self._problems[key] = self._impossible(place) or self._cut_off(place)
-        return self._problems[key]
+        return self.problems((place,))[0]
 
-    def _impossible(self, place: Place) -> str:
-        """Why a robot can never be at a place, wherever it comes from."""
-        for zone in self.site.zones_of("keep_out"):
-            if shapely.contains_xy(zone.polygon, place.x, place.y):
-                return f"inside the keep-out {zone.name!r}"
-        boundaries = self.site.zones_of("boundary")
-        if boundaries and not any(shapely.intersects_xy(z.polygon, place.x, place.y) for z in boundaries):
-            return "outside the boundary"
-        if self._able(place):
-            return ""
+    def problems(self, places: Sequence[Place]) -> tuple[str, ...]:
+        """:meth:`problem` of each of the places; much faster than one by one."""
+        new = list({_key(p): p for p in places if _key(p) not in self._problems}.values())
+        if new:
+            reasons = self._impossible(new)
+            possible = [p for p, reason in zip(new, reasons, strict=True) if not reason]
+            cut = iter(self._cut_off(possible))
+            self._problems.update((_key(p), reason or next(cut)) for p, reason in zip(new, reasons, strict=True))
+        return tuple(self._problems[_key(p)] for p in places)
+
+    def _impossible(self, places: Sequence[Place]) -> list[str]:
+        """Why a robot can never be at each of the places, wherever it comes from; remembered."""
+        new = list({_key(p): p for p in places if _key(p) not in self._closed}.values())
+        if new:
+            at = np.array([p.xy for p in new])
+            outside = np.full(len(new), bool(boundaries := self.site.zones_of("boundary")))
+            for zone in boundaries:
+                outside &= ~shapely.intersects_xy(zone.polygon, at[:, 0], at[:, 1])
+            reasons = ["outside the boundary" if out else "" for out in outside.tolist()]
+            for zone in reversed(self.site.zones_of("keep_out")):
+                for k in np.flatnonzero(shapely.contains_xy(zone.polygon, at[:, 0], at[:, 1])).tolist():
+                    reasons[k] = f"inside the keep-out {zone.name!r}"
+            for place, reason, able in zip(new, reasons, self._able_of(new), strict=True):
+                self._closed[_key(place)] = reason or ("" if able else self._no_stand(place))
+        return [self._closed[_key(p)] for p in places]
+
+    def _no_stand(self, place: Place) -> str:
         candidates = self._stands.of(place)
         if candidates[0].why_not:
             return no_stand(candidates, 2.0 * self.clearance_m)
         return f"out of reach: {self._layout.in_the_way(candidates[0].xy) or 'a fence'} is there"
 
-    def _cut_off(self, place: Place) -> str:
-        """Why no way leads to a place from where the robot starts."""
-        if not self._layout.open or self._impossible(self.site.start):
-            return ""
+    def _cut_off(self, places: Sequence[Place]) -> list[str]:
+        """Why no way leads to each of the places from where the robot starts."""
+        if not self._layout.open or self._impossible((self.site.start,))[0]:
+            return [""] * len(places)
         start = self._origin(None)
-        parts = self._layout.parts(start)
-        spots = [self._layout.spot(c.xy) for c in self._able(place)]
-        if any(self._connected(spot, start, parts) for spot in spots):
-            return ""
-        return cut_off(self._layout, spots, start)
+        able = self._able_of(places)
+        linked = iter(self._layout.linked(self._layout.spots.at([c.xy for cs in able for c in cs]), start))
+        reached = [any([next(linked) for _ in candidates]) for candidates in able]  # noqa: C419 - each has its turn
+        return [
+            "" if reach else cut_off(self._layout, self._layout.spots.at([c.xy for c in candidates]), start)
+            for reach, candidates in zip(reached, able, strict=True)
+        ]
 
     def _way(self, one: XY, two: XY) -> tuple[tuple[XY, ...], float] | None:
         key = (min(one, two), max(one, two))
@@ -255,9 +282,8 @@ class Drives:
         steps = np.diff(np.array(points), axis=0)
         return points, float(np.hypot(steps[:, 0], steps[:, 1]).sum())
 
-    def _check(self, places: Iterable[Place]) -> None:
-        for place in places:
-            reason = self._impossible(place)
+    def _check(self, places: Sequence[Place]) -> None:
+        for place, reason in zip(places, self._impossible(places), strict=True):
             if reason:
                 raise DriveFault(
                     f"{_called(place)} is {reason}",
@@ -266,12 +292,16 @@ class Drives:
                 )
 
     def _no_way(self, a: Place, b: Place) -> DriveFault:
-        why = next((f": {_called(p)} is {reason}" for p in (b, a) if (reason := self._cut_off(p))), "")
+        why = next((f": {_called(p)} is {reason}" for p in (b, a) if (reason := self._cut_off((p,))[0])), "")
         return DriveFault(
             f"there is no way from {_called(a)} to {_called(b)} for a robot {2 * self.clearance_m:g} m wide{why}",
             where=self.site.name,
             advice="keep-outs, rows or the boundary close it off; choose other places",
         )
+
+
+def _key(place: Place) -> Key:
+    return place.kind, place.id, place.xy, place.stand
 
 
 def _called(place: Place) -> str:

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
 from fieldhand.site.driving.bodies import Body
-from fieldhand.site.driving.free import Free, with_edge
+from fieldhand.site.driving.free import Area, Free
 from fieldhand.site.driving.ground import Ground
 from fieldhand.site.driving.rowlines import Line, Points, RowLine, simplified_above
-from fieldhand.site.driving.taut import taut
+from fieldhand.site.driving.taut import taut, taut_lengths
 
 #: How a robot moves in it: along straight lines; along bent rows; around something that is in it; not at all.
 Course = Literal["straight", "bent", "obstructed", "closed"]
@@ -74,31 +74,32 @@ class Aisle:
         u = np.unique(np.concatenate([[start.min()], lu, hu, [end.max()]]))
         return u, np.interp(u, lu, lv), np.interp(u, hu, hv)
 
-    def bounds(self, u: float) -> tuple[float, float]:
-        """The least and greatest v at which the robot is clear of the rows there."""
-        return float(np.interp(u, *self.below.upper)), float(np.interp(u, *self.above.lower))
+    def bounds(self, u: Points) -> tuple[Points, Points]:
+        """The least and greatest v at which the robot is clear of the rows at each u."""
+        return np.interp(u, *self.below.upper), np.interp(u, *self.above.lower)
 
-    def width(self, u: float) -> float:
-        """Metres from row to row there."""
-        return float(np.interp(u, self.above.u, self.above.low) - np.interp(u, self.below.u, self.below.high))
+    def width(self, u: Points | float) -> Points:
+        """Metres from row to row at each u."""
+        return np.asarray(np.interp(u, self.above.u, self.above.low) - np.interp(u, self.below.u, self.below.high))
 
-    def middle(self, u: float) -> float:
-        """v halfway between the rows."""
-        return float(np.interp(u, self.above.u, self.above.low) + np.interp(u, self.below.u, self.below.high)) / 2.0
+    def middle(self, u: Points | float) -> Points:
+        """v halfway between the rows at each u."""
+        return np.asarray(
+            (np.interp(u, self.above.u, self.above.low) + np.interp(u, self.below.u, self.below.high)) / 2.0
+        )
 
     @property
     def middle_line(self) -> Points:
         """(u, v) halfway between the rows, from outline to outline, with few points; shape (n, 2)."""
-        v0, v1 = self.middle(float("-inf")), self.middle(float("inf"))
+        v0, v1 = self.middle(np.array([-np.inf, np.inf])).tolist()
         start, end = self.body.reaches(v0)[0], self.body.reaches(v1)[1]
         if self.low <= self.high:
             return np.array([[start, (self.low + self.high) / 2.0], [end, (self.low + self.high) / 2.0]])
         u = self.sides[0]
         u = np.concatenate([[start], u[(u > start) & (u < end)], [end]])
-        line = np.column_stack([u, [self.middle(at) for at in u.tolist()]])
-        return shapely.get_coordinates(
-            shapely.simplify(shapely.linestrings(line), _MIDDLE * abs(self.width(float(u[len(u) // 2]))))
-        )
+        tolerance = _MIDDLE * abs(float(self.width(u[len(u) // 2])))
+        line = shapely.linestrings(np.column_stack([u, self.middle(u)]))
+        return shapely.get_coordinates(shapely.simplify(line, tolerance))
 
     def way(self, a: Points, b: Points) -> Points | None:
         """The points of the shortest way within the aisle between two of its spots (u, v); None if there is none.
@@ -111,29 +112,47 @@ class Aisle:
             ends = self.body.frame.world(np.array([a, b])).tolist()
             points = self._ground.way((ends[0][0], ends[0][1]), (ends[1][0], ends[1][1]))
             return None if points is None else self.body.frame.local(np.array(points))
-        one, two = self._clear_of_rows(a), self._clear_of_rows(b)
-        inner = np.array([one, two]) if self._straight(one[1], two[1]) else self._taut(one, two)
+        one, two = self.clear_of_rows(np.array([a, b]))
+        straight = self._is_inside(one[1]) and self._is_inside(two[1])
+        inner = np.array([one, two]) if straight else self._taut(one, two)
         return np.vstack([a[None, :], inner, b[None, :]])
 
     def metres(self, a: Points, b: Points) -> float:
         """Of :meth:`way`; inf if there is none."""
-        if self.course == "straight" and self._straight(a[1], b[1]):
-            return math.hypot(*(a - b))
-        points = self.way(a, b)
-        return math.inf if points is None else float(np.hypot(*np.diff(points, axis=0).T).sum())
+        return float(self.metres_from(a, b[None, :])[0])
 
-    def lengths(self, spots: Points) -> Points:
-        """Metres of the ways between every two of these spots, shape (n, n); inf where there is none."""
+    def metres_from(self, a: Points, spots: Points) -> Points:
+        """Metres of the ways from one spot to each of these, shape (n,); inf where there is none."""
+        if self.course == "closed":
+            return np.full(len(spots), np.inf)
         if self.course == "obstructed":
-            return self._ground.lengths(self.body.frame.world(spots))
-        found = np.full((len(spots), len(spots)), np.inf)
-        inside = (spots[:, 1] >= self.low) & (spots[:, 1] <= self.high)
-        if self.course == "straight":
-            found[np.ix_(inside, inside)] = np.hypot(*(spots[inside, None] - spots[None, inside]).transpose(2, 0, 1))
-        for i in range(len(spots)):
-            for j in range(i):
-                if math.isinf(found[i, j]):
-                    found[i, j] = found[j, i] = self.metres(spots[i], spots[j])
+            return self._ground.lengths(self.body.frame.world(a[None, :]), self.body.frame.world(spots)).ravel()
+        one, two = self.clear_of_rows(a[None, :])[0], self.clear_of_rows(spots)
+        found = np.hypot(*(two - one).T)
+        bent = ~(self._is_inside(one[1]) & self._is_inside(two[:, 1]))
+        if bent.any():
+            found[bent] = taut_lengths(*self.sides, one, two[bent])
+        return np.asarray(found + np.abs(a[1] - one[1]) + np.abs(spots[:, 1] - two[:, 1]))
+
+    def lengths(self, rows: Points, columns: Points | None = None) -> Points:
+        """Metres of the ways from each of these spots to each of those (the same if none are given), shape (n, m);
+        inf where there is none."""
+        if self.course == "obstructed":
+            world = self.body.frame.world
+            return self._ground.lengths(world(rows), None if columns is None else world(columns))
+        same = columns is None
+        spots = rows if columns is None else columns
+        found = np.full((len(rows), len(spots)), np.inf)
+        if self.course == "closed":
+            return found
+        one, two = self._is_inside(rows[:, 1]), self._is_inside(spots[:, 1])
+        found[np.ix_(one, two)] = np.hypot(*(rows[one, None] - spots[None, two]).transpose(2, 0, 1))
+        for i in np.flatnonzero(~one | ~two.all()).tolist():
+            rest = np.flatnonzero(~two | ~one[i])
+            rest = rest[rest > i] if same else rest
+            found[i, rest] = self.metres_from(rows[i], spots[rest])
+            if same:
+                found[rest, i] = found[i, rest]
         return found
 
     def mouths(self, end: Literal[0, 1]) -> Points:
@@ -155,20 +174,20 @@ class Aisle:
         across = across[np.argsort(np.abs(across - (low + high) / 2.0), kind="stable")]
         spots = np.column_stack([np.interp(across, v_out, u_out), across])
         if self.course == "obstructed":
-            open_ = shapely.intersects_xy(self._soft_edged, *self.body.frame.world(spots).T)
+            open_ = self._soft_area.holds(self.body.frame.world(spots))
             spots = spots[open_]
         if len(spots) < 2 or np.ptp(spots[:, 0]) < _ASLANT * (high - low):
             return spots[:1]
         return np.asarray(spots[np.unique([0, int(spots[:, 1].argmin()), int(spots[:, 1].argmax())])])
 
-    def _straight(self, one: float, two: float) -> bool:
-        """Whether the robot goes straight from one of these v to the other, wherever along the aisle they are."""
-        return self.low <= min(one, two) and max(one, two) <= self.high
+    def _is_inside(self, v: Points) -> NDArray[np.bool_]:
+        """Whether the robot goes straight from and to this v, wherever along the aisle."""
+        return np.asarray((v >= self.low) & (v <= self.high))
 
-    def _clear_of_rows(self, spot: Points) -> Points:
-        """The spot itself, or the nearest straight across the aisle where the robot is clear of the rows."""
-        low, high = self.bounds(float(spot[0]))
-        return np.array([spot[0], min(max(float(spot[1]), low), high)])
+    def clear_of_rows(self, spots: Points) -> Points:
+        """The spots themselves, or the nearest straight across the aisle where the robot is clear of the rows."""
+        low, high = self.bounds(spots[:, 0])
+        return np.column_stack([spots[:, 0], np.minimum(np.maximum(spots[:, 1], low), high)])
 
     def _taut(self, a: Points, b: Points) -> Points:
         if a[0] > b[0]:
@@ -197,8 +216,8 @@ class Aisle:
         return _areas(self.corridor.intersection(self.free.soft))
 
     @cached_property
-    def _soft_edged(self) -> BaseGeometry:
-        return with_edge(self.soft)
+    def _soft_area(self) -> Area:
+        return Area(self.soft)
 
     @cached_property
     def corridor(self) -> BaseGeometry:

@@ -17,6 +17,8 @@ from shapely.ops import unary_union
 
 from fieldhand.site.model import Gate, Site, Zone
 
+Points = NDArray[np.float64]
+
 #: Half the thickness of the fence that stands where two fenced parts of a site touch.
 _FENCE_M = 0.02
 
@@ -57,36 +59,62 @@ class Free:
 
     def covers(self, shapes: BaseGeometry | NDArray[np.object_], *, soft: bool) -> NDArray[np.bool_]:
         """Which of the shapes lie on this ground."""
-        return np.atleast_1d(np.asarray(shapely.covers(self._edged(soft), np.atleast_1d(np.asarray(shapes)))))
+        return self._area(soft).covers(shapes)
 
-    def holds(self, xy: NDArray[np.float64], *, soft: bool) -> NDArray[np.bool_]:
+    def holds(self, xy: Points, *, soft: bool) -> NDArray[np.bool_]:
         """Which of the points, shape (n, 2), lie on this ground."""
-        return np.asarray(shapely.intersects_xy(self._edged(soft), xy[:, 0], xy[:, 1]))
+        return self._area(soft).holds(xy)
+
+    def sees(self, one: Points, two: Points, *, soft: bool) -> NDArray[np.bool_]:
+        """Which straight lines, from points (n, 2) to points (n, 2), lie on this ground."""
+        return self._area(soft).sees(one, two)
 
     def in_the_way(self, shape: BaseGeometry) -> str:
         """What closes a line or an area: "keep-out 'pond'" or "the boundary"; empty if nothing does."""
         for zone in self.keep_outs:
             if zone.polygon.distance(shape) < self.clearance_m * 1.001:
                 return f"keep-out {zone.name!r}"
-        return "" if shapely.covers(self._edged(soft=True), shape) else "the boundary"
+        return "" if self._area(soft=True).covers(shape)[0] else "the boundary"
 
-    def _edged(self, soft: bool) -> BaseGeometry:
-        return self._soft_edged if soft else self._hard_edged
-
-    @cached_property
-    def _soft_edged(self) -> BaseGeometry:
-        return with_edge(self.soft)
+    def _area(self, soft: bool) -> Area:
+        return self._soft if soft else self._hard
 
     @cached_property
-    def _hard_edged(self) -> BaseGeometry:
-        return with_edge(self.hard)
+    def _soft(self) -> Area:
+        return Area(self.soft)
+
+    @cached_property
+    def _hard(self) -> Area:
+        return Area(self.hard)
 
 
-def with_edge(ground: BaseGeometry) -> BaseGeometry:
-    """Ground with its edge, prepared: what only touches the edge from inside is covered whatever the rounding."""
-    edged = ground.buffer(TOUCH_M, join_style="mitre")
-    shapely.prepare(edged)
-    return edged
+class Area:
+    """Ground with its edge, to be asked many questions: what only touches the edge from inside is on it whatever the
+    rounding."""
+
+    def __init__(self, ground: BaseGeometry) -> None:
+        self.edged = ground.buffer(TOUCH_M, join_style="mitre")
+        self._edge = self.edged.boundary
+        shapely.prepare(self.edged)
+        shapely.prepare(self._edge)
+
+    def covers(self, shapes: BaseGeometry | NDArray[np.object_]) -> NDArray[np.bool_]:
+        """Which of the shapes lie on the ground."""
+        return np.atleast_1d(np.asarray(shapely.covers(self.edged, np.atleast_1d(np.asarray(shapes)))))
+
+    def holds(self, xy: Points) -> NDArray[np.bool_]:
+        """Which of the points, shape (n, 2), lie on the ground."""
+        return np.asarray(shapely.intersects_xy(self.edged, xy[:, 0], xy[:, 1]))
+
+    def sees(self, one: Points, two: Points) -> NDArray[np.bool_]:
+        """Which straight lines, from points (n, 2) to points (n, 2), lie on the ground.
+
+        Those that begin on it and do not meet its edge: a good deal faster than whether the ground covers them.
+        """
+        lines = shapely.linestrings(np.stack([one, two], axis=1))
+        clear: NDArray[np.bool_] = ~np.asarray(shapely.intersects(self._edge, lines))
+        clear[clear] = self.holds(one[clear])
+        return clear
 
 
 def free_ground(site: Site, clearance_m: float) -> Free:

@@ -17,6 +17,9 @@ Indices = NDArray[np.intp]
 #: Two doors may coincide; an edge of no length would be none.
 _SHORTEST_M = 1e-9
 
+#: Rows and columns of a table that are worked on together.
+_BLOCK = 1024
+
 
 @dataclass(frozen=True, eq=False)
 class Links:
@@ -57,11 +60,39 @@ class Graph:
         self._head, self._tail = np.divmod(ends, max(count, 1))
         self._length = length[order][first]
 
-    @cached_property
-    def parts(self) -> Indices:
-        """For each node which part of the graph it is in, counted from 0: there is no way from one part to another."""
-        matrix = csr_matrix((self._length, (self._head, self._tail)), shape=(self.count, self.count))
+    def parts(self, one: Indices, two: Indices, more: int) -> Indices:
+        """Which part of the graph each node is in, counted from 0: no way leads from one part to another.
+
+        Args:
+            one, two: Further pairs that are joined; nodes counted on from those of the graph are allowed.
+            more: How many of these there are.
+        """
+        n = self.count + more
+        ends = np.concatenate([self._head, one]), np.concatenate([self._tail, two])
+        matrix = csr_matrix((np.ones(len(ends[0])), ends), shape=(n, n))
         return np.asarray(connected_components(matrix, directed=False)[1], dtype=np.intp)
+
+    @cached_property
+    def _matrix(self) -> csr_matrix:
+        return csr_matrix((self._length, (self._head, self._tail)), shape=(self.count, self.count))
+
+    def lengths(self, rows: Sequence[Links], columns: Sequence[Links] | None = None) -> Points:
+        """Metres of the shortest ways by nodes from each of these places to each of those (the same if none are given),
+        shape (p, q); inf where there is none."""
+        if self.count == 0 or not rows:
+            return np.full((len(rows), len(rows if columns is None else columns)), np.inf)
+        nodes = np.unique(np.concatenate([a.nodes for a in rows]))
+        if len(nodes) < len(rows):  # then rather from the nodes than from the places
+            row_of = np.full(self.count, -1)
+            row_of[nodes] = np.arange(len(nodes))
+            links = [Links(row_of[a.nodes], a.metres) for a in rows]
+            metres = between(np.asarray(dijkstra(self._matrix, indices=nodes)).T, links).T
+        else:
+            metres = self.rows(rows).metres
+        found = between(np.ascontiguousarray(metres), rows if columns is None else columns)
+        if columns is None:
+            _make_symmetric(found)
+        return found
 
     def rows(self, places: Sequence[Links]) -> Rows:
         """Shortest ways from places outside the graph; inf where there is none."""
@@ -81,15 +112,30 @@ class Graph:
 def between(rows: Points, links: Sequence[Links]) -> Points:
     """Metres from each place of the rows to each place of the links by way of nodes, shape (p, q); inf: no way."""
     found = np.full((len(rows), len(links)), np.inf)
-    for width in {len(b.nodes) for b in links} - {0}:
-        which = [j for j, b in enumerate(links) if len(b.nodes) == width]
-        nodes = np.array([links[j].nodes for j in which])
-        metres = np.array([links[j].metres for j in which])
-        if width <= 4:  # all of them at once
-            found[:, which] = (rows[:, nodes] + metres).min(axis=2)
-        else:
-            for j, at, walked in zip(which, nodes, metres, strict=True):
-                found[:, j] = (rows[:, at] + walked).min(axis=1)
+    for nodes, which in _by_nodes(links).items():
+        walked = np.array([links[j].metres for j in which])
+        best = found[:, which]
+        for k, node in enumerate(nodes):
+            np.minimum(best, rows[:, node, None] + walked[:, k], out=best)
+        found[:, which] = best
+    return found
+
+
+def _make_symmetric(metres: Points) -> None:
+    """Of either direction the shorter, block by block to keep the memory small."""
+    for first in range(0, len(metres), _BLOCK):
+        for second in range(0, first + 1, _BLOCK):
+            one = metres[first : first + _BLOCK, second : second + _BLOCK]
+            two = metres[second : second + _BLOCK, first : first + _BLOCK]
+            np.minimum(one, two.T.copy(), out=one)
+            two[:] = one.T
+
+
+def _by_nodes(links: Sequence[Links]) -> dict[tuple[int, ...], list[int]]:
+    """Which places reach the same nodes."""
+    found: dict[tuple[int, ...], list[int]] = {}
+    for k, link in enumerate(links):
+        found.setdefault(tuple(link.nodes.tolist()), []).append(k)
     return found
 
 

@@ -11,20 +11,22 @@ band (a tree beside the pond) is reached over hard ground within a few clearance
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 from scipy.sparse.csgraph import dijkstra
-from shapely.geometry import MultiPolygon, Point, Polygon
+from shapely.geometry import Point
 from shapely.geometry.base import BaseGeometry
-from shapely.geometry.polygon import orient
 from shapely.ops import nearest_points
 
-from fieldhand.site.driving.free import with_edge
+from fieldhand.site.driving.access import Access, exits_of
+from fieldhand.site.driving.chords import Chords
+from fieldhand.site.driving.corners import corners_of
+from fieldhand.site.driving.free import Area
 from fieldhand.site.driving.graph import Graph, Indices, Links, Points, between, chain
 
 XY = tuple[float, float]
@@ -34,7 +36,7 @@ _LEAVE_WITHIN = 3.0
 _WIDER = (1.0, 2.0, 4.0, 8.0)
 _MOST_EXITS = 40
 
-#: Pairs of nodes that are looked at together: bounds the memory.
+#: Pairs of places and nodes that are looked at together: bounds the memory.
 _BATCH = 200_000
 
 
@@ -58,59 +60,6 @@ class Doors:
         return Doors(np.empty((0, 2)), np.empty((0, 2)), np.zeros(0, dtype=np.intp))
 
 
-@dataclass(frozen=True, eq=False)
-class Access:
-    """How one place reaches soft ground.
-
-    Attributes:
-        at: The place.
-        radius: Within this of the place a way may use hard ground; 0 for a place on soft ground.
-        exits: The place itself, then the points by which it can be left, shape (m, 2).
-        walked: Metres from the place to each exit (inf: not reached), and by which exit.
-        links: The nodes of the ground that it reaches, and by which exit.
-    """
-
-    at: Points
-    radius: float
-    exits: Points
-    walked: Points
-    walked_by: Indices
-    links: Links
-    links_by: Indices
-
-    def points_to(self, exit_: int) -> list[Points]:
-        """The points from the place to one of its exits."""
-        points = [self.exits[exit_]]
-        while exit_ > 0:
-            exit_ = int(self.walked_by[exit_])
-            points.append(self.exits[exit_])
-        return points[::-1]
-
-    def points_to_node(self, node: int) -> list[Points]:
-        """The points from the place to the exit by which it reaches this node of the ground."""
-        return self.points_to(int(self.links_by[np.flatnonzero(self.links.nodes == node)[0]]))
-
-
-@dataclass(frozen=True, eq=False)
-class Corners:
-    """Where ways can turn, shape (n, 2) each; ``vertices`` are all vertices of the ground.
-
-    Attributes:
-        before, after: The edges that meet at each corner, along the ring.
-    """
-
-    at: Points
-    before: Points
-    after: Points
-    vertices: Points
-
-    def touched(self, which: Indices, towards: Points) -> NDArray[np.bool_]:
-        """Whether a line from a corner in this direction only touches the obstacle there: a shortest way has no other
-        lines at its turns."""
-        before, after = -self.before[which], self.after[which]
-        return np.asarray(_cross(towards, before) * _cross(towards, after) >= -1e-9)
-
-
 class Ground:
     """Hard and soft ground, the corners of the soft ground and its doors, and how they see each other.
 
@@ -123,13 +72,14 @@ class Ground:
 
     def __init__(self, hard: BaseGeometry, soft: BaseGeometry, clearance_m: float, doors: Doors | None = None) -> None:
         self._clearance_m = clearance_m
-        self._soft = soft
-        self._turns = _corners(soft)
+        self._soft_ground = soft
+        self._turns = corners_of(soft)
         self._doors = doors or Doors.none()
         self.nodes = np.vstack([self._turns.at, self._doors.at])
         self.first_door = len(self._turns.at)
-        self._exits = np.vstack([self._turns.vertices, _corners(hard).at])
-        self._hard_and_edge, self._soft_and_edge = with_edge(hard), with_edge(soft)
+        self._exits = np.vstack([self._turns.vertices, corners_of(hard).at])
+        self._hard, self.soft = Area(hard), Area(soft)
+        self._chords = Chords(hard)
         self.one, self.two, self.metres = self._edges()
         self.graph = Graph(len(self.nodes), self.one, self.two, self.metres)
         self._accesses: dict[XY, Access] = {}
@@ -148,32 +98,38 @@ class Ground:
         nodes = chain(rows, 0, last)
         return [*a.points_to_node(nodes[0]), *self.nodes[nodes], *reversed(b.points_to_node(last))]
 
-    def lengths(self, xy: Points) -> Points:
-        """Metres of the shortest way between every two of these places, shape (n, n); inf where there is none."""
-        accesses = [self.access((x, y)) for x, y in xy.tolist()]
-        links = [a.links for a in accesses]
-        best = between(self.graph.rows(links).metres, links)
-        best = self.direct_lengths(accesses, np.minimum(best, best.T))
-        np.fill_diagonal(best, 0.0)
+    def lengths(self, rows: Points, columns: Points | None = None) -> Points:
+        """Metres of the shortest way from each of these places to each of those (the same if none are given), shape
+        (n, m); inf where there is none."""
+        one = self.accesses(_tuples(rows))
+        two = None if columns is None else self.accesses(_tuples(columns))
+        best = self.graph.lengths([a.links for a in one], None if two is None else [a.links for a in two])
+        self.shorten(best, one, two)
+        if columns is None:
+            np.fill_diagonal(best, 0.0)
         return best
 
-    def direct_lengths(self, accesses: Sequence[Access], best: Points) -> Points:
-        """The known lengths, and straight ways where they are shorter; shape (n, n)."""
-        owner = np.repeat(np.arange(len(accesses)), [len(a.exits) for a in accesses])
-        exits = np.vstack([a.exits for a in accesses])
-        walked = np.concatenate([a.walked for a in accesses])
-        centre = np.array([a.at for a in accesses])[owner]
-        radius = np.array([a.radius for a in accesses])[owner]
-        best = best.copy()
-        for one, two in _pairs(len(exits)):
-            length = walked[one] + walked[two] + np.hypot(*(exits[one] - exits[two]).T)
-            tried = (owner[one] != owner[two]) & (length < best[owner[one], owner[two]])
-            one, two, length = one[tried], two[tried], length[tried]
-            clear = self._clear(exits[one], exits[two], (centre[one], radius[one]), (centre[two], radius[two]))
-            i, j, length = owner[one[clear]], owner[two[clear]], length[clear]
-            np.minimum.at(best, (i, j), length)
-            np.minimum.at(best, (j, i), length)
-        return best
+    def shorten(self, best: Points, rows: Sequence[Access], columns: Sequence[Access] | None = None) -> None:
+        """Put straight ways into a table of lengths, shape (n, m), where they are shorter.
+
+        Args:
+            best: Symmetric where no columns are given, and left so.
+            rows, columns: The places of the table's rows and columns; no columns: those of the rows.
+        """
+        one = exits_of(rows)
+        two = one if columns is None else exits_of(columns)
+        for i, j in self._chords.pairs(one.at, None if columns is None else two.at):
+            row, column = one.owner[i], two.owner[j]
+            length = one.walked[i] + two.walked[j] + np.hypot(*(one.at[i] - two.at[j]).T)
+            tried = length < best[row, column]
+            if columns is None:
+                tried &= row != column
+            i, j, row, column, length = i[tried], j[tried], row[tried], column[tried], length[tried]
+            clear = self._clear(one.at[i], two.at[j], one.disks(i), two.disks(j))
+            row, column, length = row[clear], column[clear], length[clear]
+            np.minimum.at(best, (row, column), length)
+            if columns is None:
+                np.minimum.at(best, (column, row), length)
 
     def direct(self, a: Access, b: Access, below: float) -> tuple[float, list[Points]]:
         """The shortest way that turns at no node, only where the places leave and enter their band; inf if there is
@@ -195,13 +151,36 @@ class Ground:
 
     def access(self, xy: XY) -> Access:
         """How this place reaches the ground's nodes, remembered."""
-        if xy not in self._accesses:
-            at = np.array(xy)
-            if shapely.intersects_xy(self._soft_and_edge, at[0], at[1]):
-                self._accesses[xy] = self._reach(at, 0.0, at[None, :])
-            else:
-                self._accesses[xy] = self._leave(at)
-        return self._accesses[xy]
+        return self.accesses([xy])[0]
+
+    def accesses(self, places: Sequence[XY]) -> list[Access]:
+        """How each of these places reaches the ground's nodes, remembered."""
+        new = [xy for xy in dict.fromkeys(places) if xy not in self._accesses]
+        if new:
+            at = np.array(new)
+            on_soft = self.soft.holds(at)
+            self._accesses.update(zip((new[k] for k in np.flatnonzero(on_soft)), self._see(at[on_soft]), strict=True))
+            for k in np.flatnonzero(~on_soft).tolist():
+                self._accesses[new[k]] = self._leave(at[k])
+        return [self._accesses[xy] for xy in places]
+
+    def _see(self, at: Points) -> Iterator[Access]:
+        """Places on soft ground: the nodes that each sees."""
+        here = np.zeros(1), np.full(1, -1, dtype=np.intp)
+        batch = max(_BATCH // max(len(self.nodes), 1), 1)
+        for first in range(0, len(at), batch):
+            some = at[first : first + batch]
+            found = [(np.zeros(0, dtype=np.intp),) * 2, *self._chords.pairs(some, self.nodes)]
+            place, node = (np.concatenate(part) for part in zip(*found, strict=True))
+            can = self._leaves(node, some[place] - self.nodes[node])
+            place, node = place[can], node[can]
+            seen = self.soft.sees(some[place], self.nodes[node])
+            place, node = place[seen], node[seen]
+            metres = np.hypot(*(some[place] - self.nodes[node]).T)
+            ends = np.searchsorted(place, np.arange(len(some) + 1))
+            for k, (one, two) in enumerate(itertools.pairwise(ends.tolist())):
+                links = Links(node[one:two].copy(), metres[one:two].copy())
+                yield Access(some[k], 0.0, some[k : k + 1], *here, links, np.zeros(two - one, dtype=np.intp))
 
     def _edges(self) -> tuple[Indices, Indices, Points]:
         """The pairs of nodes that see each other, and the metres between them.
@@ -209,7 +188,7 @@ class Ground:
         Doors on one edge see each other along it, so that only neighbours are joined there.
         """
         found_one, found_two = [np.zeros(0, dtype=np.intp)], [np.zeros(0, dtype=np.intp)]
-        for one, two in _pairs(len(self.nodes)):
+        for one, two in self._chords.pairs(self.nodes):
             line = self.nodes[two] - self.nodes[one]
             tried = self._leaves(one, line) & self._leaves(two, -line)
             first = self.first_door
@@ -236,7 +215,9 @@ class Ground:
 
     def _leave(self, at: Points) -> Access:
         """From a place in the band: the radius is widened until some soft ground is reached."""
-        nearest = [] if self._soft.is_empty else [np.array(nearest_points(self._soft, Point(at))[0].coords[0])]
+        nearest = []
+        if not self._soft_ground.is_empty:
+            nearest = [np.array(nearest_points(self._soft_ground, Point(at))[0].coords[0])]
         distance = float(np.hypot(*(nearest[0] - at))) if nearest else 0.0
         for wider in _WIDER:
             radius = wider * (distance + _LEAVE_WITHIN * self._clearance_m)
@@ -245,7 +226,7 @@ class Ground:
             order = np.argsort(away, kind="stable")[:_MOST_EXITS]
             access = self._reach(at, radius, np.vstack([at, exits[order][away[order] <= radius]]))
             got = access.exits[np.isfinite(access.walked)]
-            if shapely.intersects_xy(self._soft_and_edge, got[:, 0], got[:, 1]).any():
+            if self.soft.holds(got).any():
                 break
         return access
 
@@ -263,12 +244,8 @@ class Ground:
             found = dijkstra(np.asarray(graph), directed=False, indices=[0], return_predecessors=True)
             walked, by = np.asarray(found[0][0]), np.asarray(found[1][0], dtype=np.intp)
         i, k = (g.ravel() for g in np.indices((m, n)))
-        clear = self._leaves(k, exits[i] - self.nodes[k])
-        if radius == 0.0:
-            clear[clear] = self._clear(exits[i[clear]], self.nodes[k[clear]])
-        else:
-            # Hard ground may bend around a corner of the soft ground, so no direction is left out here.
-            clear = self._clear(exits[i], self.nodes[k], (disk[0][: m * n], disk[1][: m * n]))
+        # Hard ground may bend around a corner of the soft ground, so no direction is left out here.
+        clear = self._clear(exits[i], self.nodes[k], (disk[0][: m * n], disk[1][: m * n]))
         length = np.where(clear, walked[i] + np.hypot(*(exits[i] - self.nodes[k]).T), np.inf).reshape(m, n)
         nearest, nearest_by = length.min(axis=0), length.argmin(axis=0)
         reached = np.flatnonzero(np.isfinite(nearest))
@@ -285,7 +262,7 @@ class Ground:
         radii) that the line begins or ends in."""
         if len(one) == 0:
             return np.zeros(0, dtype=bool)
-        clear = np.asarray(shapely.covers(self._soft_and_edge, _lines(one, two)))
+        clear = self.soft.sees(one, two)
         leave, enter = np.zeros(len(one)), np.ones(len(one))
         if near_one is not None:
             leave = _inside_until(one, two, *near_one)
@@ -296,21 +273,13 @@ class Ground:
             a, b = one[maybe], two[maybe]
             t, u = np.minimum(leave[maybe], enter[maybe]), np.maximum(leave[maybe], enter[maybe])
             all_disk = leave[maybe] >= enter[maybe]
-            middle = _lines(a + t[:, None] * (b - a), a + u[:, None] * (b - a))
-            clear[maybe] = shapely.covers(self._hard_and_edge, _lines(a, b)) & (
-                all_disk | shapely.covers(self._soft_and_edge, middle)
-            )
+            middle = a + t[:, None] * (b - a), a + u[:, None] * (b - a)
+            clear[maybe] = self._hard.sees(a, b) & (all_disk | self.soft.sees(*middle))
         return clear
 
 
-def _pairs(n: int) -> list[tuple[Indices, Indices]]:
-    """All pairs of so many things, in batches."""
-    one, two = np.triu_indices(n, k=1)
-    return [(one[k : k + _BATCH], two[k : k + _BATCH]) for k in range(0, len(one), _BATCH)]
-
-
-def _lines(one: Points, two: Points) -> NDArray[np.object_]:
-    return np.asarray(shapely.linestrings(np.stack([one, two], axis=1)))
+def _tuples(at: Points) -> list[XY]:
+    return [(x, y) for x, y in at.tolist()]
 
 
 def _inside_until(one: Points, two: Points, centre: Points, radius: Points) -> Points:
@@ -321,26 +290,3 @@ def _inside_until(one: Points, two: Points, centre: Points, radius: Points) -> P
     c = (f * f).sum(axis=1) - radius**2
     root = np.sqrt(np.maximum(b * b - a * c, 0.0))
     return np.where((radius > 0.0) & (c <= 1e-9), np.clip((root - b) / a, 0.0, 1.0), 0.0)
-
-
-def _corners(ground: BaseGeometry) -> Corners:
-    """The vertices at which a way can turn: the ground takes more than half a turn there."""
-    parts = ground.geoms if isinstance(ground, MultiPolygon) else [ground]
-    found = [np.empty((3, 0, 2))]
-    vertices = [np.empty((0, 2))]
-    for part in parts:
-        if not isinstance(part, Polygon) or part.is_empty:
-            continue
-        turned = orient(part)  # the ground on the left of every ring
-        for ring in (turned.exterior, *turned.interiors):
-            at = shapely.get_coordinates(ring)[:-1]
-            before, after = at - np.roll(at, 1, axis=0), np.roll(at, -1, axis=0) - at
-            corner = _cross(before, after) < 0.0
-            found.append(np.stack([at, before, after])[:, corner])
-            vertices.append(at)
-    at, before, after = np.concatenate(found, axis=1)
-    return Corners(at, before, after, np.vstack(vertices))
-
-
-def _cross(one: Points, two: Points) -> Points:
-    return np.asarray(one[..., 0] * two[..., 1] - one[..., 1] * two[..., 0])

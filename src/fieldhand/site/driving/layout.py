@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -13,36 +12,18 @@ import shapely
 from numpy.typing import NDArray
 from shapely.ops import unary_union
 
+from fieldhand.site.driving.access import Access
 from fieldhand.site.driving.aisles import Aisle, aisles_of
-from fieldhand.site.driving.bodies import Body, bodies_of
-from fieldhand.site.driving.free import free_ground, with_edge
-from fieldhand.site.driving.graph import Graph, Links, Points, Rows, between, chain
-from fieldhand.site.driving.ground import XY, Access, Ground
+from fieldhand.site.driving.bodies import bodies_of
+from fieldhand.site.driving.free import Area, free_ground
+from fieldhand.site.driving.graph import Graph, Indices, Points, Rows, between, chain
+from fieldhand.site.driving.ground import XY, Ground
 from fieldhand.site.driving.mouths import doors_of, mouths_of, turns_of
+from fieldhand.site.driving.spots import Spot, Spots
 from fieldhand.site.model import Site
 
 #: Spots whose ways to all nodes are kept.
 _REMEMBERED = 64
-
-
-@dataclass(frozen=True, eq=False)
-class Spot:
-    """A point of the site, with how the ways of the site are reached from it.
-
-    Attributes:
-        xy: Metres east and north.
-        aisle: In which it lies, with ``uv`` in the frame of its rows; None on open ground.
-        access: To open ground; None in an aisle.
-        spur: Metres straight from the spot to ``access.at``: beside an outer row the outline is reached first.
-        links: To the nodes of the site's graph.
-    """
-
-    xy: XY
-    links: Links
-    aisle: Aisle | None = None
-    uv: Points | None = None
-    access: Access | None = None
-    spur: float = 0.0
 
 
 class Layout:
@@ -58,58 +39,24 @@ class Layout:
         self.free = free_ground(site, clearance_m)
         self.bodies = bodies_of(site, self.free, standoff_m)
         self.aisles = aisles_of(self.bodies, self.free)
-        outlines = [b.polygon for b in self.bodies]
-        self.outlines = shapely.STRtree(outlines)
         self.open = bool(self.free.bounded or self.bodies)
-        taken = unary_union(outlines)
-        self.soft = self.free.soft.difference(taken) if outlines else self.free.soft
-        self.soft_and_edge = with_edge(self.soft)
-        hard = self.free.hard.difference(taken) if outlines else self.free.hard
-        self.mouths = mouths_of(self.aisles, self.soft_and_edge)
+        taken = unary_union([b.polygon for b in self.bodies])
+        self.soft = self.free.soft.difference(taken) if self.bodies else self.free.soft
+        hard = self.free.hard.difference(taken) if self.bodies else self.free.hard
+        open_ground = Area(self.soft)
+        self.mouths = mouths_of(self.aisles, open_ground)
         self.turns = turns_of(self.bodies, self.aisles, self.free, max(standoff_m, clearance_m))
         self.ground = Ground(hard, self.soft, clearance_m, doors_of(self.mouths))
+        self.spots = Spots(self.free, self.bodies, self.aisles, self._nodes_in, self.ground)
         self.graph = self._joined()
-        self._spots: dict[XY, Spot] = {}
+        self._parts: dict[XY, frozenset[int]] = {}
         self._remembered: dict[XY, Rows] = {}
 
     # --- where a point is -------------------------------------------------------------------------------------
 
     def spot(self, xy: XY) -> Spot:
         """Where this point lies and what it reaches, remembered."""
-        if xy not in self._spots:
-            self._spots[xy] = self._locate(xy)
-        return self._spots[xy]
-
-    def _locate(self, xy: XY) -> Spot:
-        for number in sorted(self.outlines.query(shapely.Point(xy), predicate="intersects").tolist()):
-            body = self.bodies[number]
-            uv = body.frame.local(np.array([xy]))[0]
-            k = _lines_below(body, uv)
-            if 0 < k < len(body.lines):
-                return self._in_aisle(xy, self.aisle_of(number, k - 1), uv)
-            return self._beside(xy, body, uv, low=k == 0)
-        access = self.ground.access(xy)
-        return Spot(xy, access.links, access=access)
-
-    def aisle_of(self, body: int, below: int) -> Aisle:
-        return self.aisles[self._first_aisle[body] + below]
-
-    @cached_property
-    def _first_aisle(self) -> list[int]:
-        """Position of each body's first aisle."""
-        counts = [len(b.lines) - 1 for b in self.bodies]
-        return [0, *np.cumsum(counts).tolist()]
-
-    def _in_aisle(self, xy: XY, aisle: Aisle, uv: Points) -> Spot:
-        if aisle.course == "closed" or not self._spur_is_free(aisle, uv):
-            return Spot(xy, Links.none())
-        nodes, metres = [], []
-        for node, at in self._nodes_in[aisle.number].items():
-            length = aisle.metres(uv, at)
-            if math.isfinite(length):
-                nodes.append(node)
-                metres.append(length)
-        return Spot(xy, Links(np.array(nodes, dtype=np.intp), np.array(metres)), aisle=aisle, uv=uv)
+        return self.spots.at([xy])[0]
 
     @cached_property
     def _nodes_in(self) -> list[dict[int, Points]]:
@@ -130,24 +77,6 @@ class Layout:
             for node in nodes:
                 found[node] = (*found.get(node, ()), aisle)
         return found
-
-    def _spur_is_free(self, aisle: Aisle, uv: Points) -> bool:
-        """Whether a spot near a row is not parted by a keep-out from where the robot is clear of the row."""
-        if not self.free.bounded or aisle.course == "obstructed":
-            return True
-        line = shapely.linestrings(aisle.body.frame.world(aisle.way(uv, uv)))  # type: ignore[arg-type]
-        return bool(self.free.covers(line, soft=False)[0])
-
-    def _beside(self, xy: XY, body: Body, uv: Points, *, low: bool) -> Spot:
-        """Between an outer row and the outline: straight out of the body first."""
-        u = float(uv[0])
-        foot = np.array([[u, float(np.interp(u, *(body.low_side if low else body.high_side)))]])
-        x, y = body.frame.world(foot)[0].tolist()
-        spur = float(abs(foot[0, 1] - uv[1]))
-        if not self.free.covers(shapely.linestrings([xy, (x, y)]), soft=False)[0]:
-            return Spot(xy, Links.none())
-        access = self.ground.access((x, y))
-        return Spot(xy, Links(access.links.nodes, access.links.metres + spur), access=access, spur=spur)
 
     # --- ways -------------------------------------------------------------------------------------------------
 
@@ -173,28 +102,37 @@ class Layout:
             self._remembered[spot.xy] = self.graph.rows([spot.links])
         return self._remembered[spot.xy]
 
-    def lengths(self, spots: Sequence[Spot]) -> Points:
-        """Metres of the shortest way between every two spots, shape (n, n); inf where there is none."""
-        links = [s.links for s in spots]
-        best = between(self.graph.rows(links).metres, links)
-        best = np.minimum(best, best.T)
-        open_ = [k for k, s in enumerate(spots) if s.access is not None]
-        if open_:
-            spur = np.array([spots[k].spur for k in open_])
-            both = np.ix_(open_, open_)
-            spurs = spur[:, None] + spur[None, :]
-            accesses = [spots[k].access for k in open_]
-            best[both] = self.ground.direct_lengths([a for a in accesses if a is not None], best[both] - spurs) + spurs
-        for aisle, inside in self._by_aisle(spots).items():
-            both = np.ix_(inside, inside)
-            uv = np.array([spots[k].uv for k in inside])
-            best[both] = np.minimum(best[both], self.aisles[aisle].lengths(uv))
-        np.fill_diagonal(best, 0.0)
+    def lengths(self, rows: Sequence[Spot], columns: Sequence[Spot] | None = None) -> Points:
+        """Metres of the shortest way from each of these spots to each of those (the same if none are given), shape
+        (n, m); inf where there is none."""
+        others = rows if columns is None else columns
+        self.ground.accesses([s.foot for s in (*rows, *others) if s.foot is not None])
+        best = self.graph.lengths([s.links for s in rows], None if columns is None else [s.links for s in columns])
+        one, two = ([k for k, s in enumerate(spots) if s.foot is not None] for spots in (rows, others))
+        if one and two:
+            spurs = np.array([rows[k].spur for k in one])[:, None] + np.array([others[k].spur for k in two])
+            straight = best[np.ix_(one, two)] - spurs
+            accesses = _accesses(others, two)
+            self.ground.shorten(straight, _accesses(rows, one), None if columns is None else accesses)
+            best[np.ix_(one, two)] = straight + spurs
+        places = by_aisle(others)
+        for number, inside in by_aisle(rows).items():
+            if number in places:
+                both = np.ix_(inside, places[number])
+                uv = np.array([rows[k].uv for k in inside])
+                to = None if columns is None else np.array([others[k].uv for k in places[number]])
+                best[both] = np.minimum(best[both], self.aisles[number].lengths(uv, to))
+        if columns is None:
+            np.fill_diagonal(best, 0.0)
+        else:
+            there = {s.xy: k for k, s in enumerate(columns)}
+            same = [(k, there[s.xy]) for k, s in enumerate(rows) if s.xy in there]
+            best[[k for k, _ in same], [k for _, k in same]] = 0.0
         return best
 
-    def is_free(self, xy: XY) -> bool:
-        """Whether the point is inside the boundary and outside every keep-out."""
-        return not self.free.bounded or bool(self.free.holds(np.array([xy]), soft=False)[0])
+    def are_free(self, xy: Points) -> NDArray[np.bool_]:
+        """Which of the points, shape (n, 2), are inside the boundary and outside every keep-out."""
+        return self.free.holds(xy, soft=False) if self.free.bounded else np.ones(len(xy), dtype=bool)
 
     def is_clear(self, xy: Points) -> NDArray[np.bool_]:
         """Which of the points, shape (n, 2), are clear of keep-outs and the boundary by the robot's clearance."""
@@ -204,26 +142,53 @@ class Layout:
         """What keeps a robot from standing at a point, in words; empty if nothing does."""
         return self.free.in_the_way(shapely.Point(xy)) if self.free.bounded else ""
 
-    def reaches(self, spot: Spot) -> bool:
-        """Whether anything at all can be driven to from a spot."""
-        return not self.open or bool(self.parts(spot))
+    # --- parts ------------------------------------------------------------------------------------------------
 
-    def parts(self, spot: Spot) -> frozenset[int]:
-        """To which parts of the site ways lead from a spot, as numbers: two spots that share none are cut off."""
-        found = {int(self.graph.parts[n]) for n in spot.links.nodes}
-        if not found and spot.access is not None:
+    def reach(self, spots: Sequence[Spot]) -> list[bool]:
+        """From which of these spots anything at all can be driven to."""
+        return [not self.open or bool(parts) for parts in self.parts(spots)]
+
+    def linked(self, spots: Sequence[Spot], origin: Spot) -> list[bool]:
+        """Which of these spots can be driven to from there."""
+        here = self.parts([origin])[0]
+        return [
+            not self.open or not here.isdisjoint(parts) or math.isfinite(self._direct(spot, origin, math.inf)[0])
+            for spot, parts in zip(spots, self.parts(spots), strict=True)
+        ]
+
+    def parts(self, spots: Sequence[Spot]) -> list[frozenset[int]]:
+        """To which parts of the site ways lead from each spot, as numbers: two spots that share none are cut off."""
+        new = list({s.xy: s for s in spots if s.xy not in self._parts}.values())
+        if new:
+            _, of_areas = self._numbered_parts
+            feet = np.array([s.xy if s.foot is None else s.foot for s in new])
+            inside = np.array([area.holds(feet) for area in self._areas]).reshape(-1, len(new))
+            for k, spot in enumerate(new):
+                found = of_areas[inside[:, k]].tolist() if spot.foot is not None else []
+                self._parts[spot.xy] = frozenset(found or self._parts_off(spot))
+        return [self._parts[s.xy] for s in spots]
+
+    def _parts_off(self, spot: Spot) -> list[int]:
+        """The parts that a spot reaches from where it is not on soft ground."""
+        of_nodes, of_areas = self._numbered_parts
+        found: list[int] = of_nodes[spot.links.nodes].tolist()
+        if spot.access is not None:
             exits = spot.access.exits[np.isfinite(spot.access.walked)]
-            areas = getattr(self.soft, "geoms", [self.soft])
-            near = [k for k, area in enumerate(areas) if shapely.distance(area, shapely.points(exits)).min() < 1e-6]
-            found = {-1 - k for k in near}
-        return frozenset(found)
-
-    def _by_aisle(self, spots: Sequence[Spot]) -> dict[int, list[int]]:
-        found: dict[int, list[int]] = {}
-        for k, spot in enumerate(spots):
-            if spot.aisle is not None:
-                found.setdefault(spot.aisle.number, []).append(k)
+            found += of_areas[[area.holds(exits).any() for area in self._areas]].tolist()
         return found
+
+    @cached_property
+    def _areas(self) -> list[Area]:
+        """The areas of soft ground: all of one of them is linked."""
+        return [Area(shape) for shape in getattr(self.soft, "geoms", [self.soft])]
+
+    @cached_property
+    def _numbered_parts(self) -> tuple[Indices, Indices]:
+        """For each node of the graph, and for each area of soft ground, the number of the part of the site it is in."""
+        n = self.graph.count
+        area, node = np.nonzero([a.holds(self.ground.nodes) for a in self._areas])
+        parts = self.graph.parts(node, n + area, len(self._areas))
+        return parts[:n], parts[n:]
 
     def _direct(self, a: Spot, b: Spot, below: float) -> tuple[float, Points]:
         """The shortest way by no node of the graph; inf if there is none below that many metres."""
@@ -279,18 +244,17 @@ class Layout:
         )
 
 
-def _lines_below(body: Body, uv: Points) -> int:
-    """How many of a body's lines a spot is above."""
-    first, last = 0, len(body.lines)
-    u, v = float(uv[0]), float(uv[1])
-    while first < last:
-        k = (first + last) // 2
-        line = body.lines[k]
-        if v >= float(np.interp(u, line.u, (line.low + line.high) / 2.0)):
-            first = k + 1
-        else:
-            last = k
-    return first
+def by_aisle(spots: Sequence[Spot]) -> dict[int, list[int]]:
+    """The positions of the spots in each aisle, by its number."""
+    found: dict[int, list[int]] = {}
+    for k, spot in enumerate(spots):
+        if spot.aisle is not None:
+            found.setdefault(spot.aisle.number, []).append(k)
+    return found
+
+
+def _accesses(spots: Sequence[Spot], which: Sequence[int]) -> list[Access]:
+    return [access for k in which if (access := spots[k].access) is not None]
 
 
 def _points(a: Spot, b: Spot, parts: Sequence[Points]) -> tuple[XY, ...]:

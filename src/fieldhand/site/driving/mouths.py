@@ -7,12 +7,10 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-import shapely
-from shapely.geometry.base import BaseGeometry
 
 from fieldhand.site.driving.aisles import Aisle
 from fieldhand.site.driving.bodies import Body
-from fieldhand.site.driving.free import Free
+from fieldhand.site.driving.free import Area, Free
 from fieldhand.site.driving.graph import Indices, Points
 from fieldhand.site.driving.ground import Doors
 
@@ -55,7 +53,7 @@ class Turn:
     at: Points
 
 
-def mouths_of(aisles: Sequence[Aisle], open_ground: BaseGeometry) -> list[Mouth]:
+def mouths_of(aisles: Sequence[Aisle], open_ground: Area) -> list[Mouth]:
     """The open mouths of all aisles, those of one edge one after the other."""
     found: list[Mouth] = []
     ends: tuple[End, End] = (0, 1)
@@ -65,8 +63,7 @@ def mouths_of(aisles: Sequence[Aisle], open_ground: BaseGeometry) -> list[Mouth]
                 found.extend(_mouth(aisle, end, uv) for uv in aisle.mouths(end))
     if not found:
         return []
-    at = np.array([m.at for m in found])
-    open_ = shapely.intersects_xy(open_ground, at[:, 0], at[:, 1])
+    open_ = open_ground.holds(np.array([m.at for m in found]))
     return sorted((m for m, o in zip(found, open_, strict=True) if o), key=lambda m: (m.edge, float(m.uv[1])))
 
 
@@ -80,7 +77,7 @@ def turns_of(bodies: Sequence[Body], aisles: Sequence[Aisle], free: Free, room_m
             beside = aisles[first + k - 1], aisles[first + k]
             if any(a.course == "closed" for a in beside):
                 continue
-            widths = [a.width(float(line.u[end])) for a in beside for end in (0, -1)]
+            widths = [float(a.width(line.u[end])) for a in beside for end in (0, -1)]
             off = max(min(room_m, *(width / 2.0 for width in widths)), free.clearance_m)
             for end, sign in ((0, -1.0), (-1, 1.0)):
                 v = float(line.low[end] + line.high[end]) / 2.0

@@ -106,7 +106,7 @@ def _headlands(site: Site, layout: Layout, body: Body) -> Iterator[NetworkLine]:
         side = _COMPASS[round(np.degrees(np.arctan2(east, north)) / 45.0) % 8]
         name = f"{side} headland{_of_block(site, body)}"
         line = LineString(body.frame.world(np.column_stack([u, v])))
-        for part in _pieces(line.intersection(layout.soft_and_edge)):
+        for part in _pieces(line.intersection(layout.ground.soft.edged)):
             yield _line("headland", name, part)
 
 
@@ -182,7 +182,7 @@ def _bodies_at(layout: Layout) -> Points:
     found = np.full(len(layout.ground.nodes), -1)
     if len(layout.bodies) and len(found):
         points = shapely.points(layout.ground.nodes)
-        for node, body in layout.outlines.query(points, predicate="dwithin", distance=1e-5).T.tolist():
+        for node, body in layout.spots.outlines.query(points, predicate="dwithin", distance=1e-5).T.tolist():
             found[node] = max(body, found[node])
     return found
 

@@ -8,7 +8,8 @@ from typing import Literal
 import shapely
 
 from fieldhand.site.driving.graph import Points
-from fieldhand.site.driving.layout import Layout, Spot
+from fieldhand.site.driving.layout import Layout
+from fieldhand.site.driving.spots import Spot
 from fieldhand.site.driving.stands import Candidate
 
 

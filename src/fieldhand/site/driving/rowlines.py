@@ -33,7 +33,10 @@ class Frame:
 
     def local(self, xy: Points) -> Points:
         """Metres along and across, shape (n, 2)."""
-        return np.column_stack([xy @ self.along, xy @ self.across])
+        # Term by term: a matrix product may round otherwise for one point than for many.
+        x, y = xy[:, 0], xy[:, 1]
+        (e, n), (f, m) = self.along, self.across
+        return np.column_stack([e * x + n * y, f * x + m * y])
 
     def world(self, uv: Points) -> Points:
         """Metres east and north, shape (n, 2)."""

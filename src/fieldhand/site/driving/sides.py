@@ -6,10 +6,8 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from fieldhand.site.driving.stands import Candidate
+from fieldhand.site.driving.stands import Candidate, Lane
 
-#: (body, line below, line above)
-Lane = tuple[int, int, int]
 #: What a choice takes: lanes to drive through, then metres to the stands from where the robot is.
 Cost = tuple[int, float]
 

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from fieldhand.site.driving.aisles import Aisle
 from fieldhand.site.driving.bodies import tree_lines
-from fieldhand.site.driving.graph import Points
+from fieldhand.site.driving.graph import Indices, Points
 from fieldhand.site.driving.ground import XY
 from fieldhand.site.driving.layout import Layout
 from fieldhand.site.model import Place, Site
+
+#: Stands beside one row on one side, or in one aisle, have the same: (body, line, line) of the aisle, the second line
+#: -1 or one past the last on the outer side of an outer row.
+Lane = tuple[int, int, int]
 
 #: The direction of a bent row at a tree is that between the trees so many places before and after it.
 _ALONG = 3
@@ -27,19 +32,18 @@ _NEARER = 6
 _DIRECTIONS = 16
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Candidate:
     """A stand for a tree.
 
     Attributes:
-        lane: Stands beside one row on one side, or in one aisle, have the same: (body, line, line) of the aisle, the
-            second line -1 or one past the last on the outer side of an outer row.
+        lane: In which it is; None on open ground.
         why_not: Why the robot cannot stand there; empty if it can.
         aisle_m: Width of the aisle there, where that is why.
     """
 
     xy: XY
-    lane: tuple[int, int, int] | None = None
+    lane: Lane | None = None
     why_not: str = ""
     aisle_m: float | None = None
 
@@ -58,7 +62,7 @@ class Stands:
         self._site, self._layout = site, layout
         self._clearance_m = clearance_m
         self._standoff_m = max(standoff_m, clearance_m)
-        self._found: dict[XY, tuple[Candidate, ...]] = {}
+        self._found: dict[int, tuple[Candidate, ...]] = {}
 
     def of(self, place: Place) -> tuple[Candidate, ...]:
         """One candidate for either side of a tree in a row; the place's own position for all else.
@@ -66,21 +70,32 @@ class Stands:
         Where no tree of the site stands in a row there are no aisles, and a tree's own position is its stand. A tree in
         no row on a site that has rows is approached from its most open side.
         """
-        if place.stand is not None:
-            return (Candidate(place.stand),)
-        if place.xy not in self._found:
-            self._found[place.xy] = self._candidates(place)
-        return self._found[place.xy]
+        return self.of_all((place,))[0]
 
-    def _candidates(self, place: Place) -> tuple[Candidate, ...]:
-        tree = self._site.by_id.get(place.id) if place.kind == "tree" else None
-        if tree is None or not self._layout.bodies:
-            return (Candidate(place.xy),)
-        row = int(self._site.planting.row_of[tree.index])
-        if row < 0:
-            return (self._open_side(place.xy),)
-        body, line = self._line_of[row]
-        return (self._beside(tree.index, body, line, -1), self._beside(tree.index, body, line, 1))
+    def of_all(self, places: Sequence[Place]) -> list[tuple[Candidate, ...]]:
+        """The candidates of each of these places, remembered."""
+        trees = [self._open_tree(p) for p in places]
+        new = np.array([k for k in dict.fromkeys(trees) if k is not None and k not in self._found], dtype=np.intp)
+        rows = self._site.planting.row_of[new]
+        self._found.update(zip(new[rows < 0].tolist(), self._open_sides(new[rows < 0]), strict=True))
+        for row in np.unique(rows[rows >= 0]).tolist():
+            self._find(new[rows == row], *self._line_of[row])
+        return [
+            (Candidate(p.stand or p.xy),) if tree is None else self._found[tree]
+            for p, tree in zip(places, trees, strict=True)
+        ]
+
+    def _open_tree(self, place: Place) -> int | None:
+        """The position of a tree whose stand is to be chosen; None for all else."""
+        if place.stand is not None or place.kind != "tree" or not self._layout.bodies:
+            return None
+        tree = self._site.by_id.get(place.id)
+        return None if tree is None else tree.index
+
+    def _find(self, trees: Indices, body: int, line: int) -> None:
+        """The candidates of trees of one row: those below it and those above."""
+        sides = [self._beside(trees, body, line, side) for side in (-1, 1)]
+        self._found.update(zip(trees.tolist(), zip(*sides, strict=True), strict=True))
 
     @cached_property
     def _line_of(self) -> dict[int, tuple[int, int]]:
@@ -100,85 +115,126 @@ class Stands:
     def _row_lines(self) -> shapely.STRtree:
         return tree_lines(self._site)
 
-    def _beside(self, tree: int, body: int, line: int, side: int) -> Candidate:
+    def _beside(self, trees: Indices, body: int, line: int, side: int) -> list[Candidate]:
         """On one side of a row: -1 that of lesser v."""
         within = self._layout.bodies[body]
         other = line + side
         lane = (body, min(line, other), max(line, other))
-        at = self._site.xy[tree]
         if 0 <= other < len(within.lines):
-            return self._in_aisle(at, tree, self._layout.aisle_of(body, min(line, other)), side, lane)
-        away = side * self._across(tree, body, bent=True)
+            return self._in_aisle(trees, self._layout.spots.aisle_of(body, min(line, other)), side, lane)
+        at = self._site.xy[trees]
+        away = side * self._across(trees, body, bent=True)
         room = self._free_way(at, away, {*within.lines[line].rows})
-        if room < self._clearance_m:
-            return Candidate(_xy(at), lane, "another row is too near")
-        off = min(self._standoff_m, room)
-        beside = at + np.linspace(off, self._clearance_m, _NEARER)[:, None] * away
-        clear = self._layout.is_clear(beside)
-        if not clear.any():
-            return Candidate(_xy(beside[0]), lane, self._in_the_way(beside[0]))
-        return Candidate(_xy(beside[int(np.argmax(clear))]), lane)
+        off = np.minimum(self._standoff_m, room)
+        steps = off[:, None] + np.linspace(0.0, 1.0, _NEARER) * (self._clearance_m - off)[:, None]
+        beside = at[:, None] + steps[:, :, None] * away[:, None]
+        clear = self._layout.is_clear(beside.reshape(-1, 2)).reshape(-1, _NEARER)
+        return [
+            Candidate(_xy(at[k]), lane, "another row is too near")
+            if room[k] < self._clearance_m
+            else self._stand(beside[k], clear[k], lane)
+            for k in range(len(trees))
+        ]
 
-    def _in_aisle(self, at: Points, tree: int, aisle: Aisle, side: int, lane: tuple[int, int, int]) -> Candidate:
-        frame = aisle.body.frame
-        u, v = frame.local(at[None, :])[0].tolist()
-        across = self._across(tree, lane[0], bent=aisle.low > aisle.high)
-        lean = max(float(across @ frame.across), 0.2)
-        to_middle = max(side * (aisle.middle(u) - v) / lean, 0.0)
-        xy = at + side * min(self._standoff_m, to_middle) * across
-        low, high = aisle.bounds(float(frame.local(xy[None, :])[0, 0]))
-        if low > high:
-            return Candidate(_xy(xy), lane, "the aisle is too narrow", aisle.width(u))
-        # Rows may be uneven or bent: not nearer to either of them than the robot's clearance. Where something stands in
-        # the aisle, nearer to the tree.
-        beside = np.array([xy + part * (at - xy) for part in np.linspace(0.0, 1.0, _NEARER)])
-        uv = frame.local(beside)
-        uv[:, 1] = np.clip(uv[:, 1], low, high)
-        beside = frame.world(uv)
-        clear = self._layout.is_clear(beside)
-        for stand in beside[clear]:
-            if self._layout.spot(_xy(stand)).aisle is aisle:
-                return Candidate(_xy(stand), lane)
+    def _stand(self, beside: Points, clear: NDArray[np.bool_], lane: Lane) -> Candidate:
+        """The first of these points that is clear."""
+        if clear.any():
+            return Candidate(_xy(beside[int(np.argmax(clear))]), lane)
         return Candidate(_xy(beside[0]), lane, self._in_the_way(beside[0]))
 
-    def _across(self, tree: int, body: int, *, bent: bool) -> Points:
-        """The direction across the row at a tree, towards greater v: its block's, or that of the row just there."""
-        frame = self._layout.bodies[body].frame
-        if not bent:
-            return frame.across
-        row = self._site.planting.rows[int(self._site.planting.row_of[tree])]
-        rank = int(self._site.planting.rank[tree])
-        near = self._site.xy[row.trees[[max(rank - _ALONG, 0), min(rank + _ALONG, len(row.trees) - 1)]]]
-        along = near[1] - near[0]
-        length = float(np.hypot(*along))
-        if length < 2.0 * self._clearance_m:
-            return frame.across
-        across = np.array([along[1], -along[0]]) / length
-        return across if across @ frame.across > 0.0 else -across
+    def _in_aisle(self, trees: Indices, aisle: Aisle, side: int, lane: Lane) -> list[Candidate]:
+        frame, at = aisle.body.frame, self._site.xy[trees]
+        u, v = frame.local(at).T
+        across = self._across(trees, lane[0], bent=aisle.low > aisle.high)
+        lean = np.maximum(across[:, 0] * frame.across[0] + across[:, 1] * frame.across[1], 0.2)
+        to_middle = np.maximum(side * (aisle.middle(u) - v) / lean, 0.0)
+        xy = at + side * np.minimum(self._standoff_m, to_middle)[:, None] * across
+        low, high = aisle.bounds(frame.local(xy)[:, 0])
+        # Rows may be uneven or bent: not nearer to either of them than the robot's clearance. Where something stands in
+        # the aisle, nearer to the tree.
+        beside = xy[:, None] + np.linspace(0.0, 1.0, _NEARER)[:, None] * (at - xy)[:, None]
+        uv = frame.local(beside.reshape(-1, 2))
+        uv[:, 1] = np.clip(uv[:, 1], np.repeat(low, _NEARER), np.repeat(np.maximum(low, high), _NEARER))
+        beside = frame.world(uv).reshape(-1, _NEARER, 2)
+        clear = self._layout.is_clear(beside.reshape(-1, 2)).reshape(-1, _NEARER)
+        clear[low > high] = False
+        self._keep_to(aisle, beside, clear)
+        return [
+            Candidate(_xy(xy[k]), lane, "the aisle is too narrow", float(aisle.width(u[k])))
+            if low[k] > high[k]
+            else self._stand(beside[k], clear[k], lane)
+            for k in range(len(trees))
+        ]
 
-    def _free_way(self, at: Points, away: Points, own: set[int]) -> float:
-        """How far a robot may go from a row before it is nearer to another."""
-        ray = shapely.linestrings([at, at + 2.0 * self._standoff_m * away])
-        near = [k for k in self._row_lines.query(ray, predicate="intersects").tolist() if k not in own]
-        if not near:
-            return math.inf
-        return float(shapely.distance(shapely.points(at), self._row_lines.geometries[near]).min()) / 2.0
+    def _keep_to(self, aisle: Aisle, beside: Points, clear: NDArray[np.bool_]) -> None:
+        """Strike the clear points, shape (n, m), up to the first of each tree that lies in this aisle."""
+        open_ = np.flatnonzero(clear.any(axis=1))
+        while len(open_):
+            first = clear[open_].argmax(axis=1)
+            spots = self._layout.spots.at([_xy(at) for at in beside[open_, first]])
+            elsewhere = np.array([spot.aisle is not aisle for spot in spots])
+            clear[open_[elsewhere], first[elsewhere]] = False
+            open_ = open_[elsewhere & clear[open_].any(axis=1)]
+
+    def _across(self, trees: Indices, body: int, *, bent: bool) -> Points:
+        """The direction across the row at each tree, towards greater v, shape (n, 2): its block's, or that of the row
+        just there."""
+        frame = self._layout.bodies[body].frame
+        across = np.tile(frame.across, (len(trees), 1))
+        if not bent:
+            return across
+        planting = self._site.planting
+        row = planting.rows[int(planting.row_of[trees[0]])].trees
+        rank = planting.rank[trees]
+        near = [self._site.xy[row[np.clip(rank + step, 0, len(row) - 1)]] for step in (-_ALONG, _ALONG)]
+        along = near[1] - near[0]
+        length = np.hypot(*along.T)
+        sure = length >= 2.0 * self._clearance_m
+        own = np.column_stack([along[sure, 1], -along[sure, 0]]) / length[sure, None]
+        turned = own[:, 0] * frame.across[0] + own[:, 1] * frame.across[1] > 0.0
+        across[sure] = np.where(turned[:, None], own, -own)
+        return across
+
+    def _free_way(self, at: Points, away: Points, own: set[int]) -> Points:
+        """How far a robot may go from each tree of a row before it is nearer to another."""
+        room = np.full(len(at), np.inf)
+        rays = shapely.linestrings(np.stack([at, at + 2.0 * self._standoff_m * away], axis=1))
+        tree, line = self._row_lines.query(rays, predicate="intersects")
+        other = ~np.isin(line, list(own))
+        tree, line = tree[other], line[other]
+        np.minimum.at(room, tree, shapely.distance(shapely.points(at[tree]), self._row_lines.geometries[line]) / 2.0)
+        return room
 
     def _in_the_way(self, stand: Points) -> str:
         nearest = self._layout.in_the_way(_xy(stand))
         return f"{nearest} is too near" if nearest else "nothing can be driven to beside it"
 
-    def _open_side(self, at: XY) -> Candidate:
-        """For a tree in no row: where other trees are farthest, on ground that can be driven on."""
+    def _open_sides(self, trees: Indices) -> list[tuple[Candidate, ...]]:
+        """For trees in no row: where other trees are farthest, on ground that can be driven on."""
+        if len(trees) == 0:
+            return []
         turn = 2.0 * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
-        around = np.array(at) + self._standoff_m * np.column_stack([np.sin(turn), np.cos(turn)])
-        away = np.asarray(self._trees.query(around, k=min(2, len(self._site.xy)))[0]).reshape(_DIRECTIONS, -1)
-        other = np.where(away[:, 0] < self._standoff_m * 0.999, away[:, 0], away[:, -1])
-        clear = self._layout.is_clear(around)
-        for k in np.argsort(-np.round(other, 3), kind="stable").tolist():
-            if clear[k] and self._layout.reaches(self._layout.spot(_xy(around[k]))):
-                return Candidate(_xy(around[k]))
-        return Candidate(_xy(around[int(np.argmax(other))]), None, "nothing can be driven to beside it")
+        offsets = self._standoff_m * np.column_stack([np.sin(turn), np.cos(turn)])
+        around = self._site.xy[trees][:, None] + offsets
+        away = np.asarray(self._trees.query(around.reshape(-1, 2), k=min(2, len(self._site.xy)))[0])
+        away = away.reshape(len(trees), _DIRECTIONS, -1)
+        other = np.where(away[:, :, 0] < self._standoff_m * 0.999, away[:, :, 0], away[:, :, -1])
+        order = np.argsort(-np.round(other, 3), axis=1, kind="stable")
+        clear = self._layout.is_clear(around.reshape(-1, 2)).reshape(-1, _DIRECTIONS)
+        found: list[tuple[Candidate, ...]] = [
+            (Candidate(_xy(around[k, int(np.argmax(other[k]))]), None, "nothing can be driven to beside it"),)
+            for k in range(len(trees))
+        ]
+        left = np.arange(len(trees))
+        for rank in range(_DIRECTIONS):
+            tried = left[clear[left, order[left, rank]]]
+            spots = self._layout.spots.at([_xy(around[k, order[k, rank]]) for k in tried.tolist()])
+            reach = self._layout.reach(spots)
+            for k, spot, reaches in zip(tried.tolist(), spots, reach, strict=True):
+                if reaches:
+                    found[k] = (Candidate(spot.xy),)
+            left = np.setdiff1d(left, tried[np.array(reach, dtype=bool)])
+        return found
 
 
 def _xy(at: Points) -> XY:
