@@ -19,6 +19,7 @@ from fieldhand.errors import DriveFault
 from fieldhand.site.driving.layout import Layout
 from fieldhand.site.driving.network import Network, network_of
 from fieldhand.site.driving.reasons import cut_off, no_stand
+from fieldhand.site.driving.roads import Roads, roads_of
 from fieldhand.site.driving.sides import Visited, few_lanes, pick
 from fieldhand.site.driving.spots import Spot
 from fieldhand.site.driving.stands import Candidate, Stands
@@ -121,6 +122,22 @@ class Drives:
             i, j = np.argwhere(np.isinf(lengths))[0].tolist()
             raise self._no_way(places[i], (places if to is None else to)[j])
         return lengths
+
+    def roads(self, places: Sequence[Place]) -> Roads:
+        """The ways between the places as a sparse graph, for many places: its size grows with their number.
+
+        Between their stands; those that are still open are chosen as :meth:`stands` does. Shortest ways over it are never
+        shorter than :meth:`lengths`, and a little longer where they pass by other places.
+
+        Raises:
+            DriveFault: As :meth:`between`, for any two of them.
+        """
+        standing = self.stands(places)
+        self._check(standing)
+        roads = roads_of(self._layout, standing)
+        if (other := roads.cut_off()) is not None:
+            raise self._no_way(places[0], places[other])
+        return roads
 
     # --- stands -----------------------------------------------------------------------------------------------
 

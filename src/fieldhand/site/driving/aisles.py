@@ -13,6 +13,7 @@ from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
+from fieldhand.site.driving.access import Access
 from fieldhand.site.driving.bodies import Body
 from fieldhand.site.driving.free import Area, Free
 from fieldhand.site.driving.ground import Ground
@@ -133,6 +134,21 @@ class Aisle:
         if bent.any():
             found[bent] = taut_lengths(*self.sides, one, two[bent])
         return np.asarray(found + np.abs(a[1] - one[1]) + np.abs(spots[:, 1] - two[:, 1]))
+
+    def metres_between(self, one: Points, two: Points) -> Points:
+        """Metres of the ways from each of these spots to its counterpart of those, shape (n,); inf where there is none."""
+        straight = (self.course == "straight") & self._is_inside(one[:, 1]) & self._is_inside(two[:, 1])
+        found = np.hypot(*(two - one).T)
+        for k in np.flatnonzero(~straight).tolist():
+            found[k] = self.metres(one[k], two[k])
+        return np.asarray(found)
+
+    def access(self, spot: Points) -> Access | None:
+        """How a spot reaches the ground of an aisle in which something stands; None in any other aisle."""
+        if self.course != "obstructed":
+            return None
+        ((x, y),) = self.body.frame.world(spot[None, :]).tolist()
+        return self._ground.access((x, y))
 
     def lengths(self, rows: Points, columns: Points | None = None) -> Points:
         """Metres of the ways from each of these spots to each of those (the same if none are given), shape (n, m);

@@ -72,6 +72,11 @@ class Graph:
         matrix = csr_matrix((np.ones(len(ends[0])), ends), shape=(n, n))
         return np.asarray(connected_components(matrix, directed=False)[1], dtype=np.intp)
 
+    def ways(self, first: int) -> tuple[Indices, Indices, Points]:
+        """Each pair of nodes that an edge joins, once, and its metres; nodes counted on from ``first``."""
+        once = self._head < self._tail
+        return self._head[once] + first, self._tail[once] + first, self._length[once]
+
     @cached_property
     def _matrix(self) -> csr_matrix:
         return csr_matrix((self._length, (self._head, self._tail)), shape=(self.count, self.count))

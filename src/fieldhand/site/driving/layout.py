@@ -78,6 +78,15 @@ class Layout:
                 found[node] = (*found.get(node, ()), aisle)
         return found
 
+    @cached_property
+    def junctions(self) -> Points:
+        """Metres east and north of the graph's nodes, shape (n, 2): corners, mouths, turns."""
+        return np.vstack([self.ground.nodes, np.array([t.at for t in self.turns]).reshape(-1, 2)])
+
+    def is_one_view(self, at: Points) -> bool:
+        """Whether every way between these points of open ground is a straight line: nothing is there to turn at."""
+        return not self.open or bool(not self.graph.count and any(area.holds(at).all() for area in self._areas))
+
     # --- ways -------------------------------------------------------------------------------------------------
 
     def way(self, a: Spot, b: Spot) -> tuple[XY, ...] | None:
