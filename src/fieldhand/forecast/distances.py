@@ -38,12 +38,22 @@ class Distances:
         """
         new = list({_stand(p): p for p in places if _stand(p) not in self._row}.values())
         if new:
-            known = [*self._places, *new]
-            self._lengths = np.asarray(self._drives.lengths(known), dtype=np.float64)
-            self._places = known
-            self._row = {_stand(p): i for i, p in enumerate(known)}
+            self._lengths = self._grown(new)
+            self._row.update({_stand(p): len(self._places) + k for k, p in enumerate(new)})
+            self._places += new
         rows = [self._row[_stand(p)] for p in places]
         return self._lengths[np.ix_(rows, rows)]
+
+    def _grown(self, new: Sequence[Place]) -> Floats:
+        """The table with rows and columns of new places; nothing that is known is asked for again."""
+        n = len(self._places)
+        grown = np.empty((n + len(new), n + len(new)))
+        grown[n:, n:] = self._drives.lengths(new)
+        if n:
+            grown[:n, :n] = self._lengths
+            grown[n:, :n] = self._drives.lengths(new, self._places)
+            grown[:n, n:] = grown[n:, :n].T
+        return grown
 
     def linked(self, a: Place, b: Place) -> bool:
         """Whether there is a way from one to the other."""

@@ -126,8 +126,8 @@ class Drives:
     def roads(self, places: Sequence[Place]) -> Roads:
         """The ways between the places as a sparse graph, for many places: its size grows with their number.
 
-        Between their stands; those that are still open are chosen as :meth:`stands` does. Shortest ways over it are never
-        shorter than :meth:`lengths`, and a little longer where they pass by other places.
+        Between their stands; those that are still open are chosen as :meth:`stands` does. Shortest ways over it are
+        never shorter than :meth:`lengths`, and a little longer where they pass by other places.
 
         Raises:
             DriveFault: As :meth:`between`, for any two of them.

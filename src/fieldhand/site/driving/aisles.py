@@ -136,7 +136,7 @@ class Aisle:
         return np.asarray(found + np.abs(a[1] - one[1]) + np.abs(spots[:, 1] - two[:, 1]))
 
     def metres_between(self, one: Points, two: Points) -> Points:
-        """Metres of the ways from each of these spots to its counterpart of those, shape (n,); inf where there is none."""
+        """Metres of the way from each of these spots to its counterpart of those, shape (n,); inf: there is none."""
         straight = (self.course == "straight") & self._is_inside(one[:, 1]) & self._is_inside(two[:, 1])
         found = np.hypot(*(two - one).T)
         for k in np.flatnonzero(~straight).tolist():

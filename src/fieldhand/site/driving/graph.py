@@ -20,6 +20,9 @@ _SHORTEST_M = 1e-9
 #: Rows and columns of a table that are worked on together.
 _BLOCK = 1024
 
+#: Numbers that are worked on together: few enough for the processor's cache.
+_CACHED = 200_000
+
 
 @dataclass(frozen=True, eq=False)
 class Links:
@@ -117,12 +120,20 @@ class Graph:
 def between(rows: Points, links: Sequence[Links]) -> Points:
     """Metres from each place of the rows to each place of the links by way of nodes, shape (p, q); inf: no way."""
     found = np.full((len(rows), len(links)), np.inf)
-    for nodes, which in _by_nodes(links).items():
-        walked = np.array([links[j].metres for j in which])
-        best = found[:, which]
-        for k, node in enumerate(nodes):
-            np.minimum(best, rows[:, node, None] + walked[:, k], out=best)
-        found[:, which] = best
+    widths = np.array([len(a.nodes) for a in links], dtype=np.intp)
+    most_first = np.argsort(-widths, kind="stable")
+    # The k-th links of all places that have as many, one k after the other.
+    ranked = [most_first[: int((widths > k).sum())].tolist() for k in range(int(widths.max(initial=0)))]
+    nodes = [np.array([links[j].nodes[k] for j in which]) for k, which in enumerate(ranked)]
+    walked = [np.array([links[j].metres[k] for j in which]) for k, which in enumerate(ranked)]
+    step = max(_CACHED // max(len(links), 1), 1)
+    for first in range(0, len(rows), step):
+        some = rows[first : first + step]
+        best = np.full((len(some), len(links)), np.inf)
+        for at, metres in zip(nodes, walked, strict=True):
+            part = best[:, : len(at)]
+            np.minimum(part, np.take(some, at, axis=1) + metres, out=part)
+        found[first : first + step, most_first] = best
     return found
 
 
@@ -134,14 +145,6 @@ def _make_symmetric(metres: Points) -> None:
             two = metres[second : second + _BLOCK, first : first + _BLOCK]
             np.minimum(one, two.T.copy(), out=one)
             two[:] = one.T
-
-
-def _by_nodes(links: Sequence[Links]) -> dict[tuple[int, ...], list[int]]:
-    """Which places reach the same nodes."""
-    found: dict[tuple[int, ...], list[int]] = {}
-    for k, link in enumerate(links):
-        found.setdefault(tuple(link.nodes.tolist()), []).append(k)
-    return found
 
 
 def chain(rows: Rows, place: int, node: int) -> list[int]:

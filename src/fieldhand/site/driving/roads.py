@@ -23,11 +23,11 @@ from fieldhand.site.driving.spots import Spot
 from fieldhand.site.model import Place
 
 #: Along an aisle a stand is joined to those that are so many stands away.
-_STEPS = (1, 2, 3, 5, 8, 13)
+_STEPS = (1, 2, 3, 4, 5, 7)
 
 #: Over open ground a stand is joined to the nearest in each of so many directions, of so many about it.
-_DIRECTIONS = 12
-_ABOUT = 40
+_DIRECTIONS = 16
+_ABOUT = 60
 
 #: No way is shorter, so that none counts as missing.
 _SHORTEST_M = 1e-9
@@ -72,7 +72,7 @@ def roads_of(layout: Layout, places: tuple[Place, ...]) -> Roads:
     if all(s.foot is not None for s in spots) and layout.is_one_view(at):
         none = np.empty((0, 2), dtype=np.int64)
         return Roads(places=places, at=at, ways=none, lengths=np.empty(0), straight=True)
-    # A stand off the ground on which ways keep their clearance hangs by one way at its foot there: no way leads through.
+    # A stand off the ground on which ways keep their clearance hangs by one way at its foot there: none leads through.
     feet = [_foot(layout, spot) for spot in spots]
     node = np.arange(len(spots))
     off = np.array([k for k, (_, metres) in enumerate(feet) if metres > 0.0], dtype=np.intp)

@@ -1,0 +1,220 @@
+"""Drives among many places: the same as one by one, and as a sparse graph never shorter and hardly longer."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import dijkstra
+from shapely.geometry import LineString, Point, box
+
+from fieldhand.errors import DriveFault
+from fieldhand.forecast.distances import Distances
+from fieldhand.forecast.routes import reachable
+from fieldhand.site.drives import Drives
+from fieldhand.site.driving.chords import Chords
+from fieldhand.site.driving.free import Area
+from fieldhand.site.driving.roads import Roads
+from fieldhand.site.model import Site
+from generated_orchards import orchard_sites
+from planted_sites import generated, planted, scattered, upright
+from sites import place_at
+
+CLEARANCE, STANDOFF = 0.35, 1.5
+
+#: Rows that a file names, rows that are found, trees in no row; with ponds, fences, gates, markers.
+any_site = st.one_of(st.integers(0, 10**6).map(generated), st.integers(0, 10**6).map(scattered), orchard_sites())
+
+
+def drives_on(site: Site) -> Drives:
+    return Drives(site, CLEARANCE, STANDOFF)
+
+
+def places_of(site: Site):
+    return [*(t.place for t in site.trees), *site.markers.values()]
+
+
+@settings(max_examples=40, deadline=None)
+@given(any_site, st.randoms(use_true_random=False))
+def test_what_is_wrong_with_many_places_is_what_is_wrong_with_each(site, random):
+    places = places_of(site)
+    together = dict(zip((p.xy for p in places), drives_on(site).problems(places), strict=True))
+    drives = drives_on(site)
+    shuffled = random.sample(places, len(places))
+    assert {p.xy: drives.problem(p) for p in shuffled} == together
+    open_, closed = reachable(drives, places)
+    assert [*open_] == [p for p in places if not together[p.xy]]
+    assert [*closed] == [p for p in places if together[p.xy]]
+
+
+@settings(max_examples=30, deadline=None)
+@given(any_site, st.integers(0, 10**6))
+def test_stands_and_lengths_do_not_depend_on_what_was_asked_before(site, seed):
+    fresh, asked = drives_on(site), drives_on(site)
+    assume(not asked.problem(site.start))
+    places = [p for p in places_of(site) if not asked.problem(p)]
+    assume(len(places) > 1)
+    rng = np.random.default_rng(seed)
+    for i, j in rng.integers(0, len(places), (5, 2)).tolist():
+        asked.between(places[i], places[j])
+    standing = fresh.stands(places)
+    assert [p.stand for p in asked.stands(places)] == [p.stand for p in standing]
+    lengths = fresh.lengths(standing)
+    some, others = rng.permutation(len(places))[:6].tolist(), rng.permutation(len(places))[:5].tolist()
+    table = asked.lengths([standing[k] for k in some], [standing[k] for k in others])
+    assert table == pytest.approx(lengths[np.ix_(some, others)], abs=1e-9)
+    for i in some[:3]:
+        for j in others[:3]:
+            assert asked.between(standing[i], standing[j]).length_m == pytest.approx(lengths[i, j], abs=1e-6)
+
+
+@settings(max_examples=15, deadline=None)
+@given(any_site)
+def test_a_table_that_grows_place_by_place_is_the_whole_one(site):
+    drives = drives_on(site)
+    assume(not drives.problem(site.start))
+    places = drives.stands([p for p in places_of(site) if not drives.problem(p)][:12])
+    table = Distances(drives)
+    for k in (1, 2, 5, len(places)):
+        table.between(places[:k])
+    whole = table.between(places)
+    assert (whole == whole.T).all()
+    assert whole == pytest.approx(drives.lengths(places), abs=1e-9)
+
+
+# --- roads -------------------------------------------------------------------------------------------------------
+
+
+def over(roads: Roads) -> np.ndarray:
+    """Metres of the shortest way over the roads between every two places."""
+    n, k = len(roads.at), len(roads.places)
+    if roads.straight:
+        return np.hypot(*(roads.at[:, None] - roads.at[None]).transpose(2, 0, 1))
+    ends = np.sort(roads.ways, axis=1)
+    order = np.lexsort((roads.lengths, ends[:, 1], ends[:, 0]))
+    _, first = np.unique(ends[order], axis=0, return_index=True)
+    kept = order[first]
+    graph = coo_array((roads.lengths[kept], ends[kept].T), shape=(n, n)).tocsr()
+    return dijkstra(graph, directed=False, indices=np.arange(k))[:, :k]
+
+
+@settings(max_examples=50, deadline=None)
+@given(any_site)
+def test_over_the_roads_no_way_is_shorter_than_the_drive_and_hardly_any_is_longer(site):
+    drives = drives_on(site)
+    assume(not drives.problem(site.start))
+    places = [p for p in places_of(site) if not drives.problem(p)]
+    assume(len(places) > 1)
+    roads = drives.roads(places)
+    assert [p.stand for p in roads.places] == [p.stand for p in drives.stands(places)]
+    assert roads.at[: len(places)].tolist() == [list(p.stand) for p in roads.places]
+    assert (roads.lengths > 0.0).all()
+    assert len(roads.ways) <= 40 * len(places) + len(drives._layout.graph.ways(0)[0])
+    lengths, found = drives.lengths(roads.places), over(roads)
+    assert (found >= lengths * (1.0 - 1e-9) - 1e-5).all()  # corners may be cut by a millionth of a metre
+    apart = lengths > 1e-6
+    stretch = found[apart] / lengths[apart] - 1.0
+    if stretch.size:
+        assert (
+            np.median(np.minimum(stretch, (found - lengths)[apart] / 100.0)) <= 0.005
+        )  # half a per cent, or half a metre
+        # By way of where ways keep their clearance, for a place that has none; else short cuts in its neighbourhood.
+        assert ((found - lengths)[apart] <= 0.15 * lengths[apart] + 16.0 * CLEARANCE).all()
+
+
+def test_on_open_ground_all_drives_are_straight_lines_and_there_are_no_roads():
+    boundary = ("fence", "boundary", box(-10.0, -10.0, 90.0, 90.0))
+    trees = [(float(x), float(y)) for x, y in np.random.default_rng(1).uniform(0.0, 80.0, (20, 2))]
+    for zones in ((), (boundary,)):
+        site = planted([], lone=trees, zones=zones)
+        roads = drives_on(site).roads([t.place for t in site.trees])
+        assert roads.straight
+        assert (len(roads.ways), len(roads.lengths), len(roads.at)) == (0, 0, 20)
+        assert over(roads) == pytest.approx(drives_on(site).lengths(roads.places))
+    pond = ("pond", "keep_out", Point(40.0, 40.0).buffer(3.0))
+    site = planted([], lone=[t for t in trees if Point(t).distance(pond[2]) > 1.0], zones=[pond])
+    assert not drives_on(site).roads([t.place for t in site.trees]).straight
+
+
+def test_roads_between_few_places_or_none():
+    drives = drives_on(upright(3, 5))
+    none, one = drives.roads([]), drives.roads([drives.site.trees[4].place])
+    assert (len(none.places), over(none).shape) == (0, (0, 0))
+    assert over(one).tolist() == [[0.0]]
+
+
+def test_places_that_no_way_joins_are_named_and_have_no_roads():
+    wall = ("wall", "keep_out", box(-5.0, 9.0, 35.0, 9.4))
+    fence = ("fence", "boundary", box(-5.0, -10.0, 35.0, 30.0))
+    site = planted([], lone=[(3.0, 3.0), (20.0, 4.0), (20.0, 20.0)], zones=[wall, fence])
+    with pytest.raises(DriveFault, match="no way from tree 1 to tree 3"):
+        drives_on(site).roads([t.place for t in site.trees])
+
+
+def test_the_size_of_the_roads_grows_with_the_places():
+    ways = []
+    for trees in (20, 40, 80):
+        site = upright(6, trees)
+        roads = drives_on(site).roads([t.place for t in site.trees])
+        ways.append(len(roads.ways) / len(site.trees))
+    assert max(ways) < 12.0
+
+
+# --- what is seen ------------------------------------------------------------------------------------------------
+
+
+@st.composite
+def holed(draw):
+    """Ground with holes in it, and points on it."""
+    holes = [
+        shapely.affinity.rotate(box(x, y, x + draw(st.floats(0.5, 30.0)), y + draw(st.floats(0.5, 6.0))), turn)
+        for x, y, turn in draw(
+            st.lists(
+                st.tuples(st.floats(5.0, 60.0), st.floats(5.0, 80.0), st.floats(0.0, 180.0)), min_size=1, max_size=6
+            )
+        )
+    ]
+    ground = box(0.0, 0.0, 100.0, 100.0).difference(shapely.union_all(holes))
+    rng = np.random.default_rng(draw(st.integers(0, 10**6)))
+    return ground, rng.uniform(-5.0, 105.0, (30, 2))
+
+
+@settings(max_examples=60, deadline=None)
+@given(holed())
+def test_a_line_is_seen_if_the_ground_covers_it_and_no_chord_parts_its_ends(world):
+    ground, at = world
+    area = Area(ground)
+    i, j = np.triu_indices(len(at), k=1)
+    seen = area.sees(at[i], at[j])
+    lines = [LineString(pair) for pair in np.stack([at[i], at[j]], axis=1)]
+    assert seen.tolist() == [area.edged.covers(line) for line in lines]
+    kept = {(a, b) for one, two in Chords(ground).pairs(at) for a, b in zip(one.tolist(), two.tolist(), strict=True)}
+    assert kept <= set(zip(i.tolist(), j.tolist(), strict=True))
+    assert {(a, b) for a, b, s in zip(i.tolist(), j.tolist(), seen.tolist(), strict=True) if s} <= kept
+    both = [
+        (a, b)
+        for one, two in Chords(ground).pairs(at[:7], at[7:])
+        for a, b in zip(one.tolist(), two.tolist(), strict=True)
+    ]
+    assert {(a, b + 7) for a, b in both} == {(a, b) for a, b in kept if a < 7 <= b}
+
+
+def test_a_line_through_the_middle_of_a_long_row_is_parted_by_its_chord():
+    row = box(10.0, 49.0, 90.0, 51.0)
+    ground = box(0.0, 0.0, 100.0, 100.0).difference(row)
+    assert not [pair for pair in Chords(ground).pairs(np.array([(50.0, 20.0), (55.0, 80.0)])) if len(pair[0])]
+
+
+def test_a_marker_at_a_tree_stands_on_it_whichever_is_asked_for_first():
+    site = upright(3, 5, markers={"start": (6.0, 8.0)})
+    tree = next(t.place for t in site.trees if t.place.xy == (6.0, 8.0))
+    marker = site.markers["start"]
+    for first, second in ((tree, marker), (marker, tree)):
+        drives = drives_on(site)
+        standing = {p.kind: p.stand for p in (*drives.stands([first]), *drives.stands([second]))}
+        assert standing["marker"] == marker.xy
+        assert standing["tree"] != tree.xy
+    assert drives.problem(place_at(6.0, 8.0)) == ""
