@@ -9,6 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
+from shapely.affinity import rotate
 from shapely.geometry import LineString, Point, box
 
 from fieldhand.errors import DriveFault
@@ -118,11 +119,10 @@ def test_over_the_roads_no_way_is_shorter_than_the_drive_and_hardly_any_is_longe
     apart = lengths > 1e-6
     stretch = found[apart] / lengths[apart] - 1.0
     if stretch.size:
-        assert (
-            np.median(np.minimum(stretch, (found - lengths)[apart] / 100.0)) <= 0.005
-        )  # half a per cent, or half a metre
-        # By way of where ways keep their clearance, for a place that has none; else short cuts in its neighbourhood.
-        assert ((found - lengths)[apart] <= 0.15 * lengths[apart] + 16.0 * CLEARANCE).all()
+        longer = (found - lengths)[apart]
+        assert np.median(np.minimum(stretch / 0.01, longer / 0.5)) <= 1.0  # a per cent, or half a metre
+        # Longest for near neighbours, and for a place too close to something for ways to keep their clearance.
+        assert (longer <= 0.15 * lengths[apart] + 16.0 * CLEARANCE).all()
 
 
 def test_on_open_ground_all_drives_are_straight_lines_and_there_are_no_roads():
@@ -169,14 +169,9 @@ def test_the_size_of_the_roads_grows_with_the_places():
 @st.composite
 def holed(draw):
     """Ground with holes in it, and points on it."""
-    holes = [
-        shapely.affinity.rotate(box(x, y, x + draw(st.floats(0.5, 30.0)), y + draw(st.floats(0.5, 6.0))), turn)
-        for x, y, turn in draw(
-            st.lists(
-                st.tuples(st.floats(5.0, 60.0), st.floats(5.0, 80.0), st.floats(0.0, 180.0)), min_size=1, max_size=6
-            )
-        )
-    ]
+    corner, turned = st.floats(5.0, 70.0), st.floats(0.0, 180.0)
+    made = st.tuples(corner, corner, st.floats(0.5, 30.0), st.floats(0.5, 6.0), turned)
+    holes = [rotate(box(x, y, x + w, y + h), turn) for x, y, w, h, turn in draw(st.lists(made, min_size=1, max_size=6))]
     ground = box(0.0, 0.0, 100.0, 100.0).difference(shapely.union_all(holes))
     rng = np.random.default_rng(draw(st.integers(0, 10**6)))
     return ground, rng.uniform(-5.0, 105.0, (30, 2))
@@ -191,15 +186,14 @@ def test_a_line_is_seen_if_the_ground_covers_it_and_no_chord_parts_its_ends(worl
     seen = area.sees(at[i], at[j])
     lines = [LineString(pair) for pair in np.stack([at[i], at[j]], axis=1)]
     assert seen.tolist() == [area.edged.covers(line) for line in lines]
-    kept = {(a, b) for one, two in Chords(ground).pairs(at) for a, b in zip(one.tolist(), two.tolist(), strict=True)}
-    assert kept <= set(zip(i.tolist(), j.tolist(), strict=True))
-    assert {(a, b) for a, b, s in zip(i.tolist(), j.tolist(), seen.tolist(), strict=True) if s} <= kept
-    both = [
-        (a, b)
-        for one, two in Chords(ground).pairs(at[:7], at[7:])
-        for a, b in zip(one.tolist(), two.tolist(), strict=True)
-    ]
-    assert {(a, b + 7) for a, b in both} == {(a, b) for a, b in kept if a < 7 <= b}
+    kept = pairs_of(Chords(ground).pairs(at))
+    assert pairs_of([(i[seen], j[seen])]) <= kept <= pairs_of([(i, j)])
+    between_two = {(a, b + 7) for a, b in pairs_of(Chords(ground).pairs(at[:7], at[7:]))}
+    assert between_two == {(a, b) for a, b in kept if a < 7 <= b}
+
+
+def pairs_of(batches) -> set[tuple[int, int]]:
+    return {(a, b) for one, two in batches for a, b in zip(one.tolist(), two.tolist(), strict=True)}
 
 
 def test_a_line_through_the_middle_of_a_long_row_is_parted_by_its_chord():
