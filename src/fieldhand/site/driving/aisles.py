@@ -13,10 +13,9 @@ from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
-from fieldhand.site.driving.access import Access
 from fieldhand.site.driving.bodies import Body
 from fieldhand.site.driving.free import Area, Free
-from fieldhand.site.driving.ground import Ground
+from fieldhand.site.driving.ground import XY, Ground
 from fieldhand.site.driving.rowlines import Line, Points, RowLine, simplified_above
 from fieldhand.site.driving.taut import taut, taut_lengths
 
@@ -143,12 +142,12 @@ class Aisle:
             found[k] = self.metres(one[k], two[k])
         return np.asarray(found)
 
-    def access(self, spot: Points) -> Access | None:
-        """How a spot reaches the ground of an aisle in which something stands; None in any other aisle."""
+    def foot(self, spot: Points) -> tuple[XY, float] | None:
+        """Where a spot reaches ground on which ways keep their clearance, in an aisle in which something stands."""
         if self.course != "obstructed":
             return None
         ((x, y),) = self.body.frame.world(spot[None, :]).tolist()
-        return self._ground.access((x, y))
+        return self._ground.foot((x, y))
 
     def lengths(self, rows: Points, columns: Points | None = None) -> Points:
         """Metres of the ways from each of these spots to each of those (the same if none are given), shape (n, m);

@@ -164,6 +164,16 @@ class Ground:
                 self._accesses[new[k]] = self._leave(at[k])
         return [self._accesses[xy] for xy in places]
 
+    def foot(self, xy: XY) -> tuple[XY, float] | None:
+        """The nearest point of soft ground by which a place is left, and the metres to there; None if it never is."""
+        access = self.access(xy)
+        soft = np.flatnonzero(np.isfinite(access.walked) & self.soft.holds(access.exits))
+        if not len(soft):
+            return None
+        nearest = int(soft[np.argmin(access.walked[soft])])
+        x, y = access.exits[nearest].tolist()
+        return (x, y), float(access.walked[nearest])
+
     def _see(self, at: Points) -> Iterator[Access]:
         """Places on soft ground: the nodes that each sees."""
         here = np.zeros(1), np.full(1, -1, dtype=np.intp)

@@ -105,17 +105,13 @@ def roads_of(layout: Layout, places: tuple[Place, ...]) -> Roads:
 
 def _foot(layout: Layout, spot: Spot) -> tuple[Spot, float]:
     """Where a spot reaches ground on which ways keep their clearance, and the metres to there: 0 where it is on it."""
-    access = spot.access
-    if access is None and spot.aisle is not None and spot.uv is not None:
-        access = spot.aisle.access(spot.uv)
-    if access is None or (access.radius == 0.0 and spot.spur < _SHORTEST_M):
+    if spot.foot is not None:
+        found = layout.ground.foot(spot.foot)
+    else:
+        found = None if spot.aisle is None or spot.uv is None else spot.aisle.foot(spot.uv)
+    if found is None or found[1] + spot.spur < _SHORTEST_M:
         return spot, 0.0
-    soft = np.flatnonzero(layout.is_clear(access.exits) & np.isfinite(access.walked))
-    if not len(soft):
-        return spot, 0.0
-    nearest = int(soft[np.argmin(access.walked[soft])])
-    x, y = access.exits[nearest].tolist()
-    return layout.spot((x, y)), spot.spur + float(access.walked[nearest])
+    return layout.spot(found[0]), spot.spur + found[1]
 
 
 def _to_junctions(spots: Sequence[Spot], node: Indices, first: int) -> Iterator[Ways]:
