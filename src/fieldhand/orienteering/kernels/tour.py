@@ -1,0 +1,339 @@
+"""Shortening a path between two ends: 2-opt, or-opt, and kicks that are taken back where they do not help.
+
+Every function here is plain Python, which short paths are quick enough in; :func:`for_long_paths` compiles the same
+functions for long ones. So both give the same path, and nobody waits for a compiler who does not need it.
+
+Sources: Croes 1958 (2-opt); Or 1976 (moving short segments); Bentley 1992 (neighbour lists, vertices that need no
+look); Martin, Otto and Felten 1991 (a double bridge, then local search again); Park and Miller 1988 (random numbers).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import cache
+from types import FunctionType
+from typing import Any, NamedTuple
+
+#: Sequences of whole numbers, and of these sequences: lists in plain Python, arrays where compiled.
+Numbers = Any
+Lengths = Any
+
+#: The vertex that is as near to every other as can be: the end of a path whose end is open.
+ANYWHERE = -1
+#: What gains less than this part of the path's first length may be rounding and no gain.
+_LEAST = 1e-12
+_LONGEST_MOVED = 3
+
+
+class Tour(NamedTuple):
+    """A path that is being changed. The last entries of ``place`` and ``waiting`` are those of ``ANYWHERE``.
+
+    Attributes:
+        path: Vertices from end to end, shape (n,).
+        place: Where each vertex stands in the path.
+        near: The nearest vertices of each, nearest first, those of one vertex behind those of the one before.
+        away: How far they are.
+        size: How many of each.
+        queue: Vertices to look at, in a ring, shape (n,).
+        waiting: 1 for each of them, else 0.
+        flips: First and last place of each part that was turned round, one pair behind the other.
+        count: Where the queue begins, how many vertices stand in it, and how many pairs in ``flips``.
+    """
+
+    path: Numbers
+    place: Numbers
+    near: Numbers
+    away: Lengths
+    size: int
+    queue: Numbers
+    waiting: Numbers
+    flips: Numbers
+    count: Numbers
+
+
+def leg(ways: Lengths, u: int, v: int) -> float:
+    """Length of the leg between two vertices; the last row and column of a table are those of an open end."""
+    return ways[u][v]  # type: ignore[no-any-return]
+
+
+def neighbours(ways: Lengths, tour: Tour, vertices: int) -> None:
+    """Fill in the nearest of each vertex; the last place is for one beyond, so that no cluster is closed in itself.
+
+    That one is the nearest of all that none of the others is nearer to; where there is none, its distance is infinite.
+    """
+    near, away = tour.near, tour.away
+    for v in range(vertices):
+        first = last = v * tour.size
+        beyond = first + tour.size - 1
+        for u in range(vertices):
+            if u == v:
+                continue
+            far = leg(ways, v, u)
+            if last == beyond:
+                if far >= away[last - 1]:
+                    continue
+                last -= 1
+            k = last
+            while k > first and away[k - 1] > far:
+                away[k], near[k] = away[k - 1], near[k - 1]
+                k -= 1
+            away[k], near[k] = far, u
+            last += 1
+        near[beyond], away[beyond] = v, math.inf
+        for u in range(vertices):
+            far = leg(ways, v, u)
+            if not away[beyond - 1] < far < away[beyond]:
+                continue
+            for k in range(first, beyond):
+                if leg(ways, near[k], u) < far:
+                    break
+            else:
+                near[beyond], away[beyond] = u, far
+
+
+def begin(ways: Lengths, tour: Tour) -> None:
+    """Lay the path from its first vertex to the nearest, from there to the nearest again; its ends are given."""
+    path, place = tour.path, tour.place
+    # What is left stands in the path behind the vertex that is being looked from.
+    for i in range(len(path)):
+        place[path[i]] = i
+    for i in range(len(path) - 2):
+        at, best, least = path[i], -1, 0.0
+        for k in range(at * tour.size, (at + 1) * tour.size):
+            if i < place[tour.near[k]] < len(path) - 1:
+                best = place[tour.near[k]]
+                break
+        if best < 0:
+            for j in range(i + 1, len(path) - 1):
+                metres = leg(ways, at, path[j])
+                if best < 0 or metres < least:
+                    best, least = j, metres
+        u, v = path[i + 1], path[best]
+        path[i + 1], path[best] = v, u
+        place[v], place[u] = i + 1, best
+
+
+def shorten(ways: Lengths, tour: Tour, kicks: int, patience: int, reach: int) -> None:
+    """Shorten the path until no look helps, then kick it again and again; its ends stay.
+
+    Args:
+        ways: Lengths of legs.
+        tour: The path; its queue is empty.
+        kicks: How many at most.
+        patience: How many without gain before it is left at that.
+        reach: Most vertices of each of the two segments that a kick swaps.
+    """
+    path = tour.path
+    least = 0.0
+    for i in range(len(path) - 1):
+        least += _LEAST * leg(ways, path[i], path[i + 1])
+    _settle_all(ways, tour, least)
+    # Between the ends there must be two segments to swap.
+    inner = len(path) - 2
+    reach = min(reach, inner // 2)
+    if reach < 1:
+        return
+    random, fruitless, first = 1, 0, 0
+    for _ in range(kicks):
+        random = random * 48271 % 2147483647
+        one = 1 + random % reach
+        random = random * 48271 % 2147483647
+        two = 1 + random % reach
+        random = random * 48271 % 2147483647
+        # On along the path, so that what is looked at was looked at just before.
+        first = (first + random % reach) % (inner + 1 - one - two)
+        tour.count[2] = 0
+        gain = _kick(ways, tour, first, one, two) + _settle(ways, tour, least, False)
+        fruitless += 1
+        if gain > least:
+            fruitless = 0
+        elif gain < -least:
+            _take_back(tour)
+        if fruitless > patience:
+            break
+    _settle_all(ways, tour, least)
+
+
+def _look(tour: Tour, v: int) -> None:
+    """Have a vertex looked at, after those that wait already."""
+    if v >= 0 and tour.waiting[v] == 0:
+        tour.waiting[v] = 1
+        tour.queue[(tour.count[0] + tour.count[1]) % len(tour.queue)] = v
+        tour.count[1] += 1
+
+
+def _next(tour: Tour) -> int:
+    """Whose turn it is to be looked at; it waits no more."""
+    v = tour.queue[tour.count[0]]
+    tour.count[0] = (tour.count[0] + 1) % len(tour.queue)
+    tour.count[1] -= 1
+    tour.waiting[v] = 0
+    return v  # type: ignore[no-any-return]
+
+
+def _settle_all(ways: Lengths, tour: Tour, least: float) -> None:
+    """Change the path until no change of any vertex shortens it."""
+    for v in tour.path:
+        _look(tour, v)
+    while tour.count[1] > 0:
+        tour.count[2] = 0
+        _settle(ways, tour, least, True)
+
+
+def _settle(ways: Lengths, tour: Tour, least: float, every: bool) -> float:
+    """Change the path while a change shortens it and can be noted; by how much it did."""
+    total = 0.0
+    while tour.count[1] > 0 and 2 * tour.count[2] + 6 <= len(tour.flips):
+        v = _next(tour)
+        gain = _turn(ways, tour, v, least, every)
+        if gain == 0.0:
+            gain = _shift(ways, tour, v, least, every)
+        total += gain
+    return total
+
+
+def _turn(ways: Lengths, tour: Tour, a: int, least: float, every: bool) -> float:
+    """The first 2-opt move found that puts a vertex beside a near one: what it gains, 0 where there is none."""
+    path, place, near, away, size = tour.path, tour.place, tour.near, tour.away, tour.size
+    # Where all that are near have been tried and a leg is longer still, every vertex may be.
+    many = size + (len(near) // size if every else 0)
+    i = place[a]
+    for step in (1, -1):
+        if not 0 <= i + step < len(path):
+            continue
+        b = path[i + step]
+        ab = leg(ways, a, b)
+        for k in range(many):
+            c = near[a * size + k] if k < size else k - size
+            saved = ab - (away[a * size + k] if k < size else leg(ways, a, c))
+            if saved <= least or c == a:
+                if k < size - 1:
+                    break
+                continue
+            j = place[c]
+            if not 0 <= j + step < len(path):
+                continue
+            d = path[j + step]
+            # Legs a-b and c-d become a-c and b-d.
+            gain = saved + leg(ways, c, d) - leg(ways, b, d)
+            if gain > least:
+                low, high = min(i, j), max(i, j)
+                if step > 0:
+                    _flip(tour, low + 1, high)
+                else:
+                    _flip(tour, low, high - 1)
+                for v in (a, b, c, d):
+                    _look(tour, v)
+                return gain
+    return 0.0
+
+
+def _shift(ways: Lengths, tour: Tour, a: int, least: float, every: bool) -> float:
+    """The first or-opt move found that takes a short segment, of which ``a`` is an end, to a vertex near ``a``."""
+    path, place, near, away, size = tour.path, tour.place, tour.near, tour.away, tour.size
+    many = size + (len(near) // size if every else 0)
+    i = place[a]
+    for extent in range(1 - _LONGEST_MOVED, _LONGEST_MOVED):
+        low, high = min(i, i + extent), max(i, i + extent)
+        if low < 1 or high > len(path) - 2:
+            continue
+        # The segment runs from a to z; p stands beside a, q beside z.
+        z = path[i + extent]
+        p, q = path[low - 1], path[high + 1]
+        if extent < 0:
+            p, q = q, p
+        out = leg(ways, p, a) + leg(ways, z, q) - leg(ways, p, q)
+        for k in range(many):
+            c = near[a * size + k] if k < size else k - size
+            saved = out - (away[a * size + k] if k < size else leg(ways, a, c))
+            if saved <= least:
+                if k < size - 1:
+                    break
+                continue
+            j = place[c]
+            if low <= j <= high:
+                continue
+            for step in (1, -1):
+                if not 0 <= j + step < len(path) or low <= j + step <= high:
+                    continue
+                d = path[j + step]
+                gain = saved + leg(ways, c, d) - leg(ways, z, d)
+                if gain > least:
+                    # Where a comes before z now and behind it then, or the other way round, the segment turns.
+                    _move(tour, low, high, min(j, j + step), (extent < 0) == (step > 0))
+                    for v in (a, z, p, q, c, d):
+                        _look(tour, v)
+                    return gain
+    return 0.0
+
+
+def _move(tour: Tour, low: int, high: int, behind: int, turned: bool) -> None:
+    """Take what stands from ``low`` to ``high`` to behind another place, the other way round where ``turned``."""
+    size = high - low + 1
+    if behind > high:
+        _flip(tour, low, behind)
+        _flip(tour, low, behind - size)
+        low = behind - size + 1
+    else:
+        _flip(tour, behind + 1, high)
+        _flip(tour, behind + 1 + size, high)
+        low = behind + 1
+    if not turned:
+        _flip(tour, low, low + size - 1)
+
+
+def _kick(ways: Lengths, tour: Tour, before: int, one: int, two: int) -> float:
+    """Swap two segments of so many vertices that stand one behind the other; what that gains, mostly less than 0."""
+    path = tour.path
+    last = before + one
+    a, b, c, d = path[before], path[before + 1], path[last], path[last + 1]
+    e, f = path[last + two], path[last + two + 1]
+    _move(tour, before + 1, last, last + two, False)
+    for v in (a, b, c, d, e, f):
+        _look(tour, v)
+    lost = leg(ways, a, d) + leg(ways, e, b) + leg(ways, c, f)
+    return leg(ways, a, b) + leg(ways, c, d) + leg(ways, e, f) - lost
+
+
+def _flip(tour: Tour, i: int, j: int) -> None:
+    """Turn what stands from i to j round, and note it."""
+    k = tour.count[2]
+    tour.flips[2 * k], tour.flips[2 * k + 1] = i, j
+    tour.count[2] = k + 1
+    _turn_round(tour.path, tour.place, i, j)
+
+
+def _turn_round(path: Numbers, place: Numbers, i: int, j: int) -> None:
+    while i < j:
+        a, b = path[i], path[j]
+        path[i], path[j] = b, a
+        place[b], place[a] = i, j
+        i, j = i + 1, j - 1
+
+
+def _take_back(tour: Tour) -> None:
+    """Undo every flip that was noted, and look at nothing any more."""
+    for k in range(tour.count[2] - 1, -1, -1):
+        _turn_round(tour.path, tour.place, tour.flips[2 * k], tour.flips[2 * k + 1])
+    while tour.count[1] > 0:
+        _next(tour)
+
+
+@cache
+def for_long_paths() -> tuple[Callable[..., None], Callable[..., None], Callable[..., None]]:
+    """:func:`neighbours`, :func:`begin` and :func:`shorten` compiled, for arrays and for :class:`legs.Ways`."""
+    from fieldhand.orienteering.kernels import legs
+    from fieldhand.orienteering.kernels.compiled import compiled
+
+    def length(ways: legs.Ways, u: int, v: int) -> float:
+        return 0.0 if u < 0 or v < 0 else legs.length(ways, u, v)
+
+    # The same code, but each name in it means what is compiled.
+    names: dict[str, Any] = {**globals(), "leg": compiled(length)}
+    for plain in (
+        neighbours, begin, _turn_round, _flip, _look, _next, _move, _turn, _shift, _settle, _settle_all, _kick,
+        _take_back, shorten,
+    ):  # fmt: skip
+        names[plain.__name__] = compiled(FunctionType(plain.__code__, names, plain.__name__))
+    return names["neighbours"], names["begin"], names["shorten"]
