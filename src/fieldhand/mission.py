@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from fieldhand.approval.checks import Problem
     from fieldhand.approval.readback import ReadBack
     from fieldhand.evaluation.report import ReportFiles
+    from fieldhand.execution.guard import Guard
     from fieldhand.execution.runtime import Result
     from fieldhand.execution.world import World
     from fieldhand.forecast.estimate import Estimate
@@ -180,6 +181,7 @@ def carry_out(
     speed: float | None,
     emit: Callable[[Event], None],
     interrupted: Callable[[], str | None] = lambda: None,
+    watched: Callable[[Guard], Guard] = lambda guard: guard,
 ) -> Result:
     """Carry a mission out in simulation.
 
@@ -192,6 +194,7 @@ def carry_out(
         speed: Simulated seconds in a second; None for as fast as it goes.
         emit: Takes each event as it happens.
         interrupted: Asked at every tick; a reason ends the mission in order.
+        watched: Takes the budget guard and gives one that asks it: to time its decisions, say.
     """
     import numpy as np
 
@@ -206,7 +209,14 @@ def carry_out(
     driver = SimulatedDriver(site, robot, world, clock, np.random.default_rng(seed))
     guard = BudgetGuard(authorized.task, site, robot, drives, seed, charge_percent=world.charge_percent)
     return run(
-        authorized, site=site, robot=robot, driver=driver, guard=guard, clock=clock, emit=emit, interrupted=interrupted
+        authorized,
+        site=site,
+        robot=robot,
+        driver=driver,
+        guard=watched(guard),
+        clock=clock,
+        emit=emit,
+        interrupted=interrupted,
     )
 
 

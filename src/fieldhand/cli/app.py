@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from fieldhand.cli.bench import bench
+from fieldhand.cli.bench_guard import bench_guard
 from fieldhand.cli.bench_orienteering import bench_orienteering
 from fieldhand.cli.check import check
 from fieldhand.cli.demo import demo
@@ -31,6 +32,7 @@ def assemble(*others: Callable[..., None]) -> typer.Typer:
     for command in commands:
         app.command()(command)
     bench.command("orienteering")(bench_orienteering)
+    bench.command("guard")(bench_guard)
     app.add_typer(bench)
     app.callback()(_top)
     return app

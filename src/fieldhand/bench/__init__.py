@@ -1,0 +1,13 @@
+"""Experiments on whole missions: drawn by chance, approved, carried out in simulation, judged from their logs.
+
+scenes      a random orchard and a random robot
+families    random plans of seven kinds
+draw        a mission of a seed: scene, plan, limits that are drawn relative to what the plan needs
+follow      a plan held against an event log: what was done, given up and left out
+referee     a finished mission judged from its Task and its log alone
+fly         a mission of a seed flown and judged
+summary     many missions in figures
+
+Nothing in it knows how the guard decides. It stands above ``mission``, which puts guard, simulation and
+runtime together.
+"""
