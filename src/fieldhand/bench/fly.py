@@ -61,7 +61,7 @@ class Trial:
         ruling: What came of it.
         forecast: What the approval expected of its optional visits.
         certain: The same were every leg's cost its mean: more than chance allows.
-        first_s: Seconds of the guard's first decision.
+        first_s: Seconds of processor time of the guard's first decision.
         choices_s: Of each later choice of an optional visit.
         admissions_s: Of each later answer about mandatory work; much of it was granted with the visit before it.
     """
@@ -100,7 +100,7 @@ class Flight:
 
 @dataclass
 class TimedGuard:
-    """A guard that notes how long another takes to answer."""
+    """A guard that notes how much processor time another takes to answer: other programs do not count."""
 
     guard: Guard
     first_s: list[float] = field(default_factory=list)
@@ -108,15 +108,15 @@ class TimedGuard:
     admissions_s: list[float] = field(default_factory=list)
 
     def admit(self, state: MissionState, visit: Visit, still_to_come: Sequence[Visit] = ()) -> Verdict:
-        began = time.perf_counter()
+        began = time.thread_time()
         verdict = self.guard.admit(state, visit, still_to_come)
-        (self.admissions_s if self.first_s else self.first_s).append(time.perf_counter() - began)
+        (self.admissions_s if self.first_s else self.first_s).append(time.thread_time() - began)
         return verdict
 
     def choose(self, state: MissionState, candidates: Sequence[Visit], *, at_most: int | None = None) -> Choice:
-        began = time.perf_counter()
+        began = time.thread_time()
         choice = self.guard.choose(state, candidates, at_most=at_most)
-        (self.choices_s if self.first_s else self.first_s).append(time.perf_counter() - began)
+        (self.choices_s if self.first_s else self.first_s).append(time.thread_time() - began)
         return choice
 
 

@@ -85,10 +85,10 @@ def follow(root: p.Node, site: Site, events: Sequence[Event]) -> Account:
         reader.account.rest = tuple(reader.left)
     except _Stopped:
         pass
-    else:
-        unexplained = next((e for e in reader.left if not isinstance(e, Faulted)), None)
-        if unexplained is not None:
-            reader.account.odd.append(f"{unexplained.event} of {unexplained.node} after the plan was done")
+    ends = Faulted | Shed if reader.account.rest else Faulted
+    beyond = next((e for e in reader.left if not isinstance(e, ends)), None)
+    if beyond is not None:
+        reader.account.odd.append(f"{beyond.event} of {beyond.node} at {beyond.t:.0f} s is not what the plan says")
     return reader.account
 
 
@@ -284,6 +284,8 @@ class _Reader:
                 self.left.pop(0)
                 self.account.left_out += 1
                 return False
+            if not isinstance(event, Faulted):
+                self.account.odd.append(f"{node.id} broke the visit of {place} off without a word")
             raise
         finally:
             self._optional -= 1

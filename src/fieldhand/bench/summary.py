@@ -59,7 +59,7 @@ class Group:
 
 @dataclass(frozen=True, kw_only=True)
 class Times:
-    """How long decisions took, in milliseconds."""
+    """How long decisions took, in milliseconds of processor time."""
 
     count: int
     median_ms: float
@@ -112,10 +112,10 @@ def summarize(trials: Sequence[Trial]) -> Summary:
     return Summary(
         promises=(
             group("all", trials),
-            group("home within reach", possible),
+            group("home alone is safe", possible),
             group("- must-do is safe", _with(trials, "within")),
             group("- warned", _with(trials, "warned")),
-            group("home out of reach", _with(trials, "hopeless")),
+            group("home alone is not", _with(trials, "hopeless")),
         ),
         families=_by(possible, FAMILIES, lambda t: t.family),
         limits=_by(possible, LIMITED, lambda t: t.limited),

@@ -88,20 +88,21 @@ def _show(found: Summary) -> None:
     from fieldhand.cli import show
 
     show.out.print(_table("Missions", found.promises))
-    show.out.print(_table("By family (home within reach)", found.families))
-    show.out.print(_table("By what limits them (home within reach)", found.limits))
-    show.out.print(_table("By accepted probability (home within reach)", found.probabilities))
+    show.out.print(_table("By family (home alone is safe)", found.families))
+    show.out.print(_table("By what limits them (home alone is safe)", found.limits))
+    show.out.print(_table("By accepted probability (home alone is safe)", found.probabilities))
     show.out.print(
         "Failed: a budget or the reserve was exceeded. Most: failures that chance explains (97.5 %). Safe: what must\n"
         "be done is within Pf at approval; warned: it is not. Visits: optional ones, mean; +/-: made less forecast;\n"
         "reward: over that of the best route were all legs' costs their means."
     )
-    show.heading("Beyond the figures")
+    show.heading("Beyond the limits")
     show.out.print(f"{found.refused} drafts were not approved, and not flown")
     show.out.print(f"{found.given_up} pieces of mandatory work given up with a reason, in {found.gave_up} missions")
     show.out.print(f"{len(found.silent)} pieces of mandatory work given up in silence{_some(found.silent)}")
     show.out.print(f"{found.lost} missions ended by a fault")
     show.out.print(f"{len(found.wrong)} double visits, wrong ends and logs that do not fit{_some(found.wrong)}")
+    show.heading("Processor time of the guard")
     show.out.print(f"first decision: {_said(found.first)}")
     show.out.print(f"later choices of an optional visit: {_said(found.choices)}")
     show.out.print(f"later answers about mandatory work: {_said(found.admissions)}")
