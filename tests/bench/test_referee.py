@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 from fieldhand.bench.draw import Draft
 from fieldhand.bench.fly import fly
 from fieldhand.bench.referee import Ruling, judge
+from fieldhand.execution.world import ActionFails, Spot, World
 from fieldhand.task.frames import Budget, Constraints, Task
-from fieldhand.task.plan import Act, AnyOrder, ForEach, Node, Repeat, Sequence
+from fieldhand.task.plan import Act, AnyOrder, ForEach, Node, Repeat, Sequence, Try
 from fieldhand.task.results import Acted, Arrived, Decided, Ended, Event, Exited, Shed, Visiting
 from fieldhand.task.selectors import TreeIs, Trees, Union
 from rig import BudgetOf, Rig, husky, of_type, orchard, task_for
@@ -184,6 +185,15 @@ def test_steps_in_any_order_are_sound_in_any_order() -> None:
     cut = ruled(*flown(AnyOrder(id="", steps=steps), visits=1))
     assert sound(cut)
     assert len(cut.given_up) == 2
+
+
+def test_what_stands_in_for_a_failure_is_sound() -> None:
+    body = replace(PICTURE, at=TreeIs(tree="r1c1"))
+    task = task_for(Try(id="", body=body, otherwise=replace(body, at=TreeIs(tree="r1c2"))))
+    world = World(faults=(ActionFails(action=PICTURE.action, at=Spot(id="r1c1")),))
+    ruling = ruled(task, list(replace(RIG, world=world).fly(task).events))
+    assert sound(ruling)
+    assert (ruling.done, ruling.faulted, ruling.status) == (1, "", "completed")
 
 
 @cache

@@ -3,7 +3,7 @@
 scenes      a random orchard and a random robot
 families    random plans of seven kinds
 draw        a mission of a seed: scene, plan, limits that are drawn relative to what the plan needs
-follow      a plan held against an event log: what was done, given up and left out
+follow      a plan held against an event log; account: what the log shows of it
 referee     a finished mission judged from its Task and its log alone
 fly         a mission of a seed flown and judged
 summary     many missions in figures

@@ -7,8 +7,8 @@ log does not go on as the plan does, the mission was cut short there: all that w
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 
+from fieldhand.bench.account import Account, Made, Undone
 from fieldhand.errors import PlaceError
 from fieldhand.site.context import Context
 from fieldhand.site.model import Site
@@ -28,44 +28,6 @@ from fieldhand.task.results import (
     Visiting,
 )
 from fieldhand.task.selectors import Selector, is_relative
-
-
-@dataclass(frozen=True, kw_only=True)
-class Undone:
-    """Work that had to be done and that the log does not show; no places where only the robot would have known them."""
-
-    node: str
-    places: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True, kw_only=True)
-class Made:
-    """An optional visit that was made with all its work; ``run`` counts how often its loop had begun."""
-
-    node: str
-    run: int
-    place: str
-
-
-@dataclass(kw_only=True)
-class Account:
-    """What a log shows of a plan.
-
-    Attributes:
-        done: Pieces of work (an action with its captures, a drive that was asked for) that had to be done and were.
-        undone: Those that were not.
-        made: Optional visits.
-        left_out: Optional visits that were given up.
-        odd: What the plan does not explain.
-        rest: Events from where the mission was cut short.
-    """
-
-    done: int = 0
-    undone: list[Undone] = field(default_factory=list)
-    made: list[Made] = field(default_factory=list)
-    left_out: int = 0
-    odd: list[str] = field(default_factory=list)
-    rest: tuple[Event, ...] = ()
 
 
 class _Cut(Exception):
@@ -155,7 +117,7 @@ class _Reader:
             case p.If():
                 self._if(node)
             case p.Try():
-                raise NotImplementedError("a try/otherwise cannot be judged yet")
+                self._try(node)
             case p.GoTo():
                 self._go_to(node)
             case p.Act():
@@ -201,6 +163,16 @@ class _Reader:
         if holds:
             self.play(node.then)
         elif node.otherwise is not None:
+            self.play(node.otherwise)
+
+    def _try(self, node: p.Try) -> None:
+        before = len(self.account.undone)
+        try:
+            self.play(node.body)
+        except _Cut:
+            if not self._comes(node.otherwise):
+                raise
+            del self.account.undone[before:]
             self.play(node.otherwise)
 
     def _go_to(self, node: p.GoTo) -> None:

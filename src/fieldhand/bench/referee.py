@@ -9,7 +9,8 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from fieldhand.bench.follow import Undone, follow
+from fieldhand.bench.account import Undone
+from fieldhand.bench.follow import follow
 from fieldhand.errors import TaskError
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
