@@ -61,6 +61,7 @@ def test_work_that_was_given_up_with_a_reason_is_sound_and_told() -> None:
     assert ruling.status == "returned"
     assert ruling.done + len(ruling.given_up) == 3
     assert all("too little left" in told for told in ruling.given_up)
+    assert ruling.caution == 0.4
 
 
 def test_each_limit_that_is_exceeded_is_named() -> None:

@@ -23,6 +23,7 @@ KEPT = Ruling(
     faulted="",
     visits=8,
     left_out=3,
+    caution=0.2,
     reward=8.0,
     doubled=(),
     misplaced="",
@@ -93,7 +94,10 @@ def test_visits_and_reward_are_held_against_the_forecast_and_the_best_route() ->
 def test_missions_worth_a_look_are_named_once_the_worst_first() -> None:
     unused = replace(KEPT, uses=(Use(kind="distance_m", used=20.0, limit=100.0), KEPT.uses[1]))
     gave_up = replace(KEPT, given_up=("n2 at 4 (too little left)",))
-    trials = [trial(0), trial(1, unused), trial(2, gave_up), trial(3, choices_s=(4.0,)), trial(4, OVER)]
+    timid = replace(KEPT, caution=0.01)
+    trials = [
+        trial(0), trial(1, unused), trial(2, gave_up), trial(3, choices_s=(4.0,)), trial(4, OVER), trial(5, timid)
+    ]  # fmt: skip
     looked = worth_looking_at(trials, 10)
-    assert [t.seed for t, _ in looked] == [2, 4, 1, 3]
+    assert [t.seed for t, _ in looked] == [2, 4, 1, 5, 3]
     assert [t.seed for t, _ in worth_looking_at(trials, 2)] == [2, 4]

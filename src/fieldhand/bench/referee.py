@@ -57,6 +57,8 @@ class Ruling:
         faulted: What ended the mission if a fault did; work that was lost by it is not given up in silence.
         visits: Optional visits that were made with all their work.
         left_out: Optional visits that were given up.
+        caution: The least chance of running short with which anything was given up, by the log's own words; None where
+            nothing was. Below the accepted probability the guard gave up what it need not have.
         reward: Of the optional visits made.
         doubled: Places that a loop visited twice.
         misplaced: How the mission ended where it should not have; empty if it did not.
@@ -71,6 +73,7 @@ class Ruling:
     faulted: str
     visits: int
     left_out: int
+    caution: float | None
     reward: float
     doubled: tuple[str, ...]
     misplaced: str
@@ -113,6 +116,7 @@ def judge(task: Task, site: Site, robot: RobotProfile, events: Sequence[Event]) 
         faulted=fault,
         visits=len(account.made),
         left_out=account.left_out,
+        caution=min((e.chance_short for e in events if isinstance(e, Shed) and e.chance_short > 0), default=None),
         reward=sum(_worth(task, site, m.node, m.place) for m in account.made),
         doubled=tuple(f"{node}: {place}" for (node, _, place), times in again.items() if times > 1),
         misplaced=_misplaced(task, site, events, ended, account.undone),

@@ -203,6 +203,12 @@ def _remarks(trial: Trial) -> Iterable[tuple[float, str]]:
         yield 35.0 - 10.0 * most, f"gave up {len(ruling.given_up)} that had to be done; only {used} used"
     if ruling.left_out and most < _UNUSED:
         yield 30.0 - 10.0 * most, f"left out {ruling.left_out} visits, made {ruling.visits}; only {used} used"
+    if ruling.caution is not None and ruling.caution < trial.failure_probability / 2:
+        yield (
+            32.0 - 10.0 * most,
+            f"gave up {ruling.left_out + len(ruling.given_up)} at a chance of {ruling.caution:.1%} of running short,"
+            f" {trial.failure_probability:.0%} accepted; {ruling.visits} of {trial.forecast.visits} visits made",
+        )
     short = trial.forecast.visits - ruling.visits
     if short > 2 and ruling.visits < 0.6 * trial.forecast.visits and ruling.left_out:
         yield (
