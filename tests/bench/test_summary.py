@@ -81,8 +81,8 @@ def test_a_mission_that_no_guard_could_save_is_counted_apart() -> None:
     trials = [trial(k) for k in range(10)] + [trial(k, OVER, promise="hopeless") for k in range(10, 20)]
     found = summarize(trials)
     assert found.passed
-    everything, possible, within, warned, hopeless = found.promises
-    assert [g.missions for g in (everything, possible, within, warned, hopeless)] == [20, 10, 10, 0, 10]
+    everything, possible, within, warned, bound, hopeless = found.promises
+    assert [g.missions for g in (everything, possible, within, warned, bound, hopeless)] == [20, 10, 10, 0, 10, 10]
     assert (everything.failures, possible.failures, hopeless.failures) == (10, 0, 10)
 
 

@@ -73,7 +73,8 @@ class Summary:
 
     Attributes:
         promises: All missions; those in which driving home at once was safe enough, so that a guard can keep its
-            promise; of these those whose mandatory part was, and those approved with a warning; the others.
+            promise; of these those whose mandatory part was, those approved with a warning, and those in which a limit
+            made a difference; the others.
         families, limits, probabilities: The missions of the second group by what they were.
         refused: Draws that were not approved; they were not flown.
         gave_up: Missions in which work that had to be done was given up, all with a reason.
@@ -115,6 +116,7 @@ def summarize(trials: Sequence[Trial]) -> Summary:
             group("home alone is safe", possible),
             group("- must-do is safe", _with(trials, "within")),
             group("- warned", _with(trials, "warned")),
+            group("- a limit binds", [t for t in possible if _bound(t)]),
             group("home alone is not", _with(trials, "hopeless")),
         ),
         families=_by(possible, FAMILIES, lambda t: t.family),
@@ -218,6 +220,11 @@ def _remarks(trial: Trial) -> Iterable[tuple[float, str]]:
     slowest = max([trial.first_s, *trial.choices_s, *trial.admissions_s])
     if slowest > _SLOW_S:
         yield 10.0 + slowest, f"a decision took {slowest:.1f} s ({trial.trees} trees)"
+
+
+def _bound(trial: Trial) -> bool:
+    """Whether a limit made a difference: something was given up for it, or it was exceeded."""
+    return bool(trial.ruling.left_out or trial.ruling.given_up or trial.failed)
 
 
 def _with(trials: Sequence[Trial], promise: str) -> list[Trial]:
