@@ -116,6 +116,8 @@ class Parts:
         if get_origin(hint) in (Union, UnionType) and NoneType in get_args(hint):
             rest = Union[tuple(a for a in get_args(hint) if a is not NoneType)]  # noqa: UP007
             return st.one_of(st.none(), self.of_hint(name, rest, depth))
+        if name == "reward" and hint is float:
+            return st.floats(0, 1e6)
         if name in _BY_FIELD:
             return _BY_FIELD[name]
         if hint == Value:

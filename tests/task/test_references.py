@@ -9,7 +9,7 @@ import pytest
 from fieldhand.task.build import make_task
 from fieldhand.task.conditions import AllOf, Between, Compare, Level, Not
 from fieldhand.task.frames import Goal, Variable
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Repeat, Sequence, Stop, Try
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Optional, Repeat, Sequence, Stop, Try
 from fieldhand.task.references import references
 from fieldhand.task.selectors import Bound, Corners, First, Here, Nearest, Trees
 from strategies import ROVER
@@ -45,6 +45,13 @@ SOUND = {
     "name the place of a loop inside it": task_of(
         ForEach(id="", select=Corners(), label="c", body=probe(at=Nearest(to=Bound(label="c"))))
     ),
+    "read and test in an optional step": task_of(
+        Optional(id="", body=Sequence(id="", steps=(probe("r"), when(dry()))))
+    ),
+    "read before an optional step, test after it": task_of(
+        probe("r"), Optional(id="", body=probe("r")), when(dry()), Optional(id="", body=when(dry()))
+    ),
+    "an optional step at each place": task_of(ForEach(id="", select=Trees(), body=Optional(id="", body=probe()))),
     "an action binds its place": task_of(probe(at=First(), label="p"), GoTo(id="", place=Nearest(to=Bound(label="p")))),
 }
 
@@ -66,6 +73,14 @@ UNSOUND = {
     "read later in the loop": (
         task_of(Repeat(id="", times=2, body=Sequence(id="", steps=(when(dry()), probe("r"))))),
         "tests the reading 'r'",
+    ),
+    "read by a step that may be shed": (
+        task_of(Optional(id="", body=probe("r")), when(dry())),
+        "node 'n4' tests the reading 'r', which only an optional step takes: test it inside that",
+    ),
+    "bound by a step that may be shed": (
+        task_of(Optional(id="", body=GoTo(id="", place=First(), label="p")), GoTo(id="", place=Bound(label="p"))),
+        "node 'n4' names the place 'p', which only an optional step binds: name it inside that",
     ),
     "place never bound": (
         task_of(GoTo(id="", place=Nearest(to=Bound(label="p")))),
@@ -119,6 +134,19 @@ def test_nested_repeats_do_not_multiply_without_end(times, wrong):
     plan = Repeat(id="", times=10, body=Repeat(id="", times=times, body=Repeat(id="", times=100, body=probe())))
     expected = "node 'n4' comes to 101,000 rounds, with the loops around it; 100,000 is the most"
     assert references(task_of(plan)) == ((expected,) if wrong else ())
+
+
+@pytest.mark.parametrize(
+    ("inner", "outer"),
+    [
+        (Optional(id="", body=probe()), lambda body: Optional(id="", body=Repeat(id="", times=2, body=body))),
+        (Optional(id="", body=probe()), lambda body: ForEach(id="", select=Trees(), optional=True, body=body)),
+        (ForEach(id="", select=Trees(), optional=True, body=probe()), lambda body: Optional(id="", body=body)),
+    ],
+)
+def test_nothing_optional_stands_inside_an_optional_step_nor_it_inside_optional_visits(inner, outer):
+    (problem,) = references(task_of(outer(inner)))
+    assert "is optional inside 'n2', which is optional as a whole" in problem
 
 
 def test_ids_stand_once():

@@ -143,6 +143,24 @@ def test_a_speed_is_one_that_a_robot_drives_at(speed, expected):
     assert bool(found) == bool(expected)
 
 
+@pytest.mark.parametrize(
+    ("reward", "expected"),
+    [("0", ""), ("2.5", ""), ("-1", "at least 0"), ("INF", "is not a number"), ("much", "is not a number")],
+)
+def test_an_optional_step_is_worth_a_finite_number_from_0_on(reward, expected):
+    act = b'<act id="n5" count="2"><take_picture view="trunk"/><at><here/></at></act>'
+    found = said(DOCUMENT.replace(act, f'<optional id="n6" reward="{reward}">'.encode() + act + b"</optional>"))
+    assert expected in found
+    assert bool(found) == bool(expected)
+
+
+def test_an_optional_step_holds_one_node():
+    act = b'<act id="n5" count="2"><take_picture view="trunk"/><at><here/></at></act>'
+    assert "<optional>: lacks an element inside" in said(DOCUMENT.replace(act, b'<optional id="n6"/>'))
+    two = b'<optional id="n6">' + act + act.replace(b"n5", b"n7") + b"</optional>"
+    assert "one too many inside <optional>" in said(DOCUMENT.replace(act, two))
+
+
 @pytest.mark.parametrize(("times", "valid"), [("1", True), ("1000", True), ("1001", False), ("999999999999", False)])
 def test_rounds_have_a_bound(times, valid):
     act = b'<act id="n5" count="2"><take_picture view="trunk"/><at><here/></at></act>'

@@ -20,7 +20,7 @@ from fieldhand.task.frames import (
     Then,
     Variable,
 )
-from fieldhand.task.plan import Act, AnyOrder, ForEach, If, Node, Repeat, Sequence, Try, walk
+from fieldhand.task.plan import Act, AnyOrder, ForEach, If, Node, Optional, Repeat, Sequence, Try, walk
 from fieldhand.task.selectors import is_single
 
 #: What every mission does about faults unless its Task says otherwise.
@@ -87,7 +87,7 @@ def _number(node: Node, first: int) -> tuple[Node, int]:
     match node:
         case Sequence() | AnyOrder():
             return replace(node, id=name, steps=tuple([child(s) for s in node.steps])), following
-        case ForEach() | Repeat():
+        case ForEach() | Repeat() | Optional():
             return replace(node, id=name, body=child(node.body)), following
         case If():
             then = child(node.then)
@@ -122,6 +122,8 @@ def goals(plan: Node) -> tuple[Goal, ...]:
             case Try():
                 visit(node.body, times, conditional, optional)
                 visit(node.otherwise, times, True, optional)
+            case Optional():
+                visit(node.body, times, conditional, True)
             case Act():
                 expected = None if times is None else times * node.count
                 found.append(

@@ -9,6 +9,7 @@ How they behave is fixed here, for the preview and for the robot alike:
 * ``Act`` without ``at`` is done at the place in hand. A selector that an ``Act`` or ``GoTo`` names must give one place.
 * ``ForEach`` resolves its selector once, when it is reached; then it drives to each place and does ``body`` there.
 * A node fails when an action or a drive in it fails for good; ``Try`` catches that, else the mission ends faulted.
+* ``Optional`` asks the budget guard once, when it is reached, about all of its body. Work that was shed did not fail.
 """
 
 from __future__ import annotations
@@ -99,6 +100,22 @@ class Try:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Optional:
+    """``body``, unless the budget guard sheds it ("if the battery allows"). Nothing optional stands inside.
+
+    Labels and readings that the body binds are known inside it alone.
+
+    Attributes:
+        reward: What doing it is worth.
+    """
+
+    id: str
+    body: Node
+    reward: float = 1.0
+    said: tuple[Span, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
 class GoTo:
     """Drive to a place. ``label`` binds it for later nodes."""
 
@@ -139,7 +156,7 @@ class Stop:
     said: tuple[Span, ...] = ()
 
 
-Node = Sequence | AnyOrder | ForEach | Repeat | If | Try | GoTo | Act | Stop
+Node = Sequence | AnyOrder | ForEach | Repeat | If | Try | Optional | GoTo | Act | Stop
 
 
 def children(node: Node) -> tuple[Node, ...]:
@@ -147,7 +164,7 @@ def children(node: Node) -> tuple[Node, ...]:
     match node:
         case Sequence(steps=steps) | AnyOrder(steps=steps):
             return steps
-        case ForEach(body=body) | Repeat(body=body):
+        case ForEach(body=body) | Repeat(body=body) | Optional(body=body):
             return (body,)
         case If(then=then, otherwise=otherwise):
             return (then,) if otherwise is None else (then, otherwise)
@@ -162,6 +179,11 @@ def walk(node: Node) -> Iterator[Node]:
     yield node
     for child in children(node):
         yield from walk(child)
+
+
+def is_optional(node: Node) -> bool:
+    """Whether the budget guard may shed the node, or visits of it, and the mission goes on."""
+    return isinstance(node, Optional) or (isinstance(node, ForEach) and node.optional)
 
 
 def selector_of(node: Node) -> Selector | None:

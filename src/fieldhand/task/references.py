@@ -16,11 +16,13 @@ from fieldhand.task.plan import (
     ForEach,
     If,
     Node,
+    Optional,
     Repeat,
     Sequence,
     Try,
     children,
     condition_of,
+    is_optional,
     selector_of,
     walk,
 )
@@ -31,12 +33,14 @@ def references(task: Task, capabilities: Capabilities | None = None) -> tuple[st
     """What is wrong with the references inside a Task, a sentence each with the node's id; empty if nothing is.
 
     Ids are unique; goals and state variables name actions of the plan; a place is bound before it is named; a reading
-    is taken before it is tested, by a node that can come first on some branch; a range has its low end first; nested
-    repeats do not multiply beyond ``MAX_ROUNDS``. With capabilities: each of those readings measures the quantity that
-    is tested.
+    is taken before it is tested, by a node that can come first on some branch, and neither by an optional step, which
+    may be shed; a range has its low end first; nothing optional stands inside an optional step, nor that inside an
+    optional for-each; nested repeats do not multiply beyond ``MAX_ROUNDS``. With capabilities: each of those readings
+    measures the quantity that is tested.
     """
     nodes = {node.id: node for node in walk(task.composition.plan)}
     problems = [*_ids(task), *_frames(task, nodes), *_endless(task.composition.plan)]
+    problems.extend(_twice_optional(task.composition.plan))
     _visit(task.composition.plan, _Known(), _Found(problems=problems, capabilities=capabilities))
     return tuple(problems)
 
@@ -82,6 +86,14 @@ def _endless(plan: Node, around: int = 1) -> Iterator[str]:
         yield from _endless(child, rounds)
 
 
+def _twice_optional(node: Node, around: Node | None = None) -> Iterator[str]:
+    """Optional steps in, or around, what is optional: which of the two the guard would weigh is not said."""
+    if around is not None and is_optional(node) and (isinstance(node, Optional) or isinstance(around, Optional)):
+        yield f"node {node.id!r} is optional inside {around.id!r}, which is optional as a whole; make one of them plain"
+    for child in children(node):
+        yield from _twice_optional(child, node if is_optional(node) else around)
+
+
 @dataclass(frozen=True, kw_only=True)
 class _Known:
     """What may be bound when a node is reached: labels, and for each reading the actions that may have taken it."""
@@ -96,6 +108,11 @@ class _Known:
         """A reading taken anew replaces what was bound before."""
         return _Known(labels=self.labels, readings={**self.readings, name: frozenset({action})}) if name else self
 
+    def within(self, names: _Known) -> _Known:
+        """What is left of it where only names that were bound before count."""
+        readings = {name: actions for name, actions in self.readings.items() if name in names.readings}
+        return _Known(labels=self.labels & names.labels, readings=readings)
+
     def __or__(self, other: _Known) -> _Known:
         names = self.readings.keys() | other.readings.keys()
         none: frozenset[str] = frozenset()
@@ -107,6 +124,8 @@ class _Known:
 class _Found:
     problems: list[str]
     capabilities: Capabilities | None
+    #: Names that optional steps bind: nobody outside can count on them.
+    shed: set[str] = field(default_factory=set)
 
     def add(self, problem: str) -> None:
         """Add a problem, once."""
@@ -139,17 +158,25 @@ def _visit(node: Node, known: _Known, found: _Found) -> _Known:
         case Try():
             body = _visit(node.body, known, found)
             return body | _visit(node.otherwise, known | body, found)
+        case Optional():
+            after = _visit(node.body, known, found)
+            found.shed.update((after.labels | after.readings.keys()) - (known.labels | known.readings.keys()))
+            return known | after.within(known)
         case Act():
             return known.label(node.label).reading(node.reading, node.action)
         case _:
             return known.label(getattr(node, "label", ""))
 
 
+_NOTHING_BINDS, _NOTHING_TAKES = "nothing before it binds", "nothing before it takes"
+
+
 def _check_places(node: Node, known: _Known, found: _Found) -> None:
     selector = selector_of(node)
     for part in selectors.walk(selector) if selector is not None else ():
         if isinstance(part, Bound) and part.label not in known.labels:
-            found.add(f"node {node.id!r} names the place {part.label!r}, which nothing before it binds")
+            by = "only an optional step binds: name it inside that" if part.label in found.shed else _NOTHING_BINDS
+            found.add(f"node {node.id!r} names the place {part.label!r}, which {by}")
 
 
 def _check_condition(node: Node, known: _Known, found: _Found) -> None:
@@ -164,7 +191,8 @@ def _check_condition(node: Node, known: _Known, found: _Found) -> None:
             continue
         actions = known.readings.get(part.reading)
         if actions is None:
-            found.add(f"node {node.id!r} tests the reading {part.reading!r}, which nothing before it takes")
+            by = "only an optional step takes: test it inside that" if part.reading in found.shed else _NOTHING_TAKES
+            found.add(f"node {node.id!r} tests the reading {part.reading!r}, which {by}")
             continue
         for action in sorted(actions) if found.capabilities else ():
             able = found.capabilities.actions.get(action) if found.capabilities else None

@@ -84,8 +84,7 @@ def vocabulary(capabilities: Capabilities, *, draft: bool = False) -> Vocabulary
     for shape in schema.shapes:
         inside = made.children.setdefault(shape.element, [])
         made.attributes["", shape.element] = [name for a in shape.attributes for name in _names(a)]
-        plain = (*shape.attributes, *(shape.head.attributes if shape.head else ()))
-        made.kinds.update({a.name: a.kind for a in plain if a.kind != "value"})  # any text is such a value
+        made.kinds.update({(shape.element, a.name): a.kind for a in shape.attributes if a.kind != "value"})
         for head in schema.heads(shape):
             inside.append(head)
             made.attributes[shape.element, head] = _head_attributes(shape, head, capabilities)

@@ -38,6 +38,7 @@ _FACETS: dict[str, dict[str, str]] = {
     "limit": {"minExclusive": "0"},
     "failure_probability": {"minExclusive": "0", "maxExclusive": "1"},
     "reserve_percent": {"minInclusive": "0", "maxExclusive": "100"},
+    "reward": {"minInclusive": "0"},
     "speed_m_s": {"minInclusive": "0.01", "maxInclusive": "20"},
 }
 
@@ -192,7 +193,7 @@ class SchemaBuilder:
         words = words or attribute.choices
         if attribute.field == "action":
             words = tuple(self.capabilities.actions)
-        facets = _FACETS.get(attribute.field, {})
+        facets = _FACETS.get(attribute.field, {}) if attribute.kind in ("integer", "number") else {}
         if words and attribute.kind != "choices":
             _enumeration(_xs(made, "attribute", name=attribute.name, **use), words)
         elif attribute.kind == "choices":

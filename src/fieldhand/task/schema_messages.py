@@ -44,13 +44,13 @@ class Vocabulary:
         children: Names of the elements that may stand in an element.
         required: Names of those that must.
         attributes: Names of the attributes, by (parent, element) where the parent decides, else by ("", element).
-        kinds: Kind of value of an attribute, by its name; parameters of actions are not among them.
+        kinds: Kind of value of an attribute, by (element, attribute); what is not among them is a number.
     """
 
     children: dict[str, list[str]] = field(default_factory=dict)
     required: dict[str, list[str]] = field(default_factory=dict)
     attributes: dict[tuple[str, str], list[str]] = field(default_factory=dict)
-    kinds: dict[str, AttributeKind] = field(default_factory=dict)
+    kinds: dict[tuple[str, str], AttributeKind] = field(default_factory=dict)
 
     def attributes_of(self, parent: str, element: str) -> list[str]:
         """The attributes that an element may have."""
@@ -106,7 +106,7 @@ def _message(raw: str, name: str, parent: str, vocabulary: Vocabulary, present: 
     if "is required but missing" in raw and attribute:
         return f"the attribute {attribute[1]!r} is missing"
     if attribute and ("[facet '" in raw or "is not a valid value" in raw):
-        return _bad_value(raw, attribute[1], vocabulary.kinds.get(attribute[1], "number"))
+        return _bad_value(raw, attribute[1], vocabulary.kinds.get((name, attribute[1]), "number"))
     if match := re.search(r"Duplicate key-sequence \['(.*)'\]", raw):
         return f"the id {match[1]!r} is used twice; ids are unique"
     if match := re.search(r"No match found for key-sequence \['(.*)'\]", raw):
