@@ -15,7 +15,7 @@ from fieldhand.forecast.steps import Decision, Walk
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import AnyOrder, ForEach, If, Node, Repeat, Sequence, Try
+from fieldhand.task.plan import AnyOrder, ForEach, If, Node, Optional, Repeat, Sequence, Try, is_optional
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -64,8 +64,8 @@ class BranchEstimate:
         metres, seconds, percent: What it takes; percent of a full battery.
         chances: For each budget, and then for the battery's reserve.
         captures: Number of captures on it.
-        visits: Optional visits that are expected to fit.
-        shed: Optional visits that are not, the places.
+        visits: Optional visits and steps that are expected to fit.
+        shed: Those that are not, the places.
         walk: The branch itself.
     """
 
@@ -152,13 +152,13 @@ def estimate(
 
 
 def mandatory_part(task: Task) -> Task:
-    """The Task without its optional visits."""
+    """The Task without its optional visits and steps."""
     return replace(task, composition=replace(task.composition, plan=_without_optional(task.composition.plan)))
 
 
 def _without_optional(node: Node) -> Node:
     match node:
-        case ForEach(optional=True):
+        case ForEach(optional=True) | Optional():
             return Sequence(id=node.id, steps=())
         case Sequence() | AnyOrder():
             return replace(node, steps=tuple(_without_optional(step) for step in node.steps))
@@ -191,7 +191,7 @@ def _branch(
     seconds = metres / speed + work_s
     percent = robot.percent(1.0, 0.0) * metres + robot.percent(0.0, 1.0) * seconds + robot.percent(0.0, 0.0, work_j)
     amount = {"distance_m": metres, "duration_s": seconds, "energy_percent": percent, "reserve": percent}
-    lists = [s for s in walked.steps if isinstance(s.node, ForEach) and s.node.optional and s.kind == "visit-list"]
+    lists = [s for s in walked.steps if is_optional(s.node) and s.kind == "visit-list"]
     return BranchEstimate(
         decisions=walked.decisions,
         metres=_figure(metres),

@@ -1,26 +1,32 @@
-"""Optional visits as an orienteering problem: the bridge from site and robot to :mod:`fieldhand.orienteering`."""
+"""What is optional as an orienteering problem: the bridge from site and robot to :mod:`fieldhand.orienteering`."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.forecast.limits import Resource, limits_of, resources_of
-from fieldhand.forecast.rest import Rest, rest_after
+from fieldhand.errors import DriveFault
+from fieldhand.forecast import routes
+from fieldhand.forecast.limits import Resource, limits_of, resources_of, speed_of
+from fieldhand.forecast.rest import Rest, every_answer, following, rest_after
 from fieldhand.forecast.service import service_of
-from fieldhand.forecast.state import Spent
+from fieldhand.forecast.state import Spent, Visit
+from fieldhand.forecast.walk import Walker
 from fieldhand.orienteering.policy import SOLVE, Decision, Effort, decide, left_of
 from fieldhand.orienteering.problem import Problem, under_way
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.context import Context
 from fieldhand.site.model import Place, Site
-from fieldhand.task.plan import ForEach
+from fieldhand.task.frames import Task
+from fieldhand.task.plan import ForEach, Optional
 
 if TYPE_CHECKING:
-    from fieldhand.forecast.walk import Walker
+    from fieldhand.site.drives import Drives
 
 Floats = NDArray[np.float64]
 
@@ -56,6 +62,113 @@ def affordable(walker: Walker, node: ForEach, places: tuple[Place, ...]) -> tupl
     levels = tuple(limit.failure_probability for limit in problem.limits)
     decision = decide_at_most(problem, levels, np.random.default_rng(0), effort=SOLVE, at_most=node.at_most)
     return tuple(v - 1 for v in decision.route.vertices[1:-1])
+
+
+def visit_of(node: Optional, task: Task, site: Site, robot: RobotProfile, drives: Drives, context: Context) -> Visit:
+    """An optional step as one visit: from where its body first drives to, on the branch that takes most.
+
+    Args:
+        node: The step.
+        task, site, robot, drives: The mission.
+        context: Where the robot is and has been.
+
+    Returns:
+        The visit; at the place in hand where nothing is driven. Of places that cannot be told before the robot is on
+        its way, and of what comes after them, the work is counted and no drive.
+
+    Raises:
+        PlaceError: Its first place cannot be told.
+        DriveFault: A place that cannot be reached.
+    """
+    speed = speed_of(task.constraints, robot)
+    work_s, work_j = service_of(node.body, robot)
+    longest, most = Visit(place=context.here), -1.0
+    for holds in every_answer((node.body,)):
+        steps = Walker(task, site, robot, drives, holds, optional=False, context=context).along(node.body)
+        legs = [(s.drive.length_m, s.places[0]) for s in steps if s.drive is not None]
+        acts = [s for s in steps if s.kind == "act"]
+        visit = Visit(
+            place=legs[0][1] if legs else context.here,
+            reward=node.reward,
+            service_s=max(work_s, sum(s.seconds for s in acts)),
+            service_j=max(work_j, sum(s.joules for s in acts)),
+            inside_m=sum(metres for metres, _ in legs[1:]),
+            leaves=legs[-1][1] if len(legs) > 1 else None,
+        )
+        seconds = visit.service_s + sum(metres for metres, _ in legs) / speed
+        if seconds > most:
+            longest, most = visit, seconds
+    return longest
+
+
+def weigh(walker: Walker, node: Optional) -> tuple[Place, bool]:
+    """Where an optional step begins, and whether it fits what the walk has left by then.
+
+    What must follow and the way home are set aside first.
+    """
+    task, site, robot, drives, context = walker.task, walker.site, walker.robot, walker.drives, walker.context
+    try:
+        visit = visit_of(node, task, site, robot, drives, context)
+    except DriveFault:
+        return next(iter(routes.first_places(node.body, site, context)), context.here), False
+    end = visit.leaves or visit.place
+    rest = _rest_of_rounds(walker, node, Context(here=end, visited=context.visited, bound=context.bound))
+    there, straight, away = _length(drives, context.here, visit.place), 0.0, visit.inside_m
+    if rest.first is not None:
+        away += _length(drives, end, rest.first)
+        straight = _length(drives, context.here, rest.first)
+    problem = visits_problem(
+        distances=np.array([[0.0, there, straight], [there, 0.0, away], [straight, away, 0.0]]),
+        rewards=[visit.reward],
+        service=[(visit.service_s, visit.service_j)],
+        rest=replace(rest, first=end),  # where nothing follows it may end anywhere: at no distance
+        resources=resources_of(task.constraints, robot, walker.charge_percent),
+        robot=robot,
+        spent=walker.spent,
+    )
+    levels = tuple(limit.failure_probability for limit in problem.limits)
+    return visit.place, decide(problem, levels, np.random.default_rng(0), effort=SOLVE).vertex != problem.end
+
+
+def _rest_of_rounds(walker: Walker, node: Optional, then: Context) -> Rest:
+    """What must follow an optional step that ends at ``then``: what is left of the loops around it, then what is after.
+
+    Of the loops it counts the drives from place to place and the work there, not what their bodies drive besides.
+    """
+    mission = (walker.task, walker.site, walker.robot, walker.drives)
+    if not walker.rounds:
+        return rest_after(*mission, node.id, then)
+    outermost = walker.rounds[0]
+    if outermost.after is None:
+        outermost.after = rest_after(*mission, outermost.node.id, then, loops=False)
+    rest, inner = outermost.after, node.id
+    stops: list[Place] = []
+    legs: list[float] = []
+    seconds, joules = rest.seconds, rest.joules
+    for one in reversed(walker.rounds):
+        left = one.places[one.at + 1 :]
+        if stops and left:
+            legs.append(_length(walker.drives, stops[-1], left[0]))
+        stops += left
+        legs += one.legs_m[one.at + 1 :]
+        later = following(one.node.body, inner, walker.site, then, loops=False)
+        works = [service_of(x, walker.robot) for x in later if not isinstance(x, tuple)]
+        works += [service_of(one.node.body, walker.robot)] * len(left)
+        seconds, joules = seconds + sum(s for s, _ in works), joules + sum(j for _, j in works)
+        inner = one.node.id
+    if stops and rest.first is not None:
+        legs.append(_length(walker.drives, stops[-1], rest.first))
+    return Rest(
+        first=stops[0] if stops else rest.first,
+        legs_m=(*legs, *rest.legs_m),
+        seconds=seconds,
+        joules=joules,
+        mandatory=rest.mandatory or bool(stops),
+    )
+
+
+def _length(drives: Drives, a: Place, b: Place) -> float:
+    return 0.0 if a.xy == b.xy else drives.between(a, b).length_m
 
 
 def decide_at_most(

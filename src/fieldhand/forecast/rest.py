@@ -61,7 +61,7 @@ def rest_after(
     *,
     loops: bool = True,
 ) -> Rest:
-    """What must be done after a node, optional visits left out, on the branch that takes most.
+    """What must be done after a node, what is optional left out, on the branch that takes most.
 
     Args:
         task, site, robot, drives: The mission.
@@ -72,7 +72,8 @@ def rest_after(
     nodes = following(task.composition.plan, node_id, site, context, loops=loops)
     speed = speed_of(task.constraints, robot)
     worst, most = Rest(first=None), -1.0
-    for holds in _answers(nodes):
+    inner = [x[0] if isinstance(x, tuple) else x for x in nodes]
+    for holds in every_answer(inner):
         found = _walk_rest(Walker(task, site, robot, drives, holds, optional=False, context=context), nodes)
         seconds = sum(found.legs_m) / speed + found.seconds
         if found.first is not None:
@@ -129,10 +130,9 @@ def _walk_rest(walker: Walker, nodes: Sequence[Following]) -> Rest:
     )
 
 
-def _answers(nodes: Sequence[Following]) -> list[Answer]:
-    """Every way to answer the first few conditions that follow; those beyond them hold, or none of them does."""
-    inner = [x[0] if isinstance(x, tuple) else x for x in nodes]
-    asked = [n.id for node in inner for n in plan.walk(node) if plan.condition_of(n) is not None]
+def every_answer(nodes: Sequence[Node]) -> list[Answer]:
+    """Every way to answer the first few conditions of some nodes; those beyond them hold, or none of them does."""
+    asked = [n.id for node in nodes for n in plan.walk(node) if plan.condition_of(n) is not None]
     if not asked:
         return [lambda _: False]
     some = asked[:_MAX_CONDITIONS]

@@ -15,7 +15,8 @@ from fieldhand.site.context import Context
 from fieldhand.site.model import Place, Site
 from fieldhand.task import plan
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, Node, Repeat
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, Node, Optional, Repeat
+from fieldhand.task.selectors import Selector
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -103,7 +104,7 @@ def steps_in_order(node: AnyOrder, site: Site, drives: Drives, context: Context,
     """The order of an any-order set's steps that drives least between the places where they begin.
 
     Where a step ends does not count; a step with several places begins at the nearest of them; steps without a place of
-    their own come last, as they stand.
+    their own come last, as they stand, and so do optional ones that cannot be driven to.
 
     Raises:
         PlaceError: A step's place cannot be resolved.
@@ -112,6 +113,8 @@ def steps_in_order(node: AnyOrder, site: Site, drives: Drives, context: Context,
     begins: dict[int, Place] = {}
     for index, step in enumerate(node.steps):
         places = first_places(step, site, context)
+        if isinstance(step, Optional):
+            places, _ = reachable(drives, places)
         if places:
             begins[index] = min(places, key=lambda p: (p.x - context.here.x) ** 2 + (p.y - context.here.y) ** 2)
     placed = list(begins)
@@ -132,6 +135,37 @@ def first_places(node: Node, site: Site, context: Context) -> tuple[Place, ...]:
         except PlaceError as error:
             raise at_node(error, inner) from error
     return ()
+
+
+def place_of(node: Node, selector: Selector, site: Site, context: Context) -> Place:
+    """The place of a selector that must give one.
+
+    Raises:
+        PlaceError: It gives none, or several; ``where`` names the node.
+    """
+    from fieldhand.site.places import resolve_one
+
+    try:
+        return resolve_one(selector, site, context)
+    except PlaceError as error:
+        raise at_node(error, node) from error
+
+
+def places_of(node: Node, selector: Selector, site: Site, context: Context) -> tuple[Place, ...]:
+    """The places of a selector, at least one.
+
+    Raises:
+        PlaceError: It gives none; ``where`` names the node.
+    """
+    from fieldhand.site.places import resolve
+
+    try:
+        places = resolve(selector, site, context)
+    except PlaceError as error:
+        raise at_node(error, node) from error
+    if not places:
+        raise PlaceError("no place of this site is meant", where=node.id, advice="check what the words select")
+    return tuple(places)
 
 
 def at_node(error: PlaceError, node: Node) -> PlaceError:

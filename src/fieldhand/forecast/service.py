@@ -11,7 +11,7 @@ def service_of(node: Node, robot: RobotProfile) -> tuple[float, float]:
 
     An ``If`` counts the longer of its two sides, a ``Try`` its body and then its otherwise, a ``Repeat`` all of its
     rounds. A ``ForEach`` inside counts its ``at_most`` visits, or one where the site decides how many there are. Drives
-    inside the node are not counted, and neither is idle power.
+    inside the node are not counted, and neither is idle power, nor an ``Optional``: it is decided on by itself.
 
     Raises:
         KeyError: An action that the robot does not have; a Task that was checked names none.

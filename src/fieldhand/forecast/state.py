@@ -32,12 +32,17 @@ class Visit:
         reward: What the visit is worth, where it is optional.
         service_s: Seconds of work there, on the longest branch.
         service_j: Energy of the actions there in joules, idle power not included.
+        inside_m: Metres driven from there on within the visit, on the longest branch; their time and energy are not in
+            ``service_s`` and ``service_j``.
+        leaves: Where the visit ends; None where that is ``place``.
     """
 
     place: Place
     reward: float = 1.0
     service_s: float = 0.0
     service_j: float = 0.0
+    inside_m: float = 0.0
+    leaves: Place | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Literal
 
 from fieldhand.site.context import Context
 from fieldhand.site.model import Place
-from fieldhand.task.plan import Node
+from fieldhand.task.plan import ForEach, Node, Stop
 
 if TYPE_CHECKING:
+    from fieldhand.forecast.rest import Rest
     from fieldhand.site.drives import Drive
 
 StepKind = Literal["drive", "act", "visit-list", "decide", "exit"]
@@ -39,7 +40,8 @@ class Step:
 
     Attributes:
         node: The plan node that it belongs to; for the exit, the ``Stop`` that takes it or the root of the plan.
-        kind: ``visit-list`` where a for-each has found its places, ``exit`` for the way home, else what it says.
+        kind: ``visit-list`` where a for-each has found its places, or where an optional step is decided on (a list of
+            one place, where it begins); ``exit`` for the way home, else what it says.
         context: Where the robot is and has been before it.
         places: Of a drive or an exit, where to; of an act, where; of a visit list, the places in their order.
         shed: Of a visit list, places for which the budget does not last.
@@ -86,3 +88,33 @@ class Walk:
         """Seconds and joules of all actions."""
         acts = [s for s in self.steps if s.kind == "act"]
         return (sum(s.seconds for s in acts), sum(s.joules for s in acts))
+
+
+@dataclass(kw_only=True)
+class Round:
+    """A for-each under way, around an optional step.
+
+    Attributes:
+        places: Its visits in their order.
+        legs_m: Between them.
+        at: Position of the visit in hand.
+        after: What follows the loop, once somebody has asked.
+    """
+
+    node: ForEach
+    places: tuple[Place, ...]
+    legs_m: tuple[float, ...]
+    at: int = 0
+    after: Rest | None = None
+
+
+class Ended(Exception):
+    """A ``Stop`` was reached. No error: it unwinds the walk."""
+
+    def __init__(self, node: Stop) -> None:
+        self.node = node
+        super().__init__(node.id)
+
+
+class Failed(Exception):
+    """An action inside a ``Try`` is taken to fail. No error: it unwinds the walk to that ``Try``."""

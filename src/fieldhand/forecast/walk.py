@@ -1,27 +1,27 @@
 """A Task walked through without a robot: where it drives, in which order, what it does there, along one branch.
 
 The meaning of every node is that of :mod:`fieldhand.task.plan`; orders come from :mod:`fieldhand.forecast.routes`, as
-they do on the robot. Optional visits are those that fit the budgets as legs cost on the whole.
+they do on the robot. Optional visits and steps are done if they fit the budgets as legs cost on the whole.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
 
 from fieldhand.errors import PlaceError, TaskError
 from fieldhand.forecast import routes
 from fieldhand.forecast.limits import speed_of
 from fieldhand.forecast.state import Spent
-from fieldhand.forecast.steps import Answer, Decision, Step, StepKind, Walk
+from fieldhand.forecast.steps import Answer, Decision, Ended, Failed, Round, Step, StepKind, Walk
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context
 from fieldhand.site.model import Place, Site
 from fieldhand.task import plan
 from fieldhand.task.build import FAULTED_EXITS
 from fieldhand.task.frames import Fault, Task, Then
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Stop, Try
-from fieldhand.task.selectors import Selector
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Optional, Repeat, Stop, Try
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -31,18 +31,6 @@ __all__ = ["Answer", "Decision", "Step", "StepKind", "Walk", "Walker", "exit_of"
 
 #: A walk comes to so many nodes; a mission that would come to more is refused, as no robot could carry it out.
 MAX_NODES = 100_000
-
-
-class Ended(Exception):
-    """A ``Stop`` was reached. No error: it unwinds the walk."""
-
-    def __init__(self, node: Stop) -> None:
-        self.node = node
-        super().__init__(node.id)
-
-
-class Failed(Exception):
-    """An action inside a ``Try`` is taken to fail. No error: it unwinds the walk to that ``Try``."""
 
 
 def never(node_id: str) -> bool:  # noqa: ARG001
@@ -89,7 +77,7 @@ class Walker:
     """The state of one walk; the functions of a walk are its methods, one for each kind of node.
 
     Args:
-        optional: Whether to plan optional visits; without, a walk is what must be done.
+        optional: Whether to plan optional visits and steps; without, a walk is what must be done.
         context: Where the walk begins; at the start of the site by default.
     """
 
@@ -118,6 +106,8 @@ class Walker:
         self._inside_try = 0
         self._nodes = 0
         self.spent = Spent()
+        #: The for-eaches under way around optional steps, outermost first.
+        self.rounds: list[Round] = []
         #: Every place that was gone to, in order; also those where the walk stood already.
         self.stops: list[Place] = []
 
@@ -142,6 +132,22 @@ class Walker:
             then = then if taken == "nominal" else exit_of(self.task, "action_failed")
         self._exit(last, self.site.home(then, self._context.here), goes=then != "stay")
         return Walk(steps=tuple(self._steps), end=self._context.here, exit=taken, decisions=tuple(self._decisions))
+
+    def along(self, node: Node) -> tuple[Step, ...]:
+        """The steps of one node, with no exit after them, as far as its places can be told from here.
+
+        Raises:
+            PlaceError: Its first place cannot be told.
+            DriveFault: A place that cannot be reached.
+        """
+        try:
+            self._node(node)
+        except Ended:
+            pass
+        except PlaceError:
+            if not self._steps:
+                raise
+        return tuple(self._steps)
 
     def _node(self, node: Node) -> None:
         self._nodes += 1
@@ -173,8 +179,10 @@ class Walker:
                     self._node(node.otherwise)
             case Try():
                 self._try(node)
+            case Optional():
+                self._optional_step(node)
             case GoTo():
-                self._drive_to(node, self._one(node, node.place))
+                self._drive_to(node, routes.place_of(node, node.place, self.site, self._context))
                 self._bind(node.label, self._context.here)
             case Act():
                 self._act(node)
@@ -182,7 +190,7 @@ class Walker:
                 raise Ended(node)
 
     def _for_each(self, node: ForEach) -> None:
-        places = self._all(node, node.select)
+        places = routes.places_of(node, node.select, self.site, self._context)
         shed: tuple[Place, ...] = ()
         if node.optional:
             places, closed = routes.reachable(self.drives, places)
@@ -204,15 +212,41 @@ class Walker:
     def _visit_all(self, node: ForEach, places: tuple[Place, ...]) -> None:
         """Do the body at each place; afterwards the label means all the places that were visited."""
         visited: list[Place] = []
-        for place in places:
-            self._drive_to(node, place)
-            self._bind(node.label, place)
-            self._node(node.body)
-            visited.append(place)
-            if node.until is not None and self._decide(node, "holds"):
-                break
+        begun = self._begin_round(node, places)
+        try:
+            for at, place in enumerate(places):
+                if begun:
+                    self.rounds[-1].at = at
+                self._drive_to(node, place)
+                self._bind(node.label, place)
+                self._node(node.body)
+                visited.append(place)
+                if node.until is not None and self._decide(node, "holds"):
+                    break
+        finally:
+            if begun:
+                self.rounds.pop()
         if visited:
             self._bind(node.label, *visited)
+
+    def _begin_round(self, node: ForEach, places: tuple[Place, ...]) -> bool:
+        """Keep what is left of a loop where an optional step inside will be weighed against it."""
+        if not self.optional or not any(isinstance(inner, Optional) for inner in plan.walk(node.body)):
+            return False
+        legs = tuple(self.drives.between(a, b).length_m for a, b in pairwise(places))
+        self.rounds.append(Round(node=node, places=places, legs_m=legs))
+        return True
+
+    def _optional_step(self, node: Optional) -> None:
+        if not self.optional:
+            return
+        from fieldhand.forecast.optional import weigh
+
+        place, fits = weigh(self, node)
+        done, shed = ((place,), ()) if fits else ((), (place,))
+        self._note(Step(node=node, kind="visit-list", context=self._context, places=done, shed=shed))
+        if fits:
+            self._node(node.body)
 
     def _affordable(self, node: ForEach, places: tuple[Place, ...]) -> tuple[tuple[Place, ...], tuple[Place, ...]]:
         """The optional visits that fit the budgets, in their order, and those that do not."""
@@ -238,7 +272,7 @@ class Walker:
 
     def _act(self, node: Act) -> None:
         if node.at is not None:
-            self._drive_to(node, self._one(node, node.at))
+            self._drive_to(node, routes.place_of(node, node.at, self.site, self._context))
         here = self._context.here
         self._bind(node.label, here)
         action = self.robot.action[node.action]
@@ -304,25 +338,6 @@ class Walker:
         if label:
             bound = {**self._context.bound, label: places}
             self._context = Context(here=self._context.here, visited=self._context.visited, bound=bound)
-
-    def _one(self, node: Node, selector: Selector) -> Place:
-        from fieldhand.site.places import resolve_one
-
-        try:
-            return resolve_one(selector, self.site, self._context)
-        except PlaceError as error:
-            raise routes.at_node(error, node) from error
-
-    def _all(self, node: Node, selector: Selector) -> tuple[Place, ...]:
-        from fieldhand.site.places import resolve
-
-        try:
-            places = resolve(selector, self.site, self._context)
-        except PlaceError as error:
-            raise routes.at_node(error, node) from error
-        if not places:
-            raise PlaceError("no place of this site is meant", where=node.id, advice="check what the words select")
-        return tuple(places)
 
     def _note(self, step: Step) -> None:
         self._steps.append(step)
