@@ -78,7 +78,7 @@ class Attempt:
         visited: Ids of the trees at which it has stopped, each once.
         readings: For each reading that is bound, its value by quantity.
         ending: Set when the plan is over before its last node: the tree is ticked no more.
-        giving_up: Id of the optional for-each whose visit in hand is given up; it takes that back.
+        giving_up: Id of the optional for-each or step whose work in hand is given up; it takes that back.
         fault: What the failure in hand is to the exits of the Task.
     """
 

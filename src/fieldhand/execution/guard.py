@@ -18,7 +18,8 @@ class Guard(Protocol):
     def choose(self, state: MissionState, candidates: Sequence[Visit], *, at_most: int | None = None) -> Choice:
         """Which optional visit comes next. Asked again after every leg, with what is left.
 
-        ``at_most``: how many of the candidates may still be visited; None for all.
+        ``state.node`` is the optional for-each, or an optional step, which is its only candidate and is asked about
+        once. ``at_most``: how many of the candidates may still be visited; None for all.
         """
         ...
 

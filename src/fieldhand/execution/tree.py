@@ -10,8 +10,9 @@ from fieldhand.execution.attempt import Attempt
 from fieldhand.execution.behaviors.choices import ChooseBranch, DoInBestOrder, DoInOrder, TryElse
 from fieldhand.execution.behaviors.leaves import DoAction, EndMission, GoToPlace
 from fieldhand.execution.behaviors.loops import ForEachPlace, RepeatBody
+from fieldhand.execution.behaviors.shedding import DoIfItFits
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Sequence, Stop, Try
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Optional, Repeat, Sequence, Stop, Try
 from fieldhand.task.selectors import Selector
 from fieldhand.task.words import say_action, say_times
 
@@ -45,6 +46,8 @@ def _compile(node: Node, attempt: Attempt) -> Behaviour:
             return ChooseBranch(name, node, attempt, [_compile(b, attempt) for b in branches])
         case Try(body=body, otherwise=otherwise):
             return TryElse(name, node, _compile(body, attempt), _compile(otherwise, attempt))
+        case Optional(body=body):
+            return DoIfItFits(name, node, attempt, _compile(body, attempt))
         case GoTo():
             return GoToPlace(name, node, attempt)
         case Act():
@@ -70,6 +73,8 @@ def say_node(node: Node) -> str:
             return "if"
         case Try():
             return "try"
+        case Optional():
+            return "if the budget allows"
         case GoTo(place=place):
             return f"go to {_say_selector(place)}"
         case Act(at=at):

@@ -21,6 +21,7 @@ from fieldhand.task.selectors import is_relative
 
 if TYPE_CHECKING:
     from fieldhand.execution.behaviors.loops import ForEachPlace
+    from fieldhand.execution.behaviors.shedding import DoIfItFits
 
 
 @runtime_checkable
@@ -54,6 +55,17 @@ def loops(behavior: Behaviour) -> Iterator[ForEachPlace]:
             yield parent
 
 
+def optional_around(behavior: Behaviour) -> ForEachPlace | DoIfItFits | None:
+    """The optional visit or step that a behavior is part of; there is at most one of them around it."""
+    from fieldhand.execution.behaviors.loops import ForEachPlace
+    from fieldhand.execution.behaviors.shedding import DoIfItFits
+
+    for parent, _ in ancestors(behavior):
+        if isinstance(parent, DoIfItFits) or (isinstance(parent, ForEachPlace) and parent.node.optional):
+            return parent
+    return None
+
+
 def visit_to(attempt: Attempt, place: Place, work: Node, reward: float = 1.0) -> Visit:
     """A visit as the guard sees it."""
     seconds, joules = service_of(work, attempt.robot)
@@ -71,7 +83,7 @@ def admitted(
 ) -> bool:
     """Ask the guard about mandatory work; where it says no, do what follows from that.
 
-    Inside an optional visit only that visit is given up. Else the mission turns home, and all that it will not do is
+    Inside an optional visit or step only that is given up. Else the mission turns home, and all that it will not do is
     said.
 
     Args:
@@ -86,7 +98,7 @@ def admitted(
     verdict = attempt.guard.admit(attempt.state(node.id), visit, to_come)
     if verdict.go:
         return True
-    optional = next((loop for loop in around if loop.node.optional), None)
+    optional = optional_around(behavior)
     if optional is not None:
         shed(attempt, optional.node.id, [optional.place or visit.place], verdict, optional=True)
         attempt.giving_up = optional.node.id
@@ -128,9 +140,16 @@ def _work_of(node: Node, attempt: Attempt) -> Iterator[tuple[Node, Sequence[Plac
                 yield from _work_of(step, attempt)
         case plan.Stop():
             return
+        case plan.Optional():
+            yield node, first_places_of(node, attempt), True
         case _:
-            optional = isinstance(node, plan.ForEach) and node.optional
-            yield node, _places_of(node, attempt), optional
+            yield node, _places_of(node, attempt), plan.is_optional(node)
+
+
+def first_places_of(node: plan.Optional, attempt: Attempt) -> tuple[Place, ...]:
+    """Where an optional step begins, as far as that is known now."""
+    first = next((inner for inner in plan.walk(node.body) if plan.selector_of(inner) is not None), node)
+    return _places_of(first, attempt)
 
 
 def _places_of(node: Node, attempt: Attempt) -> tuple[Place, ...]:
