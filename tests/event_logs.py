@@ -13,7 +13,7 @@ from random import Random
 from fieldhand.task.build import make_task
 from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Sequence, Stop, Try
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Optional, Repeat, Sequence, Stop, Try
 from fieldhand.task.results import Acted, Arrived, Decided, Ended, Event, Exited, Faulted, Shed, Started, Visiting
 from fieldhand.task.selectors import Farthest, Half, Here, TreeIs
 
@@ -27,7 +27,7 @@ def random_plan(rng: Random, depth: int = 3) -> Node:
         at = rng.choice([None, TreeIs(tree=str(rng.randint(1, 9))), Farthest(origin=Here())])
         return Act(id="", action=rng.choice(ACTIONS), at=at, count=rng.randint(1, 3))
     inner = [random_plan(rng, depth - 1) for _ in range(rng.randint(1, 3))]
-    match rng.randint(0, 6):
+    match rng.randint(0, 7):
         case 0:
             return AnyOrder(id="", steps=tuple(inner))
         case 1:
@@ -47,6 +47,8 @@ def random_plan(rng: Random, depth: int = 3) -> Node:
             return Try(id="", body=inner[0], otherwise=random_plan(rng, depth - 1))
         case 5:
             return Sequence(id="", steps=(GoTo(id="", place=TreeIs(tree="3")), *inner))
+        case 6:
+            return Optional(id="", body=inner[0])
         case _:
             return Sequence(id="", steps=tuple(inner))
 
@@ -123,6 +125,12 @@ class Paper:
                     self._do(node.body)
                 except _Failed:
                     self._do(node.otherwise)
+            case Optional():
+                if self.rng.random() < 0.4:
+                    shed = Shed(t=self._t, node=node.id, places=("4",), optional=True, reason="no budget left for it")
+                    self.events.append(shed)
+                else:
+                    self._do(node.body)
             case GoTo():
                 self._arrive(node.id)
             case Act():

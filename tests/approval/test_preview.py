@@ -11,7 +11,7 @@ from fieldhand.errors import OutputError
 from fieldhand.forecast.estimate import estimate
 from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import Budget, Constraints
-from fieldhand.task.plan import Act, ForEach, If, Sequence
+from fieldhand.task.plan import Act, ForEach, If, Optional, Sequence
 from fieldhand.task.selectors import Corners, TreeIs, Trees
 from orchards import block, husky, orchard, task_for
 
@@ -64,6 +64,16 @@ def test_optional_visits_are_drawn_as_the_budget_allows():
     assert plan.stops
     assert {stop.certainty for stop in plan.stops} == {"budget"}
     assert {leg.certainty for leg in plan.legs} == {"budget"}
+
+
+def test_a_stop_of_an_optional_step_is_drawn_as_the_budget_allows_and_the_others_as_certain():
+    step = Optional(id="", body=Act(id="", action="read_co2", at=TreeIs(tree="20")))
+    corner = Act(id="", action="take_thermal_picture", at=TreeIs(tree="1"))
+    last = Act(id="", action="take_thermal_picture", at=TreeIs(tree="5"))
+    _, plan, _ = drawn(Sequence(id="", steps=(corner, step, last)))
+    shown = {stop.place.id: (stop.certainty, stop.labels) for stop in plan.stops}
+    assert shown == {"1": ("certain", ["1"]), "20": ("budget", ["2"]), "5": ("certain", ["3"])}
+    assert [leg.certainty for leg in plan.legs] == ["certain", "budget", "budget", "certain"]
 
 
 @pytest.mark.parametrize("plan", [CORNERS, BRANCHING])

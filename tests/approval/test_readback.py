@@ -12,7 +12,7 @@ from fieldhand.approval.readback import read_back
 from fieldhand.forecast.estimate import estimate
 from fieldhand.task.conditions import Compare, Level
 from fieldhand.task.frames import Budget, Constraints
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Repeat, Sequence, Stop, Try, walk
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Optional, Repeat, Sequence, Stop, Try, walk
 from fieldhand.task.selectors import (
     Bound,
     Corners,
@@ -132,6 +132,46 @@ def test_a_relative_place_after_optional_visits_is_never_promised():
     assert "decided on the way" in second
     assert "at most 80 m of driving" in words.limits[0]
     assert "10 %" in words.limits[0]
+
+
+@pytest.mark.parametrize(
+    ("metres", "expected"), [(500.0, "by the estimate it does"), (40.0, "by the estimate it does not")]
+)
+def test_an_optional_step_is_said_to_hang_on_the_budget_and_whether_it_fits_by_the_estimate(metres, expected):
+    plan = Sequence(id="", steps=(act(at=TreeIs(tree="1")), Optional(id="", body=act(CO2, at=TreeIs(tree="20")))))
+    words = read(plan, constraints=Constraints(budgets=(Budget(kind="distance_m", limit=metres),)))
+    assert [(line.number, line.indent, line.text) for line in words.lines] == [
+        (1, 0, "At tree 1: take a thermal picture."),
+        (None, 0, f"If the budget allows ({expected}):"),
+        (2, 1, "At tree 20: read CO₂."),
+        (3, 0, "Return to the end marker."),
+    ]
+
+
+def test_an_optional_step_at_each_place_says_how_often_it_fits():
+    loop = ForEach(
+        id="", select=Corners(), body=Sequence(id="", steps=(act(), Optional(id="", body=act(CO2, count=9))))
+    )
+    time = estimate(task_for(SITE, ForEach(id="", select=Corners(), body=act())), SITE, husky()).worst.seconds.p90
+    more = 2.5 * 9 * husky().action[CO2].duration_s
+    found = steps(loop, constraints=Constraints(budgets=(Budget(kind="duration_s", limit=time + more),)))
+    assert "If the budget allows (about 2 of 4 times by the estimate):" in found
+    assert "If the budget allows (by the estimate it does):" in steps(loop)
+
+
+def test_after_an_optional_step_it_is_not_promised_where_the_robot_is_nor_where_readings_were_taken():
+    plan = Sequence(
+        id="",
+        steps=(
+            act(at=TreeIs(tree="1"), reading="r"),
+            Optional(id="", body=act(CO2, at=TreeIs(tree="20")), reward=2.0),
+            If(id="", condition=below("r"), then=act(at=Nearest(to=Here(), fresh=True))),
+        ),
+    )
+    found = steps(plan)
+    assert found[1] == "If the budget allows, worth 2 (by the estimate it does):"
+    assert found[3] == "If the canopy temperature of step 1 is below 33 °C:"
+    assert "decided on the way" in found[4]
 
 
 @pytest.mark.parametrize(

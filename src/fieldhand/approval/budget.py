@@ -9,14 +9,13 @@ from fieldhand.approval.problem import Problem
 from fieldhand.errors import FieldhandError
 from fieldhand.forecast.estimate import BranchEstimate, Estimate
 from fieldhand.forecast.limits import Resource, resources_of
-from fieldhand.forecast.routes import drives_for
+from fieldhand.forecast.routes import drives_for, first_places
 from fieldhand.forecast.service import service_of
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context
 from fieldhand.site.model import Site
-from fieldhand.site.places import resolve
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Act, ForEach, walk
+from fieldhand.task.plan import Act, ForEach, Optional, is_optional, walk
 from fieldhand.task.words import say_duration, say_number
 
 #: A mission that is more likely than not to run short is not approved; one that may is, with a warning.
@@ -51,10 +50,10 @@ def _nothing_fits(task: Task, site: Site, robot: RobotProfile) -> Iterator[Probl
     drives = drives_for(site, robot)
     home = site.home(task.composition.nominal, site.start)
     for node in walk(task.composition.plan):
-        if not (isinstance(node, ForEach) and node.optional):
+        if not (isinstance(node, ForEach | Optional) and is_optional(node)):
             continue
         try:
-            places = resolve(node.select, site, Context(here=site.start))
+            places = first_places(node, site, Context(here=site.start))
             metres = min(drives.between(site.start, p).length_m + drives.between(p, home).length_m for p in places)
         except (FieldhandError, ValueError):
             continue  # where its places hang on the way there, no single visit can be costed

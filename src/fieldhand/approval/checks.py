@@ -25,7 +25,7 @@ from fieldhand.site.model import Place, Site
 from fieldhand.site.places import resolve, resolve_one
 from fieldhand.task.codec import encode
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import ForEach, Node, selector_of, walk
+from fieldhand.task.plan import ForEach, Node, Optional, selector_of, walk
 from fieldhand.task.references import references
 from fieldhand.task.schema import validate
 from fieldhand.task.selectors import Selector, is_relative
@@ -128,6 +128,9 @@ def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
     """Each selector that resolves before the robot moves: it finds something, one where one is needed, reachable."""
     drives = drives_for(site, robot)
     yield from _exits(task, site, drives)
+    steps = {
+        inner.id: node for node in walk(task.composition.plan) if isinstance(node, Optional) for inner in walk(node)
+    }
     for node in walk(task.composition.plan):
         selector = selector_of(node)
         if selector is None or is_relative(selector):
@@ -141,6 +144,9 @@ def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
         if isinstance(node, ForEach) and node.optional and len(closed) < len(places):
             yield from _left_out(node, closed, site)
             continue
+        if closed and node.id in steps:
+            yield from _left_out(steps[node.id], closed, site)
+            continue
         for place, reason in closed:
             yield Problem(
                 node=node.id,
@@ -150,15 +156,16 @@ def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
             )
 
 
-def _left_out(node: ForEach, closed: list[tuple[Place, str]], site: Site) -> Iterator[Problem]:
-    """Optional visits that cannot be made are left out, and the person who approves is told."""
+def _left_out(node: ForEach | Optional, closed: list[tuple[Place, str]], site: Site) -> Iterator[Problem]:
+    """Optional visits and steps that cannot be made are left out, and the person who approves is told."""
     if closed:
         place, reason = closed[0]
         more = f" and {len(closed) - 1} more" if len(closed) > 1 else ""
+        what = "an optional step" if isinstance(node, Optional) else f"{place.kind} {place.id}{more}"
         yield Problem(
             node=node.id,
             where=site.name,
-            what=f"{place.kind} {place.id}{more} will be left out: {place.kind} {place.id} is {reason}",
+            what=f"{what} will be left out: {place.kind} {place.id} is {reason}",
             advice="correct the site if that is wrong",
             severity="warning",
         )

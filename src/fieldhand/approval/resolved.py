@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fieldhand.forecast.walk import Walk
 from fieldhand.site.model import Place
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import ForEach, GoTo, Node, children, selector_of
+from fieldhand.task.plan import ForEach, GoTo, Node, children, is_optional, selector_of
 from fieldhand.task.selectors import is_relative
 
 
@@ -18,8 +18,8 @@ class Found:
 
     Attributes:
         visits: The places of each time that the node was done on the likeliest branch that has it: one for an action or
-            a drive, all in their order for a for-each.
-        shed: Places of a for-each for which the budget is not expected to last.
+            a drive, all in their order for a for-each; for an optional step where it begins, none where it is shed.
+        shed: Places for which the budget is not expected to last.
         known: They are the same on every branch and whatever legs cost; else they are decided on the way.
     """
 
@@ -71,7 +71,7 @@ def _of_walk(walk: Walk) -> dict[str, list[_Visit]]:
 
 
 def _doubtful(plan: Node) -> frozenset[str]:
-    """Nodes whose places hang on which optional visits the budget allows: relative ones in and after such a loop."""
+    """Nodes with relative places in or after optional visits, or after an optional step: they hang on the budget."""
     found: set[str] = set()
     after = False
 
@@ -83,6 +83,7 @@ def _doubtful(plan: Node) -> frozenset[str]:
         after = after or (isinstance(node, ForEach) and node.optional)
         for child in children(node):
             visit(child)
+        after = after or is_optional(node)
 
     visit(plan)
     return frozenset(found)

@@ -12,9 +12,9 @@ from fieldhand.site.model import Place, Site
 from fieldhand.site.places.words import say_places, say_selector
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Task, Then
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Sequence, Stop, Try
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Optional, Repeat, Sequence, Stop, Try
 from fieldhand.task.selectors import Corners, Marker, Selector, TreeIs, Trees, is_single
-from fieldhand.task.words import CORNERS, say_name
+from fieldhand.task.words import CORNERS, say_name, say_number
 
 Names = dict[str, str]
 
@@ -123,6 +123,8 @@ class _Writer:
                 self.node(node.body, indent + 1)
                 self._open(node.id, indent, "If that fails:")
                 self.node(node.otherwise, indent + 1)
+            case Optional():
+                self._optional(node, indent)
             case GoTo():
                 number = self.step(node.id, indent, f"Drive to {self._at(node, node.place)}.")
                 self._arrived(node.label, node.id, number)
@@ -233,6 +235,17 @@ class _Writer:
         if node.until is not None:
             self._open(node.id, indent + 1, f"Leave out the rest once {self._condition(node.until)}.")
 
+    def _optional(self, node: Optional, indent: int) -> None:
+        worth = f", worth {say_number(node.reward)}" if node.reward != 1.0 else ""
+        self._open(node.id, indent, f"If the budget allows{worth}{_expected(self._found.get(node.id))}:")
+        names, taken, moved = self._names, self._taken, self._moved
+        self._names, self._taken = dict(names), dict(taken)
+        self.node(node.body, indent + 1)
+        # What the step binds is known inside it alone; whether the robot has moved since a reading is not known.
+        still = {name: t.there and self._taken[name].there for name, t in taken.items()}
+        self._names, self._moved = names, moved
+        self._taken = {name: replace(t, there=still[name]) for name, t in taken.items()}
+
     def _if(self, node: If, indent: int) -> None:
         self._open(node.id, indent, f"If {self._condition(node.condition)}:")
         names, taken, moved = dict(self._names), dict(self._taken), self._moved
@@ -252,6 +265,16 @@ class _Writer:
     def _condition(self, condition: Condition) -> str:
         where = {name: "there" if t.there else f"of step {t.step}" for name, t in self._taken.items()}
         return say_condition(condition, where, self._robot)
+
+
+def _expected(found: Found | None) -> str:
+    """Whether an optional step fits by the estimate; how often, where it comes up more than once."""
+    if found is None:
+        return ""
+    fit, times = sum(bool(visit) for visit in found.visits), len(found.visits)
+    if times > 1 and 0 < fit < times:
+        return f" (about {fit} of {times} times by the estimate)"
+    return " (by the estimate it does)" if fit else " (by the estimate it does not)"
 
 
 def _one_line(text: str) -> str:

@@ -10,7 +10,7 @@ from fieldhand.approval.sentences import Line
 from fieldhand.forecast.walk import Step, Walk
 from fieldhand.site.model import Place
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Act, ForEach, Node, walk
+from fieldhand.task.plan import Act, ForEach, Node, is_optional, walk
 
 Certainty = Literal["certain", "conditional", "budget"]
 XY = tuple[float, float]
@@ -71,7 +71,7 @@ class _Gatherer:
         self.stops: dict[XY, Stop] = {}
         self.legs: dict[tuple[XY, ...], Leg] = {}
         self._numbers = numbers
-        self._optional = _in_optional_loops(task.composition.plan)
+        self._optional = _of_optional(task.composition.plan)
         seen = [{_key(s) for s in w.steps} for w in walks]
         self._always = frozenset.intersection(*map(frozenset, seen)) if seen else frozenset()
 
@@ -128,6 +128,6 @@ def _key(step: Step) -> tuple[str, str, tuple[XY, ...]]:
     return (step.node.id, step.kind, points)
 
 
-def _in_optional_loops(plan: Node) -> frozenset[str]:
-    loops = [n for n in walk(plan) if isinstance(n, ForEach) and n.optional]
-    return frozenset(inner.id for loop in loops for inner in walk(loop))
+def _of_optional(plan: Node) -> frozenset[str]:
+    """The nodes that the budget decides on, and those inside them."""
+    return frozenset(inner.id for node in walk(plan) if is_optional(node) for inner in walk(node))

@@ -1,8 +1,8 @@
 """What came of each goal, from the event log alone: success, failure, or indeterminate (IEEE 1872.1, results frame).
 
 * Every goal counts captures: those that succeeded against those wanted on the branch that was taken.
-* What had to be done and was not is a failure, whatever the reason; a goal whose branch was not taken is met with none
-  wanted; "as many as you can" is met by one capture if nothing failed.
+* What had to be done and was not is a failure, whatever the reason; a goal whose branch was not taken, or whose step is
+  optional and was shed, is met with none wanted; "as many as you can" is met by one capture if nothing failed.
 * Where the mission was cut off before it could be known, the outcome is indeterminate.
 """
 
@@ -66,7 +66,7 @@ def _optional(goal: Goal, tally: Tally, ended: Ended | None) -> Verdict:
         return "indeterminate" if unknown else "failure"
     if tally.done < tally.wanted:
         return "indeterminate" if cut else "failure"
-    if tally.done or tally.skipped or tally.stopped:
+    if tally.done or tally.skipped or tally.stopped or tally.spared:
         return "success"
     return "indeterminate" if goal.conditional or cut else "failure"
 
@@ -82,6 +82,8 @@ def _why(goal: Goal, tally: Tally, verdict: Verdict, ended: Ended | None) -> str
         parts.append(f"{say_count(tally.given_up, 'place')} given up{_because(tally)}")
     if tally.left_out:
         parts.append(f"{say_count(tally.left_out, 'place')} left out{_because(tally)}")
+    if tally.spared:
+        parts.append(f"left out {say_count(tally.spared, 'time')}{_because(tally)}")
     if verdict == "success":
         return "; ".join(parts)
     if ended is None:
@@ -104,6 +106,8 @@ def _counted(goal: Goal, tally: Tally) -> str:
 
 
 def _not_called_for(tally: Tally) -> str:
+    if tally.spared:
+        return f"left out{_because(tally)}: it was to be done only if the budget allowed"
     if tally.skipped:
         reasons = list(dict.fromkeys(reason for reason in tally.skipped if reason))
         more = f", and {len(reasons) - 1} more times" if len(reasons) > 2 else " and once more" * (len(reasons) == 2)

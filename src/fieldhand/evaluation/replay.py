@@ -8,13 +8,11 @@ off) the rest of a node counts as not reached and the replay goes on at the next
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from enum import Enum, auto
 
-from fieldhand.evaluation.tally import Tally
+from fieldhand.evaluation.tally import Tallies, Tally
 from fieldhand.task import plan as p
 from fieldhand.task.results import Acted, Arrived, Decided, Driving, Ended, Event, Exited, Faulted, Shed, Visiting
-from fieldhand.task.selectors import is_single
 
 
 class _Flow(Enum):
@@ -36,23 +34,23 @@ class _Replay:
 
     def __init__(self, plan: p.Node, events: Sequence[Event]) -> None:
         self._plan = plan
-        self._inside = {node.id: frozenset(n.id for n in p.walk(node)) for node in p.walk(plan)}
+        self._tallies = Tallies(plan)
+        self._inside = self._tallies.inside
         own = self._inside[plan.id]
         over = next((k for k, e in enumerate(events) if isinstance(e, Exited | Ended)), len(events))
         self._orderly = any(isinstance(e, Ended) and e.status in ("completed", "returned") for e in events)
         # The exit itself belongs to the plan only where a stop took it: then it names that stop.
         self._events = [e for e in events[: over + 1] if e.node in own]
         self._next = 0
-        self._tallies = {n.id: Tally() for n in p.walk(plan) if isinstance(n, p.Act)}
 
     def run(self) -> dict[str, Tally]:
         for event in self._events:
-            if isinstance(event, Acted) and event.node in self._tallies:
-                tally = self._tallies[event.node]
+            if isinstance(event, Acted) and event.node in self._tallies.of:
+                tally = self._tallies.of[event.node]
                 tally.reached = True
                 tally.done += event.count if event.status == "success" else 0
         self._play(self._plan)
-        return self._tallies
+        return self._tallies.of
 
     # --- the log -----------------------------------------------------------------------------------------------
 
@@ -63,9 +61,6 @@ class _Replay:
         """Whether the next event belongs to one of these nodes."""
         event = self._peek()
         return event is not None and any(event.node in self._inside[node.id] for node in nodes)
-
-    def _under(self, node: p.Node) -> list[Tally]:
-        return [self._tallies[n.id] for n in p.walk(node) if isinstance(n, p.Act)]
 
     # --- nodes -------------------------------------------------------------------------------------------------
 
@@ -83,6 +78,8 @@ class _Replay:
                 return self._if(node)
             case p.Try():
                 return self._try(node)
+            case p.Optional():
+                return self._optional(node)
             case p.Act():
                 return self._act(node)
             case p.GoTo():
@@ -136,13 +133,13 @@ class _Replay:
                     return _Flow.DONE
             elif left > 0 and self._comes([node.body]):
                 visits += 1
-                before = {n: replace(self._tallies[n]) for n in self._inside[node.body.id] & self._tallies.keys()}
+                before = self._tallies.copies(node.body)
                 flow = self._play(node.body)
                 event = self._peek()
-                if isinstance(event, Shed) and event.node == node.id and event.optional and flow is _Flow.FAILED:
+                if self._sheds(node) and flow is _Flow.FAILED:
                     # The visit itself was given up half-way: what it lacks is left out, not failed.
                     visits -= 1
-                    self._forgive(before)
+                    self._tallies.forgive(before)
                 elif flow is not _Flow.DONE and not self._goes_on(node):
                     self._unmade(node, most - visits, flow)
                     return flow
@@ -169,7 +166,7 @@ class _Replay:
             elif event is None and node.until is not None and flow is not _Flow.STOPPED:
                 # The log stops before the test: whether there was to be another round is not known.
                 if left:
-                    self._open(node.body)
+                    self._tallies.open(node.body)
                 return flow
             elif flow is not _Flow.DONE and not self._comes([node]):
                 if left:
@@ -183,7 +180,7 @@ class _Replay:
             return self._absent(node)
         self._next += 1
         taken, other = (node.then, node.otherwise) if event.holds else (node.otherwise, node.then)
-        for tally in self._under(other) if other is not None else ():
+        for tally in self._tallies.under(other) if other is not None else ():
             tally.skipped.append(event.why)
         return _Flow.DONE if taken is None else self._play(taken)
 
@@ -191,15 +188,31 @@ class _Replay:
         flow = self._play(node.body)
         if self._comes([node.otherwise]):
             return self._play(node.otherwise)
-        for tally in self._under(node.otherwise):
+        for tally in self._tallies.under(node.otherwise):
             if flow is _Flow.DONE or flow is _Flow.STOPPED:
                 tally.skipped.append("what it stands in for went well")
             else:
                 tally.open = tally.undecided = True
         return flow
 
+    def _optional(self, node: p.Optional) -> _Flow:
+        self._skim(node)
+        if not self._comes([node]) and not self._silent(node.body):
+            return self._absent(node)
+        before, flow = self._tallies.copies(node.body), _Flow.DONE
+        if not self._sheds(node):
+            flow = self._play(node.body)
+        event = self._peek()
+        if isinstance(event, Shed) and self._sheds(node):
+            # Given up as a whole or half-way: what it lacks is left out, not failed.
+            self._next += 1
+            self._tallies.forgive(before)
+            self._tallies.spare(node, event)
+            return _Flow.DONE
+        return flow
+
     def _act(self, node: p.Act) -> _Flow:
-        tally = self._tallies[node.id]
+        tally = self._tallies.of[node.id]
         tally.wanted += node.count
         captures, failed_at, faulted = 0, 0, False
         while captures < node.count:
@@ -248,6 +261,11 @@ class _Replay:
             self._next += 1
         return None
 
+    def _sheds(self, node: p.Node) -> bool:
+        """Whether the log goes on with optional work of this very node that was given up."""
+        event = self._peek()
+        return isinstance(event, Shed) and event.node == node.id and event.optional
+
     def _absent(self, node: p.Node) -> _Flow:
         """The log never came to this node."""
         event = self._peek()
@@ -271,9 +289,9 @@ class _Replay:
         elif node.optional:
             # An optional loop is whole when the mission ended in order: what it left out, the budget left out.
             if not self._orderly:
-                self._open(node.body)
+                self._tallies.open(node.body)
         elif node.until is not None:
-            self._open(node.body)
+            self._tallies.open(node.body)
         else:
             self._leave([node.body], flow, left)
 
@@ -281,66 +299,14 @@ class _Replay:
         """Nodes that the robot did not come to."""
         for node in nodes:
             if flow is _Flow.STOPPED:
-                for tally in self._under(node):
+                for tally in self._tallies.under(node):
                     tally.stopped = True
             else:
-                self._miss(node, times)
-
-    def _miss(self, node: p.Node, times: int) -> None:
-        """Add what a node wants as far as the plan alone says it; the rest is open."""
-        match node:
-            case p.Act():
-                self._tallies[node.id].wanted += node.count * times
-            case p.ForEach() if not is_single(node.select) or node.until is not None or node.optional:
-                self._open(node.body)
-            case p.Repeat(until=None):
-                self._miss(node.body, times * node.times)
-            case p.Repeat():
-                self._open(node.body)
-            case p.If():
-                self._open(node, undecided=True)
-            case p.Try():
-                self._miss(node.body, times)
-                self._open(node.otherwise, undecided=True)
-            case _:
-                for child in p.children(node):
-                    self._miss(child, times)
-
-    def _open(self, node: p.Node, *, undecided: bool = False) -> None:
-        for inner in p.walk(node):
-            if isinstance(inner, p.If):
-                undecided_below = [inner.then] if inner.otherwise is None else [inner.then, inner.otherwise]
-                for tally in (t for branch in undecided_below for t in self._under(branch)):
-                    tally.undecided = True
-        for tally in self._under(node):
-            tally.open = True
-            tally.undecided = tally.undecided or undecided
-
-    def _forgive(self, before: dict[str, Tally]) -> None:
-        """Take back what a visit wanted beyond what it gave."""
-        for name, old in before.items():
-            tally = self._tallies[name]
-            tally.wanted = old.wanted + tally.seen - old.seen
-            tally.open, tally.undecided = old.open, old.undecided
+                self._tallies.miss(node, times)
 
     def _shed(self, node: p.Node, event: Shed) -> None:
         self._next += 1
-        perhaps = {n for i in p.walk(node) if isinstance(i, p.If | p.Try) for n in self._maybe(i)}
-        for name, tally in self._tallies.items():
-            if name not in self._inside[node.id] or (name in perhaps and not event.optional):
-                continue
-            if event.optional:
-                tally.left_out += len(event.places)
-            else:
-                tally.given_up += max(1, len(event.places))
-            if event.reason not in tally.reasons:
-                tally.reasons.append(event.reason)
-
-    def _maybe(self, node: p.If | p.Try) -> frozenset[str]:
-        """Nodes that are only come to on one branch."""
-        if isinstance(node, p.Try):
-            return self._inside[node.otherwise.id]
-        return self._inside[node.id] - {node.id}
+        self._tallies.shed(node, event)
 
     def _silent(self, node: p.Node) -> bool:
         """Whether a node holds nothing that must leave a trace in the log."""

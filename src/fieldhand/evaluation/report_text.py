@@ -105,7 +105,7 @@ def _goals(task: Task, outcomes: Sequence[GoalOutcome]) -> str:
         name = capitalised(say_action(goal.action)) if goal else outcome.goal
         wanted = "?" if outcome.wanted is None else str(outcome.wanted)
         if goal and goal.optional:
-            wanted = "as many as fit"
+            wanted = "as many as fit" if goal.expected is None else f"{goal.expected}, if the budget allows"
         rows.append((escape(name), str(outcome.done), wanted, _MARKS[outcome.outcome], escape(outcome.why)))
     return _table(("Goal", "Done", "Wanted", "Outcome", "Why"), rows) if rows else "None were asked for."
 

@@ -1,8 +1,13 @@
-"""What an event log says about one action of a plan."""
+"""What an event log says about the actions of a plan."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from fieldhand.task import plan as p
+from fieldhand.task.results import Shed
+from fieldhand.task.selectors import is_single
 
 
 @dataclass(kw_only=True)
@@ -19,6 +24,7 @@ class Tally:
         failed: Times that it failed for good.
         given_up: Places given up although they had to be visited.
         left_out: Places of an optional loop that were shed.
+        spared: Times that an optional step which holds it was shed.
         skipped: Why a branch that leads here was not taken, each time.
         stopped: A stop of the plan came before it.
     """
@@ -32,6 +38,94 @@ class Tally:
     failed: int = 0
     given_up: int = 0
     left_out: int = 0
+    spared: int = 0
     skipped: list[str] = field(default_factory=list)
     stopped: bool = False
     reasons: list[str] = field(default_factory=list)
+
+
+class Tallies:
+    """The tallies of a plan.
+
+    Attributes:
+        of: The tally of each action, by the id of its node.
+        inside: The ids of a node and of all inside it, by the id of the node.
+    """
+
+    def __init__(self, plan: p.Node) -> None:
+        self.of = {n.id: Tally() for n in p.walk(plan) if isinstance(n, p.Act)}
+        self.inside = {node.id: frozenset(n.id for n in p.walk(node)) for node in p.walk(plan)}
+
+    def under(self, node: p.Node) -> list[Tally]:
+        """The tallies of a node's actions, in the order in which they stand."""
+        return [self.of[n.id] for n in p.walk(node) if isinstance(n, p.Act)]
+
+    def copies(self, node: p.Node) -> Mapping[str, Tally]:
+        """The tallies of a node's actions as they are now, for :meth:`forgive`."""
+        return {name: replace(self.of[name]) for name in self.inside[node.id] & self.of.keys()}
+
+    def miss(self, node: p.Node, times: int) -> None:
+        """Add what a node wants as far as the plan alone says it; the rest is open."""
+        match node:
+            case p.Act():
+                self.of[node.id].wanted += node.count * times
+            case p.ForEach() if not is_single(node.select) or node.until is not None or node.optional:
+                self.open(node.body)
+            case p.Repeat(until=None):
+                self.miss(node.body, times * node.times)
+            case p.Repeat() | p.Optional():
+                self.open(node.body)
+            case p.If():
+                self.open(node, undecided=True)
+            case p.Try():
+                self.miss(node.body, times)
+                self.open(node.otherwise, undecided=True)
+            case _:
+                for child in p.children(node):
+                    self.miss(child, times)
+
+    def open(self, node: p.Node, *, undecided: bool = False) -> None:
+        """More may be wanted of a node's actions; ``undecided``: or nothing, as a condition was not tested."""
+        for inner in p.walk(node):
+            if isinstance(inner, p.If):
+                undecided_below = [inner.then] if inner.otherwise is None else [inner.then, inner.otherwise]
+                for tally in (t for branch in undecided_below for t in self.under(branch)):
+                    tally.undecided = True
+        for tally in self.under(node):
+            tally.open = True
+            tally.undecided = tally.undecided or undecided
+
+    def forgive(self, before: Mapping[str, Tally]) -> None:
+        """Take back what a visit wanted beyond what it gave."""
+        for name, old in before.items():
+            tally = self.of[name]
+            tally.wanted = old.wanted + tally.seen - old.seen
+            tally.open, tally.undecided = old.open, old.undecided
+
+    def spare(self, node: p.Optional, event: Shed) -> None:
+        """An optional step was given up."""
+        for tally in self.under(node):
+            tally.spared += 1
+            tally.reasons.append(event.reason)
+
+    def shed(self, node: p.Node, event: Shed) -> None:
+        """Places of a node were given up."""
+        perhaps = {n for i in p.walk(node) if isinstance(i, p.If | p.Try | p.Optional) for n in self._maybe(i)}
+        for step in p.walk(node):
+            if isinstance(step, p.Optional) and not event.optional:
+                self.spare(step, event)
+        for name, tally in self.of.items():
+            if name not in self.inside[node.id] or (name in perhaps and not event.optional):
+                continue
+            if event.optional:
+                tally.left_out += len(event.places)
+            else:
+                tally.given_up += max(1, len(event.places))
+            if event.reason not in tally.reasons:
+                tally.reasons.append(event.reason)
+
+    def _maybe(self, node: p.If | p.Try | p.Optional) -> frozenset[str]:
+        """Nodes that are only come to on one branch."""
+        if isinstance(node, p.Try):
+            return self.inside[node.otherwise.id]
+        return self.inside[node.id] - {node.id}
