@@ -6,6 +6,108 @@ Longer than other files because it is a table.
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
+    ("husky", "If the battery allows, also take a picture of tree 5.", "maybe [picture @ TreeIs(5)]"),
+    (
+        "husky",
+        "Take a picture of tree 4. If the battery still allows it, also take a picture of tree 5. Then measure CO2 at tree 9.",
+        "picture @ TreeIs(4); maybe [picture @ TreeIs(5)]; co2 @ TreeIs(9)",
+    ),
+    (
+        "husky",
+        "Photograph the four corners within 20 minutes and, time permitting, measure CO2 at the middle tree.",
+        "for Corners: [picture]; maybe [co2 @ Middle] | duration_s 1200",
+    ),
+    (
+        "husky",
+        "Take a picture of tree 4, and if time permits, measure CO2 at tree 5, then return to the start.",
+        "picture @ TreeIs(4); maybe [co2 @ TreeIs(5)] | return_to_start",
+    ),
+    (
+        "husky",
+        "take a picture of tree 4 and measure CO2 at tree 5 if there is enough time left",
+        "picture @ TreeIs(4); maybe [co2 @ TreeIs(5)]",
+    ),
+    (
+        "husky",
+        "Take a picture of tree 4 and, if there's still some battery left, of tree 5.",
+        "picture @ TreeIs(4); maybe [picture @ TreeIs(5)]",
+    ),
+    ("husky", "Measure CO2 at the charger if you have enough time.", "maybe [co2 @ Marker(charger)]"),
+    ("husky", "optionally, measure CO2 at the charger", "maybe [co2 @ Marker(charger)]"),
+    ("husky", "As long as time and charge permit, take a picture of tree 5.", "maybe [picture @ TreeIs(5)]"),
+    ("husky", "Provided the battery is enough for it, photograph tree 5.", "maybe [picture @ TreeIs(5)]"),
+    ("husky", "If possible within the budget, take a picture of tree 5.", "maybe [picture @ TreeIs(5)]"),
+    ("husky", "If enough charge remains, go to tree 5 and take a picture there.", "maybe [go TreeIs(5); picture]"),
+    (
+        "husky",
+        "Drive at most 300 m: photograph the corners, and if it still fits in the budget, take a CO2 reading in the middle.",
+        "for Corners: [picture]; maybe [co2 @ Middle] | distance_m 300",
+    ),
+    (
+        "husky",
+        "At every yellow tree take a picture and, if the battery allows, a CO2 reading too.",
+        "for Where(leaf_color, eq, yellow): [picture; maybe [co2]]",
+    ),
+    (
+        "husky",
+        "At each corner, take a picture. If the remaining battery suffices, measure CO2 at each of them.",
+        "for Corners: [picture; maybe [co2]]",
+    ),
+    (
+        "husky",
+        "Take a picture of tree 5 if possible, then return to the start.",
+        "maybe [picture @ TreeIs(5)] | return_to_start",
+    ),
+    (
+        "husky",
+        "Take a picture of tree 5, keep 30 % in reserve, and if the budget allows it, also measure CO2 at tree 9.",
+        "picture @ TreeIs(5); maybe [co2 @ TreeIs(9)] | reserve 30",
+    ),
+    (
+        "husky",
+        "If the battery allows, measure CO2 at tree 5, and if it is low, take a picture. Then take a picture of tree 9.",
+        "maybe [co2 @ TreeIs(5) = r1; if r1 low: [picture]]; picture @ TreeIs(9)",
+    ),
+    (
+        "husky",
+        "If there is time left, measure CO2 at tree 5. If it is low, take a picture of tree 6.",
+        "maybe [co2 @ TreeIs(5) = r1; if r1 low: [picture @ TreeIs(6)]]",
+    ),
+    (
+        "husky",
+        "Measure CO2 at tree 4. If it is low, take a picture if the battery allows.",
+        "co2 @ TreeIs(4) = r1; if r1 low: [maybe [picture]]",
+    ),
+    (
+        "husky",
+        "Take pictures of as many yellow trees as you can. If there is time left, also measure CO2 at tree 5.",
+        "for Where(leaf_color, eq, yellow) optional: [picture]; maybe [co2 @ TreeIs(5)]",
+    ),
+    (
+        "husky",
+        "If the battery allows, take a picture of as many yellow trees as you can.",
+        "for Where(leaf_color, eq, yellow) optional: [picture]",
+    ),
+    (
+        "husky",
+        "Provided there is enough charge left, take a picture at every corner and then measure CO2 at tree 5.",
+        "maybe [for Corners: [picture]; co2 @ TreeIs(5)]",
+    ),
+    (
+        "husky",
+        "Take a picture of tree 4. If that fails, take a CO2 reading at tree 5 if the battery allows.",
+        "try [picture @ TreeIs(4)] or [maybe [co2 @ TreeIs(5)]]",
+    ),
+    (
+        "husky",
+        "Take a picture of tree 4, and, if there's still time, repeat this at trees 5 and 6.",
+        "picture @ TreeIs(4); maybe [for Union(TreeIs(5)+TreeIs(6)): [picture]]",
+    ),
+    (
+        "husky",
+        "Go to tree 4. If the battery allows, measure CO2. Take a picture.",
+        "go TreeIs(4); maybe [co2]; picture",
+    ),
     (
         "husky",
         "In the northern half, take pictures of the yellow trees.",
@@ -488,6 +590,26 @@ PLANNED = [
 ASKED = [
     (
         "husky",
+        "Take a picture of tree 4, if the battery allows, and measure CO2 at tree 5.",
+        "'if the battery allows': is that said of 'Take a picture of tree 4' or of 'measure CO2 at tree 5'?",
+    ),
+    (
+        "husky",
+        "If the battery allows, go to tree 5. Take a picture there.",
+        "'Take a picture there': where, if what comes before it is left out?",
+    ),
+    (
+        "husky",
+        "If time permits, take a picture of tree 5. Then take a picture of the tree next to it.",
+        "'take a picture of the tree next to it': where, if what comes before it is left out?",
+    ),
+    (
+        "husky",
+        "Take a picture of trees 4, 5 and, if the battery allows, 6.",
+        "'6': tree 6, or 6 of what was said before?",
+    ),
+    (
+        "husky",
         "if a tree is older than 10 years, take a picture of it",
         "'if a tree is older than 10 years': at which tree or trees?",
     ),
@@ -536,6 +658,36 @@ ASKED = [
 ]
 
 REFUSED = [
+    (
+        "husky",
+        "If the battery is below 30 %, return.",
+        "'the battery' does not fit where it stands in 'If the battery is below 30 %, return'",
+    ),
+    (
+        "husky",
+        "If the battery allows, take a picture of tree 5, otherwise return.",
+        "'otherwise': a step for which too little is left is left out, and nothing stands in for it",
+    ),
+    (
+        "husky",
+        "If the battery allows, go home.",
+        "'If the battery allows': what may be left out does not stand there",
+    ),
+    (
+        "husky",
+        "At every yellow tree, if the battery allows, take a picture.",
+        "'if the battery allows': is it said of all these places, or of each of them?",
+    ),
+    (
+        "husky",
+        "At as many trees as possible take a picture and, if the battery allows, measure CO2.",
+        "'if the battery allows': what it is said of may be left out already",
+    ),
+    (
+        "husky",
+        "If the battery allows, take a picture of tree 5. Do the same at tree 9.",
+        "'Do the same at tree 9': whether that may be left out too is not clear",
+    ),
     ("husky", "Take a picture of two trees at each corner.", "'two trees': so many at each place cannot be said yet"),
     ("husky", "take a picture at tree 4 instead of tree 5", "'instead of' is not possible yet"),
     (

@@ -43,6 +43,8 @@ def node(n: p.Node) -> str:
             return f"{n.times} times: [{node(n.body)}]"
         case p.Try():
             return f"try [{node(n.body)}] or [{node(n.otherwise)}]"
+        case p.Optional():
+            return f"maybe [{node(n.body)}]"
         case p.Sequence():
             return "; ".join(node(step) for step in n.steps)
         case p.Stop():

@@ -3,13 +3,15 @@
 Every node has an ``id`` that is unique in its Task and stays the same from planning to the report. ``said`` holds the
 character ranges of the request (start, end) from which the node came; empty where nothing in the request says it.
 
+The budget guard may shed what is optional (:func:`is_optional`), and the mission goes on: work that was shed did not
+fail. It is asked about an ``Optional`` once, when that is reached, about all of it; nothing else optional stands in one.
+
 How they behave is fixed here, for the preview and for the robot alike:
 
 * Whatever needs a place drives there first; the last place reached is the *place in hand* (:class:`~.selectors.Here`).
 * ``Act`` without ``at`` is done at the place in hand. A selector that an ``Act`` or ``GoTo`` names must give one place.
 * ``ForEach`` resolves its selector once, when it is reached; then it drives to each place and does ``body`` there.
 * A node fails when an action or a drive in it fails for good; ``Try`` catches that, else the mission ends faulted.
-* ``Optional`` asks the budget guard once, when it is reached, about all of its body. Work that was shed did not fail.
 """
 
 from __future__ import annotations
@@ -101,12 +103,10 @@ class Try:
 
 @dataclass(frozen=True, kw_only=True)
 class Optional:
-    """``body``, unless the budget guard sheds it ("if the battery allows"). Nothing optional stands inside.
-
-    Labels and readings that the body binds are known inside it alone.
+    """``body`` as a whole, if the budget allows. What it binds is known inside it alone.
 
     Attributes:
-        reward: What doing it is worth.
+        reward: What it is worth.
     """
 
     id: str

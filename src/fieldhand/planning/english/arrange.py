@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
+from fieldhand.planning.english.allowing import with_allowances
 from fieldhand.planning.english.faults import unclear
 from fieldhand.planning.english.kinds import VERBS
 from fieldhand.planning.english.limits import with_amounts, with_limits
@@ -21,7 +22,7 @@ _NEEDS_HEAD = frozenset(
     | {"ROW", "OVER"}
 )
 #: In a clause that gives a reason, these would be something to do or to decide.
-_MORE_THAN_A_REASON = VERBS | {"NUM", "AMOUNT", "IF", "OTHERWISE", "TREE", "CORNER", "WHETHER", "BUDGET"}
+_MORE_THAN_A_REASON = VERBS | {"NUM", "AMOUNT", "IF", "OTHERWISE", "TREE", "CORNER", "WHETHER", "BUDGET", "FITS"}
 #: A clause that begins with one of these says what is to be done.
 _TO_DO = frozenset({"in order to", "so as to", "so that we", "so that i", "so we can", "so i can"})
 
@@ -122,7 +123,7 @@ def _contrasted(before: list[Term]) -> bool:
 
 
 def _sentence(terms: list[Term]) -> tuple[Sentence, list[Span]]:
-    terms = with_spacing(with_amounts(terms))
+    terms = with_spacing(with_amounts(with_allowances(terms)))
     terms = with_row_words(with_ids(with_row_ids(terms)))
     terms = classed(with_orders(terms))
     terms = with_limits(terms)

@@ -5,6 +5,7 @@ The rules, each of which the documentation shows with an example:
 * A command belongs to the "if" of its own sentence; a new sentence without an "if" goes back to the plan's own level.
 * An "if" stands behind the capture whose reading it tests: an "if" on a reading that was itself conditional is nested.
 * An "if" with no command behind it in its sentence holds the command before it ("measure CO2 if it is low").
+* "If the battery allows" makes the commands behind it in its sentence optional; with none, the command before it.
 * A command without a place is done where the command before it was; at several places, at each of them.
 * "The same" is what was done at the last place: with its conditions, without the "if" that asks for the repetition.
 """
@@ -20,8 +21,8 @@ from fieldhand.planning.english.counting import Wanted, counts_each
 from fieldhand.planning.english.faults import Question, spans_of, text_of, unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.hand import ACTS as _ACTS
+from fieldhand.planning.english.leaving import Leaving
 from fieldhand.planning.english.lines import points_over, stops_of
-from fieldhand.planning.english.motion import Motion
 from fieldhand.planning.english.places import find
 from fieldhand.planning.english.syntax import Part
 from fieldhand.planning.english.tokens import Term
@@ -47,7 +48,7 @@ def _waits(following: tuple[Part, ...]) -> bool:
     return bool(following) and following[0].kind in _ACTS and following[0].places is None
 
 
-class Discourse(Motion):
+class Discourse(Leaving):
     """Reads the parts of a request in order. One instance reads one request."""
 
     def read(self, parts: tuple[Part, ...]) -> None:
@@ -84,6 +85,8 @@ class Discourse(Motion):
                     self._otherwise(part)
                 case "failing":
                     self._failing(part)
+                case "allowance":
+                    self._allowance(part, parts, COMMANDS)
                 case "budget":
                     self.told.limits.extend(t.value for t in part.terms)
                 case "distinct":
@@ -98,10 +101,15 @@ class Discourse(Motion):
                     raise unclear(part.terms, "it does not say what to do there")
                 case _:
                     self._read_command(part)
+        self._close_allowance()
         if self._pending is not None:
             raise unclear([self._pending], "an order needs several places", "say which places are visited in it")
 
     def _read_command(self, part: Part) -> None:
+        if part.kind in ("come_back", "stop"):
+            self._close_allowance()  # the way home and the end are for all
+        if part.kind == "lead":
+            self._known_before_lead = self._known()
         before = {id(step) for step, _ in d.walk(self.told.root)}
         self._command(part)
         new = [step for step, _ in d.walk(self.told.root) if id(step) not in before]
@@ -278,6 +286,8 @@ class Discourse(Motion):
             split = len(steps) - 1 if steps and isinstance(steps[-1], d.Go) else len(steps)
             old, sentence = steps[:split], {id(st) for st in steps[split:]}
         passage = repeating.last_passage(old)
+        if any(isinstance(step, d.Maybe) for step, _ in d.walk(passage)):
+            raise unclear(part.terms, "whether that may be left out too is not clear", "say what is to be done again")
         times = next((int(t.value) for t in part.tails if t.kind == "COUNT"), None)
         if not passage.steps:
             raise unclear(part.terms, "there is nothing before it to repeat")

@@ -87,19 +87,27 @@ class Attempt:
 
 
 @dataclass(eq=False)
+class Maybe:
+    """A block that may be left out where too little is left for it."""
+
+    body: Block
+    said: tuple[Span, ...] = ()
+
+
+@dataclass(eq=False)
 class Halt:
     """The end of the mission."""
 
     said: tuple[Span, ...] = ()
 
 
-Step = Go | Capture | Loop | Times | Choice | Attempt | Halt
+Step = Go | Capture | Loop | Times | Choice | Attempt | Maybe | Halt
 
 
 def blocks_of(step: Step) -> list[Block]:
     """The blocks inside a step."""
     match step:
-        case Loop(body=body) | Times(body=body):
+        case Loop(body=body) | Times(body=body) | Maybe(body=body):
             return [body]
         case Choice(then=then, otherwise=otherwise):
             return [then] if otherwise is None else [then, otherwise]
@@ -145,6 +153,8 @@ def copy_block(block: Block, keep: Callable[[Step], bool], renamed: dict[str, st
             case Attempt():
                 body = copy_block(step.body, keep, renamed, fresh)
                 made.add(Attempt(body=body, fallback=copy_block(step.fallback, keep, renamed, fresh), said=step.said))
+            case Maybe():
+                made.add(Maybe(body=copy_block(step.body, keep, renamed, fresh), said=step.said))
             case Halt():
                 made.add(Halt(said=step.said))
     return made
@@ -197,5 +207,7 @@ def _node(step: Step) -> p.Node:
             return p.If(id="", condition=step.condition, then=node_of(step.then), otherwise=other, said=step.said)
         case Attempt():
             return p.Try(id="", body=node_of(step.body), otherwise=node_of(step.fallback), said=step.said)
+        case Maybe():
+            return p.Optional(id="", body=node_of(step.body), said=step.said)
         case Halt():
             return p.Stop(id="", said=step.said)

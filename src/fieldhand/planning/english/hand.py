@@ -57,6 +57,10 @@ class Hand:
         self._sentence_steps: list[d.Step] = []
         self._sentence_acts = False
         self._last_steps: list[d.Step] = []
+        self._allowing: Part | None = None  # "if the battery allows", until all that it is said of has been read
+        self._allowed_after: frozenset[int] = frozenset()  # the steps that were there before
+        self._known_before_lead: frozenset[int] = frozenset()
+        self._allowances = 0  # that have been read
         self._scope = self.told.root
 
     def _where(self, found: Found | None, part: Part, wanted: Wanted) -> tuple[d.Block, s.Selector | None, bool]:

@@ -10,6 +10,7 @@ STARTS = VERBS | {
     "UNLESS",
     "WHETHER",
     "IFSO",
+    "FITS",
     "OTHERWISE",
     "TRY",
     "BUDGET",

@@ -12,6 +12,7 @@ from fieldhand.planning.english.arrange import Arranged, arrange
 from fieldhand.planning.english.discourse import Discourse
 from fieldhand.planning.english.draft import Halt, node_of
 from fieldhand.planning.english.faults import Question, Unclear
+from fieldhand.planning.english.leaving import place_unsure
 from fieldhand.planning.english.lexicon import Lexicon, lexicon_for
 from fieldhand.planning.english.limits import Limit
 from fieldhand.planning.english.syntax import NotParsed, parse
@@ -136,6 +137,13 @@ def _told(arranged: Arranged, request: str, robot: RobotProfile, site: Site) -> 
         if isinstance(parts, NotParsed):
             raise Unclear(_misfit(parts, request))
         discourse.read(parts)
+    unsure = place_unsure(discourse.told.root)
+    if unsure is not None:
+        said = " ".join(request[start:end] for start, end in unsure.said)
+        raise Question(
+            f"'{said}': where, if what comes before it is left out?",
+            ("only if that is done, at its place", "at a tree that you name"),
+        )
     settle(discourse.told)
     for reason in arranged.reasons:
         discourse.told.assumptions.append(f"'{reason}' is taken as a reason, not as something to do.")

@@ -57,7 +57,7 @@ def separated(terms: list[Term]) -> tuple[list[Term], bool, list[Span]]:
             term = replace(term, kind="IF", value=term.kind.lower())
         opened = opened or term.kind in ("IF", "WHETHER")
         found.append(term)
-        if term.kind in ("OTHERWISE", "TRY", "IFSO"):
+        if term.kind in ("OTHERWISE", "TRY", "IFSO", "FITS"):
             found.append(_break_at(term.end))
         at += 1
     return *_trimmed(found), silent
@@ -97,7 +97,7 @@ def _joins(before: list[Term], after: list[Term], opened: bool) -> bool:
     head = next((t for t in after if t.kind not in QUANTITY | {"ORD", "OTHER", "MORE"}), None)
     noun_ahead = head is not None and head.kind in ("NOUN", "READING")
     noun_behind = _last_head(before) in ("NOUN", "READING")
-    return noun_ahead == noun_behind and before[-1].kind not in ("SEP", "OTHERWISE", "TRY", "BUDGET", "IFSO")
+    return noun_ahead == noun_behind and before[-1].kind not in ("SEP", "OTHERWISE", "TRY", "BUDGET", "IFSO", "FITS")
 
 
 def _until(terms: list[Term], stop: Callable[[Term], bool]) -> Iterable[Term]:

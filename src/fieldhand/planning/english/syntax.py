@@ -79,6 +79,7 @@ class Part:
         kind: Name of the grammar's rule.
         then: "then" stands before it.
         bare: No comma, "and" or "then" stands before it.
+        joined: "and" stands before it.
         verb: Its verb, if it has one.
         objects: What to capture.
         places: Where.
@@ -92,6 +93,7 @@ class Part:
     terms: tuple[Term, ...]
     then: bool = False
     bare: bool = False
+    joined: bool = False
     verb: Term | None = None
     objects: tuple[Object, ...] = ()
     places: Places | None = None
@@ -129,14 +131,14 @@ def parse(sentence: Sentence) -> tuple[Part, ...] | NotParsed:
         term = token.value if token is not None and isinstance(token.value, Term) else terms[-1]
         return NotParsed(term=term, said=whole)
     parts: list[Part] = []
-    then, bare = sentence.then, False
+    then, bare, joined = sentence.then, False, False
     for child in tree.children:
         if isinstance(child, Token):
             brk: Break = child.value.value
-            then, bare = brk.then, not child.value.text
+            then, bare, joined = brk.then, not child.value.text, brk.joined
             continue
-        parts.append(replace(_part(child, then), bare=bare))
-        then = bare = False
+        parts.append(replace(_part(child, then), bare=bare, joined=joined))
+        then = bare = joined = False
     return tuple(parts)
 
 

@@ -15,7 +15,7 @@ _ONE_OF_A_KIND = frozenset(
 )
 #: Verbs that are nouns behind an article or a number ("two samples", "a check").
 _VERB_NOUNS = frozenset({"sample", "reading", "check", "test", "scan", "probe", "measurement", "survey"})
-_CLAUSE_STARTS = frozenset({"", "COMMA", "AND", "THEN", "OTHERWISE", "TRY"})
+_CLAUSE_STARTS = frozenset({"", "COMMA", "AND", "THEN", "OTHERWISE", "TRY", "FITS"})
 _CLAUSE_ENDS = frozenset({"", "COMMA", "AND", "THEN", "STOPMARK"})
 #: What a number in a list of tree numbers cannot stand before ("tree 4 and 2 pictures").
 COUNTED = frozenset(
