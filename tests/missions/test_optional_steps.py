@@ -15,7 +15,7 @@ from fieldhand.task.frames import Budget, Constraints, Task
 from fieldhand.task.plan import Act, AnyOrder, ForEach, Node, Optional, Sequence
 from fieldhand.task.results import Acted, Shed
 from fieldhand.task.selectors import Corners, TreeIs
-from flights import Flight, fly_task
+from flights import Flight, fly_request, fly_task
 from orchards import husky, orchard, task_for
 
 SITE, ROBOT = orchard(rows=5, columns=6), husky()
@@ -139,3 +139,15 @@ def test_an_optional_step_at_each_place_leaves_enough_for_every_place() -> None:
         counts = sorted(visited(flight).count(corner) for corner in set(visited(flight)))
         assert flight.assessment.success
         assert counts == [1, 1, 1, 61]
+
+
+def test_what_is_asked_for_if_the_battery_allows_is_done_or_told_from_the_words_to_the_outcome() -> None:
+    request = "Take a picture of the last tree{}. If the budget allows, also take a picture of the north-west corner."
+    for limit, done in (("", 2), (", driving at most 150 m", 1)):
+        flight = fly_request(request.format(limit))
+        assert flight.assessment.success
+        assert len(visited(flight)) == done
+        assert [o.done for o in flight.assessment.outcomes] == [1, done - 1]
+        shed = [e for e in flight.events if isinstance(e, Shed)]
+        assert len(shed) == 2 - done
+        assert all(e.optional and "chance of running short" in e.reason for e in shed)

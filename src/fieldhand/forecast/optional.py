@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,6 +18,7 @@ from fieldhand.forecast.state import Spent, Visit
 from fieldhand.forecast.walk import Walker
 from fieldhand.orienteering.policy import SOLVE, Decision, Effort, decide, left_of
 from fieldhand.orienteering.problem import Problem, under_way
+from fieldhand.orienteering.tail import chance_over
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context
 from fieldhand.site.model import Place, Site
@@ -29,6 +29,9 @@ if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
 
 Floats = NDArray[np.float64]
+
+#: What rounding may add.
+_LOOK = 1 + 1e-9
 
 
 def reward_of(node: ForEach, place: Place, site: Site) -> float:
@@ -113,21 +116,21 @@ def weigh(walker: Walker, node: Optional) -> tuple[Place, bool]:
         return next(iter(routes.first_places(node.body, site, context)), context.here), False
     end = visit.leaves or visit.place
     rest = _rest_of_rounds(walker, node, Context(here=end, visited=context.visited, bound=context.bound))
-    there, straight, away = _length(drives, context.here, visit.place), 0.0, visit.inside_m
-    if rest.first is not None:
-        away += _length(drives, end, rest.first)
-        straight = _length(drives, context.here, rest.first)
-    problem = visits_problem(
-        distances=np.array([[0.0, there, straight], [there, 0.0, away], [straight, away, 0.0]]),
-        rewards=[visit.reward],
-        service=[(visit.service_s, visit.service_j)],
-        rest=replace(rest, first=end),  # where nothing follows it may end anywhere: at no distance
-        resources=resources_of(task.constraints, robot, walker.charge_percent),
-        robot=robot,
-        spent=walker.spent,
-    )
-    levels = tuple(limit.failure_probability for limit in problem.limits)
-    return visit.place, decide(problem, levels, np.random.default_rng(0), effort=SOLVE).vertex != problem.end
+    home = 0.0 if rest.first is None else _length(drives, end, rest.first)
+    straight = 0.0 if rest.first is None else _length(drives, context.here, rest.first)
+    legs = np.zeros((2, 3 + len(rest.legs_m)))  # on without the step, and by way of it
+    legs[0, 0] = straight
+    legs[1, :3] = _length(drives, context.here, visit.place), visit.inside_m, home
+    legs[:, 3:] = rest.legs_m
+    works = ((rest.seconds, rest.joules), (rest.seconds + visit.service_s, rest.joules + visit.service_j))
+    limits = resources_of(task.constraints, robot, walker.charge_percent)
+    left = np.array([[r.metres_left(walker.spent) - r.of_work(robot, *w) / r.per_metre for w in works] for r in limits])
+    length = legs.sum(axis=1)
+    chances = chance_over(length, (legs**2).sum(axis=1), left, robot.leg_cost.alpha)
+    # As for a route over several visits: safe enough is what is accepted, or no riskier than it is without the step.
+    allowed = np.maximum([r.failure_probability for r in limits], chances[:, 0])
+    enough = length[1] <= np.maximum(left[:, 1], length[0]) * _LOOK
+    return visit.place, bool(visit.reward > 0.0 and enough.all() and (chances[:, 1] <= allowed * _LOOK).all())
 
 
 def _rest_of_rounds(walker: Walker, node: Optional, then: Context) -> Rest:
