@@ -9,7 +9,7 @@ import pytest
 from fieldhand.evaluation.outcome import judge
 from fieldhand.execution.world import ActionFails, World
 from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
-from fieldhand.task.plan import Act, AnyOrder, ForEach, Node, Optional, Repeat, Sequence, Stop, Try
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, Node, Optional, Repeat, Sequence, Stop, Try
 from fieldhand.task.results import Exited, Faulted, Shed
 from fieldhand.task.selectors import TreeIs, Union
 from rig import BudgetOf, Rig, captured, husky, of_type, task_for
@@ -106,6 +106,14 @@ def test_in_a_repeat_and_an_any_order_set_the_rest_goes_on_where_a_step_is_shed(
     several = AnyOrder(id="", steps=(act("r0c3"), optional(act("r0c1")), act("r0c0")))
     assert places(Rig(guard=Sheds()).fly(several)) == ["r0c0", "r0c3"]
     assert places(Rig(guard=Sheds(turns=())).fly(several)) == ["r0c0", "r0c1", "r0c3"]
+
+
+def test_each_time_that_a_step_is_shed_counts_by_itself():
+    task = task_for(Repeat(id="", times=3, body=optional(GoTo(id="", place=TreeIs(tree="r0c1")), act())))
+    for turns in ((0,), (1,), (2,), (0, 2), (1, 2)):
+        result = Rig(guard=Sheds(turns=turns)).fly(task)
+        (outcome,) = judge(task, result.events)
+        assert (outcome.outcome, outcome.done, outcome.wanted) == ("success", 3 - len(turns), 3 - len(turns))
 
 
 def test_a_step_whose_place_there_is_not_fails_as_any_other_and_a_try_catches_it():

@@ -199,11 +199,13 @@ class _Replay:
         self._skim(node)
         if not self._comes([node]) and not self._silent(node.body):
             return self._absent(node)
-        before, flow = self._tallies.copies(node.body), _Flow.DONE
+        before, flow = self._tallies.copies(node.body), _Flow.FAILED
         if not self._sheds(node):
             flow = self._play(node.body)
         event = self._peek()
-        if isinstance(event, Shed) and self._sheds(node):
+        # Behind work that was done whole it is the next time that was shed; a drive alone may have left no trace.
+        of_this = flow is not _Flow.DONE or isinstance(list(p.walk(node.body))[-1], p.GoTo)
+        if isinstance(event, Shed) and self._sheds(node) and of_this:
             # Given up as a whole or half-way: what it lacks is left out, not failed.
             self._next += 1
             self._tallies.forgive(before)
