@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,9 +24,17 @@ def problem(n: int, seed: int, *, budget: float = 2.0, pf: float = 0.1, alpha: f
     return Problem(distances=euclidean(n, seed), rewards=rewards, start=0, end=n - 1, limits=limits, alpha=alpha)
 
 
+@cache
+def begun(given: Problem) -> Policy:
+    """A policy that has planned and priced a problem: others begin with what it found."""
+    policy = Policy(given, 0)
+    policy.next(State(vertex=given.start, left=tuple(limit.budget for limit in given.limits)))
+    return policy
+
+
 def mission(given: Problem, seed: int) -> tuple[tuple[int, ...], float]:
     """One mission under the policy: the vertices driven to, and what was left of the first limit at the end."""
-    rng, policy = np.random.default_rng([seed, 2]), Policy(given, seed)
+    rng, policy = np.random.default_rng([seed, 2]), begun(given).again(seed, begun(given).price)
     path, left = [given.start], given.limits[0].budget
     while path[-1] != given.end or len(path) == 1:
         vertex = policy.next(State(vertex=path[-1], left=(left,), visited=frozenset(path[1:])))

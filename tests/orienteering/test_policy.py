@@ -11,12 +11,10 @@ from hypothesis import strategies as st
 
 from fieldhand.errors import ProblemError
 from fieldhand.orienteering.costs import Deterministic, Empirical, Gamma, Lognormal
-from fieldhand.orienteering.policy import Policy, State, left_of, solve
-from fieldhand.orienteering.problem import Limit, Problem
-from fieldhand.orienteering.split import Option, split
-from fieldhand.orienteering.tail import chance_over
+from fieldhand.orienteering.policy import Policy, State, solve
+from fieldhand.orienteering.problem import Limit, Problem, left_of
 from fieldhand.orienteering.trials import drive
-from graphs import mission, problem
+from graphs import begun, mission, problem
 
 MISSIONS = 25
 GRAPHS = (0, 1, 4)
@@ -57,8 +55,8 @@ def test_what_is_accepted_more_often_collects_more():
     bold, careful = (problem(15, 0, budget=1.6, pf=pf) for pf in (0.3, 0.01))
     rewards, failures = [], []
     for given_ in (bold, careful):
-        policy = Policy(given_, 0)
-        driven = [drive(given_, policy.again(s).next, np.random.default_rng(s)) for s in range(40)]
+        policy = begun(given_)
+        driven = [drive(given_, policy.again(s, policy.price).next, np.random.default_rng(s)) for s in range(40)]
         rewards.append(np.mean([m.reward for m in driven]))
         failures.append(np.mean([m.chance for m in driven]))
     assert rewards[0] > rewards[1]
@@ -69,8 +67,8 @@ def test_more_budget_never_collects_less_beyond_noise():
     means = []
     for budget in (1.5, 2.0, 3.0, 5.0):
         given_ = problem(20, 7, budget=budget)
-        policy = Policy(given_, 0)
-        driven = [drive(given_, policy.again(s).next, np.random.default_rng(s)) for s in range(30)]
+        policy = begun(given_)
+        driven = [drive(given_, policy.again(s, policy.price).next, np.random.default_rng(s)) for s in range(30)]
         means.append(np.mean([m.reward if m.kept else 0.0 for m in driven]))
     assert all(more > less - 0.05 * less for less, more in pairwise(means))
 
@@ -102,8 +100,8 @@ def test_units_of_length_and_of_reward_do_not_matter(seed, scale):
 def test_any_cost_model_can_be_driven_within_the_accepted_chance(costs):
     drawn = problem(15, 1, budget=2.5)
     given_ = replace(drawn, costs=costs)
-    policy = Policy(given_, 0)
-    driven = [drive(given_, policy.again(s).next, np.random.default_rng(s)) for s in range(60)]
+    policy = begun(given_)
+    driven = [drive(given_, policy.again(s, policy.price).next, np.random.default_rng(s)) for s in range(60)]
     assert np.mean([m.chance for m in driven]) <= 0.1 + 3 * np.sqrt(0.1 * 0.9 / 60)
     assert np.mean([m.reward for m in driven]) > 0.0
 
@@ -187,35 +185,3 @@ def test_daring_is_a_number_from_zero_to_one(daring):
 def test_certain_missions_never_exceed_their_budget():
     for graph in range(8):
         assert mission(problem(15, graph, budget=2.0, alpha=1.0), 0)[1] >= -1e-9
-
-
-options = st.lists(
-    st.builds(
-        lambda legs, reward: Option(length=sum(legs), squares=sum(x**2 for x in legs), service=(0.0,), reward=reward),
-        st.lists(st.floats(1.0, 15.0), min_size=1, max_size=8),
-        st.floats(0.0, 5.0),
-    ),
-    max_size=8,
-)
-
-
-@given(home=st.floats(1.0, 20.0), more=options, leg=st.floats(1.0, 20.0), level=st.floats(0.01, 0.5))
-@settings(max_examples=20, deadline=None)
-def test_what_is_allowed_after_a_leg_is_on_average_what_was_allowed_before_it(home, more, leg, level):
-    direct = Option(length=home, squares=home**2, service=(0.0,), reward=0.0)
-    left = 2.5 * (home + leg)
-    given_ = split(np.array([level]), leg, 0.5, [left], [direct, *more])
-    costs = leg * (0.5 + np.random.default_rng(3).exponential(0.5, 600))
-    after = [given_.levels([left - cost])[0] for cost in costs]
-    alone = np.mean(chance_over(home, home**2, left - costs, 0.5))
-    spread = 3 * np.std(after) / np.sqrt(len(costs))
-    # Where even the way home by itself is riskier than that, that is what it is.
-    assert np.mean(after) <= max(level, alone) + spread + 0.01
-    if alone < level - 0.01:
-        assert np.mean(after) >= level - spread - 0.01
-
-
-def test_where_nothing_is_at_stake_the_level_stays():
-    direct = Option(length=1.0, squares=1.0, service=(0.0,), reward=0.0)
-    given_ = split(np.array([0.1]), 1.0, 0.5, [1000.0], [direct])
-    assert given_.levels([999.0])[0] == pytest.approx(0.1)

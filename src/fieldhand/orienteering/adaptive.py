@@ -158,6 +158,15 @@ class Lookout:
         )
         return np.asarray(mass[1:-1].sum(axis=1))
 
+    def choices(self, stops: Ints, bonus: float) -> tuple[Ints, float, int]:
+        """What a mission that only skips stops of an order would do.
+
+        Returns:
+            For each position (0 for here) and amount left the position that it drives to, ``len(stops) + 1`` for the
+            end; the step from an amount to the next, the first being 0; and the limit whose amounts these are.
+        """
+        return self._programme(stops, bonus)[1], self._step, self._binding
+
     def foresight(self, order: Order, bonus: float) -> Foresight:
         """What the programme of an order says of the leg that is driven now."""
         success = self._programme(order.stops, bonus)[2]

@@ -12,32 +12,17 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fieldhand.errors import ProblemError
 from fieldhand.orienteering.problem import Limit, Problem, visits
 from fieldhand.orienteering.route import Route, Stop, solve
-from fieldhand.orienteering.stepwise import RESOLVE, SOLVE, Decision, Effort, decide, left_of
 
 if TYPE_CHECKING:
     from fieldhand.orienteering.adaptive import Depth, Foresight, Lookout, Order
     from fieldhand.orienteering.ground import Ground
 
-# What forecast and guard decide by stands in stepwise.
-__all__ = [
-    "RESOLVE",
-    "SOLVE",
-    "Decision",
-    "Effort",
-    "Outlook",
-    "Policy",
-    "Route",
-    "State",
-    "Stop",
-    "compile_ahead",
-    "decide",
-    "left_of",
-    "solve",
-]
+__all__ = ["Outlook", "Policy", "Route", "State", "Stop", "compile_ahead", "solve"]
 
 #: The chance at which the first order is priced, of that which is accepted. A mission whose order is made anew after
 #: every leg fails more or less often than one whose order is only shortened: measured, by up to a third.
@@ -133,14 +118,31 @@ class Policy:
         return self._price
 
     @property
+    def ground(self) -> Ground:
+        """The problem as arrays."""
+        return self._ground
+
+    @property
+    def plan(self) -> tuple[Lookout, Order, float] | None:
+        """What the last decision was made by: from where, which order, what keeping to the limits counts.
+
+        None where there is nothing to decide, and where the order is long and driven as planned.
+        """
+        return self._last
+
+    def lengths(self, vertex: int) -> NDArray[np.float64]:
+        """Of the legs from a vertex to every vertex, shape (n,)."""
+        return self._ground.row(vertex)
+
+    @property
     def least_price(self) -> float:
         """The least that daring allows."""
         return self._least_price
 
-    def again(self, seed: int, price: float | None = None) -> Policy:
+    def again(self, seed: int, price: float | None = None, warm: Sequence[int] = ()) -> Policy:
         """The policy for another mission through the same problem, at a price of a failure."""
         return Policy(
-            self._problem, seed, depth=self._depth, daring=self._daring, price=price, warm=self._first,
+            self._problem, seed, depth=self._depth, daring=self._daring, price=price, warm=warm or self._first,
             ground=self._ground,
         )  # fmt: skip
 
@@ -171,13 +173,16 @@ class Policy:
             return self._settle(state, None)
         if not len(lookout.free):
             return self._settle(state, lookout.order(lookout.free, 0.0, 0))
-        if len(lookout.free) > LONG:
+        certain = self._ground.cumulants[0] <= 0.0
+        if certain or len(lookout.free) > LONG:
             route = lookout.route(0.5, self._warm, self._rounds(lookout))
             while seconds is not None and time.perf_counter() - began < seconds:
                 route = lookout.route(0.5, route.tolist(), 8 * self._depth.rounds)
-            if len(route) > LONG:
+            # Of legs that are certain nothing is to be learnt on the way: the best route is the best policy.
+            if certain or len(route) > LONG:
                 ahead = Order(stops=route, first=0, worth=self._reward(route.tolist()), success=1.0)
                 return self._settle(state, ahead)
+            self._warm = tuple(route.tolist())
         collected = self._collected + self._reward(
             [*(state.visited - {self._problem.start, self._problem.end}), self._problem.end]
         )
