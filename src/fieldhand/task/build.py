@@ -13,6 +13,7 @@ from fieldhand.task.frames import (
     Command,
     Composition,
     Constraints,
+    Fault,
     FaultedExit,
     Goal,
     Resource,
@@ -30,6 +31,12 @@ FAULTED_EXITS = (
     FaultedExit(fault="low_budget", then="return_to_end"),
     FaultedExit(fault="aborted", then="stay"),
 )
+
+
+def exit_of(task: Task, fault: Fault) -> Then:
+    """What a Task does about a fault: what it says, else what every mission does."""
+    chosen = {e.fault: e.then for e in (*FAULTED_EXITS, *task.composition.faulted)}
+    return chosen[fault]
 
 
 def make_task(

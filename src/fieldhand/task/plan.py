@@ -4,7 +4,8 @@ Every node has an ``id`` that is unique in its Task and stays the same from plan
 character ranges of the request (start, end) from which the node came; empty where nothing in the request says it.
 
 The budget guard may shed what is optional (:func:`is_optional`), and the mission goes on: work that was shed did not
-fail. About an ``Optional`` it is asked once, when that is reached, about all of it; nothing optional stands in one.
+fail. It is asked about an ``Optional`` once, when that is reached, about all of it; in one stands nothing else that is
+optional.
 
 How they behave is fixed here, for the preview and for the robot alike:
 
