@@ -7,9 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from fieldhand.evaluation.guard import BudgetGuard
-from fieldhand.forecast.optional import reward_of
 from fieldhand.forecast.routes import beginning, drives_for, standing
-from fieldhand.forecast.service import service_of
+from fieldhand.forecast.service import reward_of, service_of
 from fieldhand.forecast.state import Choice, MissionState, Spent, Verdict, Visit
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context
@@ -34,6 +33,7 @@ class Paper:
         self.spent = Spent()
         self.here: Place = beginning(self.drives)
         self.visited: tuple[str, ...] = ()
+        self.shed: list[tuple[str, str]] = []
 
     def state(self, node: str) -> MissionState:
         context = Context(here=self.here, visited=self.visited)
@@ -62,6 +62,7 @@ class Paper:
             at_most = None if node.at_most is None else node.at_most - made
             candidates = [self.visit(p, node) for p in left]
             choice = self.guard.choose(self.state(node.id), candidates, at_most=at_most)
+            self.shed += [(left[i].id, choice.reason) for i in choice.shed]
             if choice.index is None:
                 return choice
             place = left[choice.index]

@@ -146,7 +146,14 @@ class BudgetOf:
         self.visits -= 1
         return Verdict(go=True) if self.visits >= 0 else Verdict(go=False, reason="too little left", chance_short=0.4)
 
-    def choose(self, state: MissionState, candidates: Sequence[Visit], *, at_most: int | None = None) -> Choice:
+    def choose(
+        self,
+        state: MissionState,
+        candidates: Sequence[Visit],
+        *,
+        at_most: int | None = None,
+        still_to_come: Sequence[Visit] = (),
+    ) -> Choice:
         self.asked.append((state.node, "", tuple(v.place.id for v in candidates)))
         self.visits -= 1
         if self.visits < 0:

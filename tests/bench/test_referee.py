@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from fieldhand.bench.draw import Draft
@@ -13,7 +13,7 @@ from fieldhand.bench.fly import fly
 from fieldhand.bench.referee import Ruling, judge
 from fieldhand.execution.world import ActionFails, Spot, World
 from fieldhand.task.frames import Budget, Constraints, Task
-from fieldhand.task.plan import Act, AnyOrder, ForEach, Node, Repeat, Sequence, Try
+from fieldhand.task.plan import Act, AnyOrder, ForEach, Node, Repeat, Sequence, Try, walk
 from fieldhand.task.results import Acted, Arrived, Decided, Ended, Event, Exited, Shed, Visiting
 from fieldhand.task.selectors import TreeIs, Trees, Union
 from rig import BudgetOf, Rig, husky, of_type, orchard, task_for
@@ -214,6 +214,10 @@ def test_no_event_can_be_taken_out_of_a_log_or_told_twice(seed: int, number: int
     if sound_one.given_up:
         # Optional visits that come after the end need no word.
         one = [k for k in one if not (isinstance(e := events[k], Shed) and e.optional)]
+    # Where a loop ends as soon as something holds, the places that it leaves need no word.
+    until = {n.id for n in walk(draft.task.composition.plan) if getattr(n, "until", None) is not None}
+    one = [k for k in one if not (isinstance(e := events[k], Shed) and e.optional and e.node in until)]
+    assume(one)
     at = one[number % len(one)]
     again = (events[at], events[at]) if twice else ()
     planted = [*events[:at], *again, *events[at + 1 :]]

@@ -14,7 +14,7 @@ from fieldhand.execution.guard import Guard
 from fieldhand.forecast.routes import drives_for, visits_in_order
 from fieldhand.forecast.state import Spent, Visit
 from fieldhand.forecast.walk import walk
-from fieldhand.orienteering.tail import chance_over
+from fieldhand.orienteering.tail import exceeding
 from fieldhand.site.geojson import load_site
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, Repeat, Sequence
@@ -41,7 +41,7 @@ def lasts(places, chance):
     """Metres that the drives from place to place exceed with that chance."""
     legs = np.array([drives_for(SITE, ROBOT).between(a, b).length_m for a, b in pairwise(places)])
     metres = np.arange(legs.sum(), 2 * legs.sum(), 0.5)
-    return float(metres[np.argmax(chance_over(legs.sum(), (legs**2).sum(), metres, ROBOT.leg_cost.alpha) <= chance)])
+    return float(metres[np.argmax(exceeding(legs.sum(), (legs**2).sum() / 4, (legs**3).sum() / 4, metres) <= chance)])
 
 
 def optional_mission(site, seed, constraints, robot=ROBOT, node=MANY, nominal="return_to_end"):
@@ -58,9 +58,9 @@ def no_more_often(failures, missions, pf=0.1):
 
 @cache
 def hundred_metres():
-    """Forty missions on the published orchard, 100 m each, which end where the last visit is."""
+    """Fifteen missions on the published orchard, 100 m each, which end where the last visit is."""
     site = load_site(ORCHARD)
-    return [optional_mission(site, seed, limited(100.0), nominal="stay")[0] for seed in range(40)]
+    return [optional_mission(site, seed, limited(100.0), nominal="stay")[0] for seed in range(15)]
 
 
 @pytest.mark.skipif(not ORCHARD.exists(), reason="the published orchard is not beside this repository")
@@ -80,7 +80,7 @@ def test_on_a_hundred_metres_of_the_published_orchard_eighteen_trees_are_visited
     ],
 )
 def test_missions_of_each_kind_of_budget_keep_it_and_put_it_to_use(kind, limit, used):
-    missions = [optional_mission(SITE, seed, limited(limit, kind))[0] for seed in range(25)]
+    missions = [optional_mission(SITE, seed, limited(limit, kind))[0] for seed in range(16)]
     assert no_more_often(sum(used(m.spent) > limit for m in missions), len(missions))
     assert all(len(m.visited) < 20 for m in missions)
     assert np.mean([used(m.spent) for m in missions]) > 0.6 * limit
@@ -110,7 +110,7 @@ def test_without_a_budget_every_optional_visit_is_made_and_the_reserve_is_still_
     missions = [optional_mission(SITE, seed, Constraints(reserve_percent=98.8)) for seed in range(20)]
     assert all(0 < len(short.visited) < 20 for short, _ in missions)
     assert no_more_often(sum(short.spent.percent > 1.2 for short, _ in missions), 20)
-    assert all("above the reserve" in choice.reason for _, choice in missions)
+    assert all("above the reserve" in reason for short, _ in missions for _, reason in short.shed)
 
 
 def test_the_visits_that_are_worth_most_are_made():
@@ -126,13 +126,13 @@ def test_the_visits_that_are_worth_most_are_made():
     pytest.fail("rewards never changed which visits were made")
 
 
-def test_at_the_end_of_optional_visits_all_that_are_left_are_given_up_with_a_reason():
-    paper, choice = optional_mission(SITE, 1, limited(60.0))
-    assert choice.index is None
-    assert choice.chance_short > 0.05
-    assert len(choice.shed) == 20 - len(paper.visited)
-    assert "chance of running short" in choice.reason
-    assert "skipped" in choice.reason
+def test_every_optional_visit_that_is_not_made_is_given_up_once_and_with_a_reason():
+    for seed in range(5):
+        paper, _ = optional_mission(SITE, seed, limited(60.0))
+        given_up = [tree for tree, _ in paper.shed]
+        assert sorted([*given_up, *paper.visited], key=int) == [t.id for t in TREES]
+        assert all("chance of running short" in why and "skipped" in why for _, why in paper.shed)
+        assert all(tree in why or "more" in why for tree, why in paper.shed)
 
 
 def test_what_must_follow_is_set_aside_before_optional_visits_are_made():

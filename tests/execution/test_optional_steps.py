@@ -40,7 +40,14 @@ class Sheds:
     def admit(self, state: MissionState, visit: Visit, still_to_come: object = ()) -> Verdict:
         return Verdict(go=visit.place.id not in self.refuses, reason="too far")
 
-    def choose(self, state: MissionState, candidates: list[Visit], *, at_most: int | None = None) -> Choice:
+    def choose(
+        self,
+        state: MissionState,
+        candidates: list[Visit],
+        *,
+        at_most: int | None = None,
+        still_to_come: Sequence[Visit] = (),
+    ) -> Choice:
         (visit,) = candidates
         self.asked.append((state.node, visit))
         if self.turns is None or len(self.asked) - 1 in self.turns:

@@ -53,7 +53,14 @@ class Moody:
     def admit(self, state: MissionState, visit: Visit, still_to_come: Sequence[Visit] = ()) -> Verdict:
         return Verdict(go=self._mood() > 0, reason="in a mood")
 
-    def choose(self, state: MissionState, candidates: Sequence[Visit], *, at_most: int | None = None) -> Choice:
+    def choose(
+        self,
+        state: MissionState,
+        candidates: Sequence[Visit],
+        *,
+        at_most: int | None = None,
+        still_to_come: Sequence[Visit] = (),
+    ) -> Choice:
         mood = self._mood()
         if mood == 0:
             return Choice(index=None, reason="in a mood")

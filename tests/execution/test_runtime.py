@@ -387,7 +387,14 @@ def test_optional_visits_that_do_not_fit_are_shed_with_the_reason_and_the_missio
 
 def test_the_guard_chooses_among_optional_visits_and_sheds_some() -> None:
     class LastFirst(BudgetOf):
-        def choose(self, state: MissionState, candidates: Sequence[Visit], *, at_most: int | None = None) -> Choice:
+        def choose(
+            self,
+            state: MissionState,
+            candidates: Sequence[Visit],
+            *,
+            at_most: int | None = None,
+            still_to_come: Sequence[Visit] = (),
+        ) -> Choice:
             rewards = [c.reward for c in candidates]
             best = rewards.index(max(rewards))
             worthless = tuple(i for i, r in enumerate(rewards) if r == 0.0)
@@ -404,7 +411,14 @@ def test_the_guard_is_told_how_many_optional_visits_may_still_be_made() -> None:
     told: list[int | None] = []
 
     class Counting(BudgetOf):
-        def choose(self, state: MissionState, candidates: Sequence[Visit], *, at_most: int | None = None) -> Choice:
+        def choose(
+            self,
+            state: MissionState,
+            candidates: Sequence[Visit],
+            *,
+            at_most: int | None = None,
+            still_to_come: Sequence[Visit] = (),
+        ) -> Choice:
             told.append(at_most)
             return super().choose(state, candidates)
 

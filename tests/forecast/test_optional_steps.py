@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 
 from fieldhand.errors import PlaceError
 from fieldhand.forecast.estimate import estimate, mandatory_part
-from fieldhand.forecast.optional import visit_of
 from fieldhand.forecast.rest import rest_after
 from fieldhand.forecast.routes import beginning, drives_for
+from fieldhand.forecast.visits import Visits
 from fieldhand.forecast.walk import walk
 from fieldhand.site.context import Context
 from fieldhand.task import plan as p
@@ -100,7 +100,7 @@ def test_a_body_is_one_visit_with_all_its_drives_and_work_on_its_longest_branch(
         If(id="", condition=yellow, then=picture("r3c4"), otherwise=picture("r3c1")),
     )
     node = Optional(id="n1", body=body, reward=2.5)
-    visit = visit_of(node, task_for(node), SITE, ROBOT, DRIVES, Context(here=beginning(DRIVES)))
+    visit = Visits(task_for(node), SITE, ROBOT, DRIVES).of_step(node, Context(here=beginning(DRIVES)))
     action = ROBOT.action[PICTURE]
     assert (visit.place.id, visit.leaves.id, visit.reward) == ("r3c0", "r3c4", 2.5)
     assert visit.service_s == pytest.approx(3 * action.duration_s)
@@ -111,7 +111,7 @@ def test_a_body_is_one_visit_with_all_its_drives_and_work_on_its_longest_branch(
 def test_a_body_that_drives_nowhere_is_a_visit_to_the_place_in_hand():
     node = Optional(id="n1", body=picture())
     here = DRIVES.stands((SITE.by_id["r2c2"].place,))[0]
-    visit = visit_of(node, task_for(node), SITE, ROBOT, DRIVES, Context(here=here))
+    visit = Visits(task_for(node), SITE, ROBOT, DRIVES).of_step(node, Context(here=here))
     assert (visit.place, visit.inside_m, visit.leaves) == (here, 0.0, None)
 
 
@@ -131,7 +131,7 @@ def test_what_must_follow_and_a_walk_of_what_must_be_done_have_no_optional_step(
     rest = rest_after(task, SITE, ROBOT, DRIVES, "n2", Context(here=beginning(DRIVES)))
     assert rest.first.id == "r0c1"
     assert len(rest.legs_m) == 1
-    assert rest.seconds == ROBOT.action[PICTURE].duration_s
+    assert rest.work.seconds == ROBOT.action[PICTURE].duration_s
     assert not any(isinstance(n, Optional) for n in p.walk(mandatory_part(task).composition.plan))
 
 

@@ -11,6 +11,7 @@ from fieldhand.forecast.estimate import BranchEstimate, Estimate
 from fieldhand.forecast.limits import Resource, resources_of
 from fieldhand.forecast.routes import drives_for, first_places
 from fieldhand.forecast.service import service_of
+from fieldhand.forecast.state import Work
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context
 from fieldhand.site.model import Site
@@ -59,7 +60,7 @@ def _nothing_fits(task: Task, site: Site, robot: RobotProfile) -> Iterator[Probl
             continue  # where its places hang on the way there, no single visit can be costed
         seconds, joules = service_of(node.body, robot)
         for resource in resources_of(task.constraints, robot):
-            need = metres * resource.per_metre + resource.of_work(robot, seconds, joules)
+            need = metres * resource.per_metre + resource.of_work(robot, Work(seconds=seconds, joules=joules))
             amount, limit = _amount(resource, need), _amount(resource, resource.limit)
             sentence = Problem(
                 node=node.id,

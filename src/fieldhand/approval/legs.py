@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from fieldhand.forecast.walk import Walk
+from fieldhand.forecast.steps import Walk
 from fieldhand.site.model import Site
 
 #: Metres inside a keep-out, or outside the boundary, that a drive may show from rounding.

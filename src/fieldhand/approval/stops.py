@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from fieldhand.approval.sentences import Line
-from fieldhand.forecast.walk import Step, Walk
+from fieldhand.forecast.steps import Step, Walk
 from fieldhand.site.model import Place
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Act, ForEach, Node, is_optional, walk

@@ -18,7 +18,7 @@ from fieldhand.errors import FieldhandError, NotApprovedError
 from fieldhand.execution.guard import Guard
 from fieldhand.execution.world import World
 from fieldhand.forecast.estimate import estimate, mandatory_part
-from fieldhand.forecast.optional import reward_of
+from fieldhand.forecast.service import reward_of
 from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
 from fieldhand.forecast.steps import Answer, Step
 from fieldhand.forecast.walk import walk
@@ -113,9 +113,16 @@ class TimedGuard:
         (self.admissions_s if self.first_s else self.first_s).append(time.thread_time() - began)
         return verdict
 
-    def choose(self, state: MissionState, candidates: Sequence[Visit], *, at_most: int | None = None) -> Choice:
+    def choose(
+        self,
+        state: MissionState,
+        candidates: Sequence[Visit],
+        *,
+        at_most: int | None = None,
+        still_to_come: Sequence[Visit] = (),
+    ) -> Choice:
         began = time.thread_time()
-        choice = self.guard.choose(state, candidates, at_most=at_most)
+        choice = self.guard.choose(state, candidates, at_most=at_most, still_to_come=still_to_come)
         (self.choices_s if self.first_s else self.first_s).append(time.thread_time() - began)
         return choice
 

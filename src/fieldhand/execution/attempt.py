@@ -19,12 +19,13 @@ from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, 
 from fieldhand.execution.guard import Guard
 from fieldhand.forecast.routes import beginning
 from fieldhand.forecast.state import MissionState, Spent
+from fieldhand.forecast.visits import Visits
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context
 from fieldhand.site.drives import Drives
 from fieldhand.site.model import Place, Site
 from fieldhand.site.places import resolve, resolve_one
-from fieldhand.task.build import FAULTED_EXITS
+from fieldhand.task.build import exit_of
 from fieldhand.task.frames import Fault, Task, Then
 from fieldhand.task.results import Acted, Arrived, Driving, Event, Faulted, MissionStatus
 from fieldhand.task.selectors import Selector
@@ -76,7 +77,9 @@ class Attempt:
         here: The place in hand (:mod:`fieldhand.task.plan`).
         standing: Where the robot itself is: ``here``, or a point on the way where a drive failed.
         visited: Ids of the trees at which it has stopped, each once.
+        visits: Makes visits of what is optional.
         readings: For each reading that is bound, its value by quantity.
+        rounds: Further rounds of each repeat that is under way, by node id.
         ending: Set when the plan is over before its last node: the tree is ticked no more.
         giving_up: Id of the optional for-each or step whose work in hand is given up; it takes that back.
         fault: What the failure in hand is to the exits of the Task.
@@ -101,6 +104,7 @@ class Attempt:
         self.guard = guard
         self.clock = clock
         self.drives = drives
+        self.visits = Visits(task, site, robot, drives)
         self._emit = emit
         self._begun_s = clock.now()
         self._full = driver.charge_percent()
@@ -112,6 +116,7 @@ class Attempt:
         self.visited: list[str] = []
         self.bound: dict[str, tuple[Place, ...]] = {}
         self.readings: dict[str, Mapping[str, float]] = {}
+        self.rounds: dict[str, int] = {}
         self.travelled_m = 0.0
         self.ending: Ending | None = None
         self.giving_up = ""
@@ -172,6 +177,7 @@ class Attempt:
             context=self._context(self.standing),
             spent=self.spent,
             charge_percent=self.driver.charge_percent(),
+            rounds=dict(self.rounds),
         )
 
     def bind(self, label: str, places: tuple[Place, ...]) -> None:
@@ -186,8 +192,7 @@ class Attempt:
 
     def exit_for(self, fault: Fault) -> Then:
         """Where the Task wants the robot after a fault; a Task that does not say gets what every mission does."""
-        chosen = {f.fault: f.then for f in (*FAULTED_EXITS, *self.task.composition.faulted)}
-        return chosen[fault]
+        return exit_of(self.task, fault)
 
     def fail(self, node: str, error: FieldhandError, *, handled: bool) -> None:
         """Record that a node failed for good; ``handled`` where a try/otherwise will go on from there."""

@@ -15,7 +15,14 @@ class Guard(Protocol):
         """May the robot make this mandatory visit? ``still_to_come``: later visits of the loop that it stands in."""
         ...
 
-    def choose(self, state: MissionState, candidates: Sequence[Visit], *, at_most: int | None = None) -> Choice:
+    def choose(
+        self,
+        state: MissionState,
+        candidates: Sequence[Visit],
+        *,
+        at_most: int | None = None,
+        still_to_come: Sequence[Visit] = (),
+    ) -> Choice:
         """Which optional visit comes next. Asked again after every leg, with what is left.
 
         ``state.node`` is the optional for-each, or an optional step, which is its only candidate and is asked about
@@ -36,5 +43,6 @@ class NoGuard:
         candidates: Sequence[Visit],
         *,
         at_most: int | None = None,  # noqa: ARG002
+        still_to_come: Sequence[Visit] = (),  # noqa: ARG002
     ) -> Choice:
         return Choice(index=0 if candidates else None)

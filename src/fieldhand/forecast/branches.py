@@ -17,6 +17,7 @@ from fieldhand.task import plan
 from fieldhand.task.frames import Task
 
 if TYPE_CHECKING:
+    from fieldhand.forecast.expected import Expected
     from fieldhand.site.drives import Drives
 
 #: So many walks are looked at, and so many steps in all of them, before the rest is left.
@@ -50,11 +51,13 @@ def branches(
     drives: Drives | None = None,
     charge_percent: float = 100.0,
     limit: int = MAX_WALKS,
+    seed: int | None = None,
 ) -> Branches:
     """Walk a Task along every branch, within bounds.
 
     First come the walks on which each condition has the same answer every time; they are the longest and the shortest.
-    Then answers are changed one by one, the early ones first, until all were seen or a bound is met.
+    Then answers are changed one by one, the early ones first, until all were seen or a bound is met. ``seed`` is for
+    :func:`fieldhand.forecast.walk.walk`.
 
     Raises:
         PlaceError: A selector gives nothing on one of the branches; ``where`` names the node.
@@ -63,12 +66,21 @@ def branches(
     """
     ways = drives or routes.drives_for(site, robot)
     found: dict[tuple[Decision, ...], Walk] = {}
+    kept: dict[object, Expected] = {}
     steps = 0
 
     def look(script: _Script) -> Walk:
         nonlocal steps
         walked = walk(
-            task, site, robot, holds=script.holds, fails=script.fails, drives=ways, charge_percent=charge_percent
+            task,
+            site,
+            robot,
+            holds=script.holds,
+            fails=script.fails,
+            drives=ways,
+            charge_percent=charge_percent,
+            seed=seed,
+            kept=kept,
         )
         steps += len(walked.steps)
         found.setdefault(walked.decisions, walked)
@@ -77,14 +89,16 @@ def branches(
     for answers in _alike(task):
         if len(found) < limit and steps < MAX_STEPS_ALIKE:
             look(_Script((), answers))
+    if () in found:
+        # A walk on which nothing is decided is the only one, however long it is.
+        return Branches(walks=tuple(found.values()), complete=True)
     # Each prefix of answers is tried once: a walk proposes to turn each answer that its own prefix did not give.
     open_prefixes: deque[tuple[bool, ...]] = deque([()])
     while open_prefixes and len(found) < limit and steps < MAX_STEPS:
         prefix = open_prefixes.popleft()
         given = tuple(d.answer for d in look(_Script(prefix, {})).decisions)
         open_prefixes.extend((*given[:i], not given[i]) for i in range(len(prefix), len(given)))
-    # A walk on which nothing is decided is the only one, however long it is.
-    return Branches(walks=tuple(found.values()), complete=not open_prefixes or () in found)
+    return Branches(walks=tuple(found.values()), complete=not open_prefixes)
 
 
 class _Script:

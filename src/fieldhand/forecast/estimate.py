@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from fieldhand.forecast import routes
 from fieldhand.forecast.branches import branches
+from fieldhand.forecast.drawn import DRAWS
 from fieldhand.forecast.limits import Resource, ResourceKind, resources_of, speed_of
 from fieldhand.forecast.steps import Decision, Walk
 from fieldhand.robot.model import RobotProfile
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
 
 Floats = NDArray[np.float64]
-
-DRAWS = 2000
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,8 +63,8 @@ class BranchEstimate:
         metres, seconds, percent: What it takes; percent of a full battery.
         chances: For each budget, and then for the battery's reserve.
         captures: Number of captures on it.
-        visits: Optional visits and steps that are expected to fit.
-        shed: Those that are not, the places.
+        visits: Optional visits and steps that missions make on average.
+        shed: Places of those for which the budget will hardly last.
         walk: The branch itself.
     """
 
@@ -75,7 +74,7 @@ class BranchEstimate:
     percent: Figure
     chances: tuple[Chance, ...]
     captures: int
-    visits: int
+    visits: float
     shed: tuple[Place, ...]
     walk: Walk
 
@@ -107,8 +106,22 @@ class Estimate:
             "battery_percent": asdict(worst.percent),
             "captures": worst.captures,
             "limits": [asdict(chance) for chance in worst.chances],
+            "optional": [
+                {"node": step.node.id, "expected": step.outlook.visits, "chances": dict(step.outlook.chances)}
+                for step in worst.walk.steps
+                if step.outlook is not None
+            ],
             "problems": list(self.problems),
         }
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Kept:
+    """The last estimate of a site: approval asks again for what the plan was shown with."""
+
+    robot: RobotProfile
+    asked: tuple[Task, int, float]
+    found: Estimate
 
 
 def estimate(
@@ -123,7 +136,7 @@ def estimate(
     """Estimate a Task on every branch by drawing the cost of each leg.
 
     A leg of ``d`` metres that costs ``c`` counts as ``c`` metres driven, so distance, time and energy are all random.
-    On board the guard decides again after every leg; so optional visits run short less often than is said here.
+    Which optional visits a mission makes is decided by what decides on board.
 
     Args:
         task, site, robot: The mission.
@@ -135,11 +148,15 @@ def estimate(
         PlaceError: A selector gives nothing on one of the branches.
         DriveFault: A place that cannot be reached.
     """
+    asked = (task, seed, charge_percent)
+    kept = site.memory.get("estimate")
+    if isinstance(kept, _Kept) and kept.robot is robot and kept.asked == asked and drives is None:
+        return kept.found
     ways = drives or routes.drives_for(site, robot)
     resources = resources_of(task.constraints, robot, charge_percent)
-    found = branches(task, site, robot, drives=ways, charge_percent=charge_percent)
+    found = branches(task, site, robot, drives=ways, charge_percent=charge_percent, seed=seed)
     speed = speed_of(task.constraints, robot)
-    estimates = tuple(_branch(w, resources, robot, speed, seed) for w in found.walks)
+    estimates = tuple(_branch(w, resources, robot, speed) for w in found.walks)
     worst = max(estimates, key=lambda b: (max(c.chance - c.accepted for c in b.chances), b.seconds.mean))
     if worst.visits and any(c.exceeded for c in worst.chances):
         # Optional visits can be left out, so what counts is whether the rest lasts without them.
@@ -148,7 +165,10 @@ def estimate(
         ).problems
     else:
         problems = _problems(task, site, ways, resources, worst)
-    return Estimate(branches=estimates, worst=worst, complete=found.complete, problems=problems)
+    made = Estimate(branches=estimates, worst=worst, complete=found.complete, problems=problems)
+    if drives is None:
+        site.memory["estimate"] = _Kept(robot=robot, asked=asked, found=made)
+    return made
 
 
 def mandatory_part(task: Task) -> Task:
@@ -173,23 +193,12 @@ def _without_optional(node: Node) -> Node:
             return node
 
 
-def draw_costs(legs_m: tuple[float, ...], alpha: float, rng: np.random.Generator, draws: int = DRAWS) -> Floats:
-    """What all legs cost together, in metres, shape (draws,)."""
-    legs = np.asarray(legs_m, dtype=np.float64)
-    if not len(legs):
-        return np.zeros(draws)
-    if alpha >= 1.0:
-        return np.full(draws, legs.sum())
-    return np.asarray(alpha * legs.sum() + rng.exponential(1.0 - alpha, size=(draws, len(legs))) @ legs)
-
-
-def _branch(
-    walked: Walk, resources: tuple[Resource, ...], robot: RobotProfile, speed: float, seed: int
-) -> BranchEstimate:
-    metres = draw_costs(walked.legs_m, robot.leg_cost.alpha, np.random.default_rng(seed))
-    work_s, work_j = walked.work
-    seconds = metres / speed + work_s
-    percent = robot.percent(1.0, 0.0) * metres + robot.percent(0.0, 1.0) * seconds + robot.percent(0.0, 0.0, work_j)
+def _branch(walked: Walk, resources: tuple[Resource, ...], robot: RobotProfile, speed: float) -> BranchEstimate:
+    used = walked.used
+    assert used is not None  # noqa: S101  estimates draw missions on every walk
+    metres, seconds = used.metres, used.metres / speed + used.seconds
+    driving, idling = robot.percent(1.0, 0.0), robot.percent(0.0, 1.0)
+    percent = driving * metres + idling * seconds + robot.percent(0.0, 0.0, 1.0) * used.joules
     amount = {"distance_m": metres, "duration_s": seconds, "energy_percent": percent, "reserve": percent}
     lists = [s for s in walked.steps if is_optional(s.node) and s.kind == "visit-list"]
     return BranchEstimate(
@@ -207,7 +216,7 @@ def _branch(
             for r in resources
         ),
         captures=sum(s.captures for s in walked.steps),
-        visits=sum(len(s.places) for s in lists),
+        visits=sum(s.outlook.visits for s in lists if s.outlook is not None),
         shed=tuple(p for s in lists for p in s.shed),
         walk=walked,
     )

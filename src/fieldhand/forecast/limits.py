@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.forecast.state import Spent
+from fieldhand.forecast.state import Spent, Work
 from fieldhand.orienteering.problem import Limit
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.frames import Budget, BudgetKind, Constraints
@@ -41,15 +41,20 @@ class Resource:
     failure_probability: float
     per_metre: float
 
-    def of_work(self, robot: RobotProfile, seconds: float, joules: float) -> float:
-        """What work at a place uses: its seconds, and the joules of its actions."""
+    def of_work(self, robot: RobotProfile, work: Work) -> float:
+        """What work at a place uses: metres driven within it, its seconds, and the joules of its actions."""
+        driven = work.metres * self.per_metre
         match self.kind:
             case "distance_m":
-                return 0.0
+                return driven
             case "duration_s":
-                return seconds
+                return driven + work.seconds
             case _:
-                return robot.percent(0.0, seconds, joules)
+                return driven + robot.percent(0.0, work.seconds, work.joules)
+
+    def metres_of(self, work: Work, robot: RobotProfile) -> float:
+        """What work uses, as metres of driving."""
+        return self.of_work(robot, work) / self.per_metre
 
     def used(self, spent: Spent) -> float:
         """What has been used of it."""
@@ -113,8 +118,9 @@ def limits_of(
     resources: Sequence[Resource],
     robot: RobotProfile,
     spent: Spent,
-    service: Sequence[tuple[float, float]],
-    later: tuple[float, float] = (0.0, 0.0),
+    service: Sequence[Work],
+    later: Work,
+    accepted: float,
 ) -> tuple[Limit, ...]:
     """The limits of an orienteering problem, in metres.
 
@@ -122,14 +128,15 @@ def limits_of(
         resources: What may be used.
         robot: For the energy of work.
         spent: What has been used.
-        service: Seconds and joules of work at each vertex.
-        later: Seconds and joules of work that follows whatever the route is.
+        service: Work at each vertex.
+        later: Work that follows whatever the route is.
+        accepted: Chance of exceeding any of them.
     """
     return tuple(
         Limit(
-            budget=r.metres_left(spent) - r.of_work(robot, *later) / r.per_metre,
-            failure_probability=r.failure_probability,
-            service=np.array([r.of_work(robot, *work) / r.per_metre for work in service], dtype=np.float64),
+            budget=r.metres_left(spent) - r.metres_of(later, robot),
+            failure_probability=accepted,
+            service=np.array([r.metres_of(work, robot) for work in service], dtype=np.float64),
         )
         for r in resources
     )

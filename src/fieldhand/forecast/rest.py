@@ -1,34 +1,34 @@
 """What still has to be done after a node of a plan: the mandatory steps that follow, and the way home.
 
-A mission's state does not say in which round of which loop it is. What is left of a for-each around the node are its
-places at which the mission has not stopped; where these cannot be told (places relative to the robot), and for further
-rounds of a repeat, nothing is set aside. Of an any-order set, the steps are left that begin at a place not yet visited.
+Which visits of the loops around the node are still to come is told by who asks. Of a repeat all further rounds are
+left, as if its condition never ended it. Of an any-order set, the steps are left that begin at a place not yet visited.
 """
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from fieldhand.errors import DriveFault, PlaceError
 from fieldhand.forecast import routes
 from fieldhand.forecast.limits import speed_of
+from fieldhand.forecast.state import Visit, Work
 from fieldhand.forecast.steps import Answer
-from fieldhand.forecast.walk import Walker
+from fieldhand.forecast.walker import Walker
+from fieldhand.forecast.ways import Way, way_of
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context
 from fieldhand.site.model import Place, Site
 from fieldhand.task import plan
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import AnyOrder, ForEach, Node
+from fieldhand.task.plan import AnyOrder, ForEach, Node, Repeat
 from fieldhand.task.selectors import is_relative
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
-
-Following = Node | tuple[ForEach, tuple[Place, ...]]
 
 _MAX_CONDITIONS = 4
 
@@ -38,17 +38,28 @@ class Rest:
     """What follows, on the branch that takes most.
 
     Attributes:
-        first: Where it begins: the first place that is driven to; None where nothing more is driven.
-        legs_m: Legs from there on, the way home included; the leg to ``first`` is not.
-        seconds, joules: Of all actions.
+        stops: Every place that is driven to, home included; none where nothing more is driven.
+        legs_m: Legs between them; the leg to the first is not there.
+        work: All actions.
         mandatory: Whether there is more in it than the way home.
+        fixed: Whether it is the same wherever the robot goes before, apart from the order of free visits.
     """
 
-    first: Place | None
+    stops: tuple[Place, ...] = ()
     legs_m: tuple[float, ...] = ()
-    seconds: float = 0.0
-    joules: float = 0.0
+    work: Work = field(default_factory=Work)
     mandatory: bool = False
+    fixed: bool = True
+
+    @cached_property
+    def way(self) -> Way:
+        """The legs from the first stop on, and the work."""
+        return way_of(self.legs_m, self.work)
+
+    @property
+    def first(self) -> Place | None:
+        """Where it begins; None where nothing more is driven."""
+        return self.stops[0] if self.stops else None
 
 
 def rest_after(
@@ -59,7 +70,8 @@ def rest_after(
     node_id: str,
     context: Context,
     *,
-    loops: bool = True,
+    to_come: Sequence[Visit] = (),
+    rounds: Mapping[str, int] | None = None,
 ) -> Rest:
     """What must be done after a node, what is optional left out, on the branch that takes most.
 
@@ -67,15 +79,31 @@ def rest_after(
         task, site, robot, drives: The mission.
         node_id: The node that is being done.
         context: Where the robot is and has been.
-        loops: Whether to add what is left of the loops around the node; not where the caller knows better.
+        to_come: Visits of the for-each loops around the node that come after it, in their order; they come first.
+        rounds: Further rounds of each repeat that is under way.
+
+    Raises:
+        DriveFault: There is no way between visits to come, or from them on.
     """
-    nodes = following(task.composition.plan, node_id, site, context, loops=loops)
+    nodes = following(task.composition.plan, node_id, site, context, rounds=rounds or {})
+    rest = _most(task, site, robot, drives, nodes, arrived(context, to_come))
+    return _joined(to_come, rest, drives) if to_come else rest
+
+
+def everything(task: Task, site: Site, robot: RobotProfile, drives: Drives, context: Context) -> Rest:
+    """What must be done of a whole Task from where a mission begins, as :func:`rest_after` says of a part."""
+    return _most(task, site, robot, drives, (task.composition.plan,), context)
+
+
+def _most(task: Task, site: Site, robot: RobotProfile, drives: Drives, nodes: Sequence[Node], context: Context) -> Rest:
+    """The branch of some nodes, and the way home, that takes most."""
     speed = speed_of(task.constraints, robot)
-    worst, most = Rest(first=None), -1.0
-    inner = [x[0] if isinstance(x, tuple) else x for x in nodes]
-    for holds in every_answer(inner):
+    fixed = not any(_is_relative(node) for node in nodes)
+    worst, most = Rest(), -1.0
+    for holds in every_answer(nodes):
         found = _walk_rest(Walker(task, site, robot, drives, holds, optional=False, context=context), nodes)
-        seconds = sum(found.legs_m) / speed + found.seconds
+        found = replace(found, fixed=fixed)
+        seconds = (sum(found.legs_m) + found.work.metres) / speed + found.work.seconds
         if found.first is not None:
             seconds += drives.between(context.here, found.first).length_m / speed
         if seconds > most:
@@ -83,10 +111,30 @@ def rest_after(
     return worst
 
 
-def following(root: Node, node_id: str, site: Site, context: Context, *, loops: bool = True) -> tuple[Following, ...]:
-    """The nodes that come after one, in their order; a for-each that is under way with the places it has left."""
+def optional_runs(root: Node, node_id: str) -> int:
+    """How many runs of optional visits a mission may still come to, this node's own included.
+
+    In a loop there may be any number of them; one more than can be seen is counted, so that some is left.
+    """
     way = routes.way_to(root, node_id)
-    found: list[Following] = []
+    found = 1
+    for inner, outer in itertools.pairwise(reversed(way)):
+        match outer:
+            case plan.Sequence(steps=steps):
+                after = steps[next(i for i, step in enumerate(steps) if step is inner) + 1 :]
+            case AnyOrder(steps=steps):
+                after = tuple(step for step in steps if step is not inner)
+            case _:
+                after = ()
+                found += isinstance(outer, ForEach | Repeat)
+        found += sum(plan.is_optional(n) for step in after for n in plan.walk(step))
+    return found
+
+
+def following(root: Node, node_id: str, site: Site, context: Context, *, rounds: Mapping[str, int]) -> tuple[Node, ...]:
+    """The nodes that come after one, in their order; of repeats under way the rounds that are left."""
+    way = routes.way_to(root, node_id)
+    found: list[Node] = []
     for inner, outer in itertools.pairwise(reversed(way)):
         match outer:
             case plan.Sequence(steps=steps):
@@ -94,16 +142,42 @@ def following(root: Node, node_id: str, site: Site, context: Context, *, loops: 
                 found.extend(steps[position + 1 :])
             case AnyOrder(steps=steps):
                 found.extend(s for s in steps if s is not inner and _begins_at_new_place(s, site, context))
-            case ForEach(optional=False) if loops:
-                left = _left_of(outer, site, context)
-                if left:
-                    found.append((outer, left))
+            case Repeat() if rounds.get(outer.id, 0) > 0:
+                found.append(replace(outer, times=rounds[outer.id]))
             case _:
                 pass
     return tuple(found)
 
 
-def _walk_rest(walker: Walker, nodes: Sequence[Following]) -> Rest:
+def arrived(context: Context, visits: Sequence[Visit]) -> Context:
+    """Where the mission stands after some visits."""
+    if not visits:
+        return context
+    known = set(context.visited)
+    trees = dict.fromkeys(v.place.id for v in visits if v.place.kind == "tree")
+    fresh = [tree for tree in trees if tree not in known]
+    return Context(here=visits[-1].end, visited=(*context.visited, *fresh), bound=context.bound)
+
+
+def _joined(visits: Sequence[Visit], rest: Rest, drives: Drives) -> Rest:
+    """Some visits, and then the rest."""
+    legs = [_length(drives, a.end, b.place) for a, b in itertools.pairwise(visits)]
+    if rest.first is not None:
+        legs.append(_length(drives, visits[-1].end, rest.first))
+    return Rest(
+        stops=(*(v.place for v in visits), *rest.stops),
+        legs_m=(*legs, *rest.legs_m),
+        work=sum((v.work for v in visits), rest.work),
+        mandatory=True,
+        fixed=rest.fixed,
+    )
+
+
+def _length(drives: Drives, a: Place, b: Place) -> float:
+    return 0.0 if a.xy == b.xy else drives.between(a, b).length_m
+
+
+def _walk_rest(walker: Walker, nodes: Sequence[Node]) -> Rest:
     try:
         walked = walker.run(nodes)
     except (PlaceError, DriveFault):
@@ -119,15 +193,20 @@ def _walk_rest(walker: Walker, nodes: Sequence[Following]) -> Rest:
         )
         walked = walker.run(())
     # Not the walk's own legs: where it begins by staying where it is, the robot will have to come back there.
-    stops = walker.stops
+    stops = [stop for k, stop in enumerate(walker.stops) if k == 0 or stop.xy != walker.stops[k - 1].xy]
     seconds, joules = walked.work
     return Rest(
-        first=stops[0] if stops else None,
-        legs_m=tuple(walker.drives.between(a, b).length_m for a, b in itertools.pairwise(stops) if a.xy != b.xy),
-        seconds=seconds,
-        joules=joules,
+        stops=tuple(stops),
+        legs_m=tuple(walker.drives.between(a, b).length_m for a, b in itertools.pairwise(stops)),
+        work=Work(seconds=seconds, joules=joules),
         mandatory=any(s.kind in ("drive", "act") for s in walked.steps),
     )
+
+
+def _is_relative(following: Node) -> bool:
+    """Whether places in it hang on where the robot is or has been by then."""
+    selectors = (plan.selector_of(node) for node in plan.walk(following))
+    return any(s is not None and is_relative(s) for s in selectors)
 
 
 def every_answer(nodes: Sequence[Node]) -> list[Answer]:
@@ -146,19 +225,6 @@ def every_answer(nodes: Sequence[Node]) -> list[Answer]:
 
 def _told(answers: dict[str, bool], default: bool) -> Answer:
     return lambda node_id: answers.get(node_id, default)
-
-
-def _left_of(node: ForEach, site: Site, context: Context) -> tuple[Place, ...]:
-    from fieldhand.site.places import resolve
-
-    if is_relative(node.select):
-        return ()
-    try:
-        places = resolve(node.select, site, context)
-    except PlaceError:
-        return ()
-    left = tuple(p for p in places if p.id not in context.visited)
-    return left if node.at_most is None else left[: max(0, node.at_most - (len(places) - len(left)))]
 
 
 def _begins_at_new_place(node: Node, site: Site, context: Context) -> bool:

@@ -1,8 +1,12 @@
-"""What the work at one place takes, drives not included."""
+"""What the work at one place takes, drives not included, and what a visit is worth."""
 
 from __future__ import annotations
 
+import math
+
+from fieldhand.forecast.state import Work
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Place, Site
 from fieldhand.task.plan import Act, AnyOrder, ForEach, If, Node, Repeat, Sequence, Stop, Try
 
 
@@ -44,3 +48,20 @@ def service_of(node: Node, robot: RobotProfile) -> tuple[float, float]:
             return (one[0] + two[0], one[1] + two[1])
         case _:
             return (0.0, 0.0)
+
+
+def work_of(node: Node, robot: RobotProfile) -> Work:
+    """:func:`service_of` as work."""
+    seconds, joules = service_of(node, robot)
+    return Work(seconds=seconds, joules=joules)
+
+
+def reward_of(node: ForEach, place: Place, site: Site) -> float:
+    """What a visit is worth: the tree's attribute that the for-each names (0 where it has none), else 1."""
+    if not node.reward:
+        return 1.0
+    tree = site.by_id.get(place.id) if place.kind == "tree" else None
+    value = None if tree is None else tree.properties.get(node.reward)
+    if not isinstance(value, int | float) or not math.isfinite(value):
+        return 0.0
+    return max(0.0, float(value))

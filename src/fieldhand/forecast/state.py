@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from fieldhand.site.context import Context
 from fieldhand.site.model import Place
@@ -21,6 +22,22 @@ class Spent:
             metres=self.metres + other.metres,
             seconds=self.seconds + other.seconds,
             percent=self.percent + other.percent,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Work:
+    """What is done at places, on the longest branch: seconds, joules of actions (without idle power), metres driven."""
+
+    seconds: float = 0.0
+    joules: float = 0.0
+    metres: float = 0.0
+
+    def __add__(self, other: Work) -> Work:
+        return Work(
+            seconds=self.seconds + other.seconds,
+            joules=self.joules + other.joules,
+            metres=self.metres + other.metres,
         )
 
 
@@ -44,6 +61,16 @@ class Visit:
     inside_m: float = 0.0
     leaves: Place | None = None
 
+    @property
+    def work(self) -> Work:
+        """What it takes beside the drive to it."""
+        return Work(seconds=self.service_s, joules=self.service_j, metres=self.inside_m)
+
+    @property
+    def end(self) -> Place:
+        """Where it ends."""
+        return self.place if self.leaves is None else self.leaves
+
 
 @dataclass(frozen=True, kw_only=True)
 class MissionState:
@@ -54,12 +81,14 @@ class MissionState:
         context: The place in hand, visited trees, bound places.
         spent: Used since the mission began.
         charge_percent: Battery left.
+        rounds: Further rounds of each ``Repeat`` that is under way, by node id.
     """
 
     node: str
     context: Context
     spent: Spent
     charge_percent: float
+    rounds: Mapping[str, int] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,7 +102,11 @@ class Verdict:
 
 @dataclass(frozen=True, kw_only=True)
 class Choice:
-    """Which of the candidates comes next (None: none fits any more), which are given up for good, and why."""
+    """Which of the candidates comes next (None: none fits any more), which are given up for good, and why.
+
+    Attributes:
+        chance_short: Of running short with what is given up, where anything is; else with what comes next.
+    """
 
     index: int | None
     shed: tuple[int, ...] = ()

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
+from fieldhand.forecast.drawn import Used
 from fieldhand.site.context import Context
 from fieldhand.site.model import Place
-from fieldhand.task.plan import ForEach, Node, Stop
+from fieldhand.task.plan import Node, Stop
 
 if TYPE_CHECKING:
-    from fieldhand.forecast.rest import Rest
     from fieldhand.site.drives import Drive
 
 StepKind = Literal["drive", "act", "visit-list", "decide", "exit"]
 
 #: Answers a question about a node by its id: does its condition hold, does its action fail.
 Answer = Callable[[str], bool]
+
+
+def never(node_id: str) -> bool:  # noqa: ARG001
+    """No action fails."""
+    return False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,6 +40,19 @@ class Decision:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Outlook:
+    """What will probably come of optional visits.
+
+    Attributes:
+        visits: How many missions make on average.
+        chances: How likely each place that can be reached is visited, by its id.
+    """
+
+    visits: float
+    chances: Mapping[str, float]
+
+
+@dataclass(frozen=True, kw_only=True)
 class Step:
     """One thing that happens.
 
@@ -44,7 +62,8 @@ class Step:
             one place, where it begins); ``exit`` for the way home, else what it says.
         context: Where the robot is and has been before it.
         places: Of a drive or an exit, where to; of an act, where; of a visit list, the places in their order.
-        shed: Of a visit list, places for which the budget does not last.
+        shed: Of a visit list, places for which the budget will hardly last.
+        outlook: Of a visit list of optional visits.
         drive: The way, of a drive, and of an exit that goes anywhere.
         captures: Of an act.
         seconds, joules: What it takes as legs cost on average; idle power is not counted in the joules.
@@ -56,6 +75,7 @@ class Step:
     context: Context
     places: tuple[Place, ...] = ()
     shed: tuple[Place, ...] = ()
+    outlook: Outlook | None = None
     drive: Drive | None = None
     captures: int = 0
     seconds: float = 0.0
@@ -71,12 +91,14 @@ class Walk:
         end: Where the robot is at last.
         exit: Which exit was taken.
         decisions: In the order in which they came up; they tell one walk from another.
+        used: What missions use that go this way, each with its own optional visits; None where none were drawn.
     """
 
     steps: tuple[Step, ...]
     end: Place
     exit: Literal["nominal", "faulted"]
     decisions: tuple[Decision, ...] = ()
+    used: Used | None = field(default=None, compare=False)
 
     @property
     def legs_m(self) -> tuple[float, ...]:
@@ -88,24 +110,6 @@ class Walk:
         """Seconds and joules of all actions."""
         acts = [s for s in self.steps if s.kind == "act"]
         return (sum(s.seconds for s in acts), sum(s.joules for s in acts))
-
-
-@dataclass(kw_only=True)
-class Round:
-    """A for-each under way, around an optional step.
-
-    Attributes:
-        places: Its visits in their order.
-        legs_m: Between them.
-        at: Position of the visit in hand.
-        after: What follows the loop, once somebody has asked.
-    """
-
-    node: ForEach
-    places: tuple[Place, ...]
-    legs_m: tuple[float, ...]
-    at: int = 0
-    after: Rest | None = None
 
 
 class Ended(Exception):

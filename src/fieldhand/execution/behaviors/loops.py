@@ -19,11 +19,10 @@ from py_trees.decorators import Decorator
 from fieldhand.errors import FieldhandError, OutputError
 from fieldhand.execution.attempt import Attempt
 from fieldhand.execution.behaviors.leaves import Leaf
-from fieldhand.execution.behaviors.surroundings import admitted, is_caught, shed, visit_to
+from fieldhand.execution.behaviors.surroundings import admitted, is_caught, shed, to_come_around, visit_to
 from fieldhand.execution.conditions import evaluate
 from fieldhand.execution.goals import Steps, drive
-from fieldhand.forecast.optional import reward_of
-from fieldhand.forecast.routes import home_if_last, reachable, visits_in_order
+from fieldhand.forecast.routes import home_if_last, reachable, standing, visits_in_order
 from fieldhand.forecast.state import Choice, Visit
 from fieldhand.site.model import Place
 from fieldhand.task.conditions import Condition
@@ -117,10 +116,14 @@ class RepeatBody(Loop):
         if self.rounds_left <= 0:
             return "done"
         self.rounds_left -= 1
+        self.attempt.rounds[self.node.id] = self.rounds_left
         return "round"
 
     def end_round(self) -> bool:
         return self.holds(self.node.until) or self.rounds_left <= 0
+
+    def leave_loop(self) -> None:
+        self.attempt.rounds.pop(self.node.id, None)
 
 
 class ForEachPlace(Loop):
@@ -147,9 +150,13 @@ class ForEachPlace(Loop):
         closed: tuple[Place, ...] = ()
         if node.optional:
             places, closed = reachable(attempt.drives, places)
-        home = home_if_last(attempt.task, attempt.site, node.id, attempt.here)
-        ordered = visits_in_order(node, attempt.drives, attempt.standing, places, home)
-        self.left = [visit_to(attempt, place, node.body, reward_of(node, place, attempt.site)) for place in ordered]
+        if node.optional:
+            ordered = standing(attempt.drives, attempt.standing, places)
+            self.left = list(attempt.visits.of_places(node, ordered, attempt.state(node.id).context))
+        else:
+            home = home_if_last(attempt.task, attempt.site, node.id, attempt.here)
+            ordered = visits_in_order(node, attempt.drives, attempt.standing, places, home)
+            self.left = [visit_to(attempt, place, node.body) for place in ordered]
         ids = tuple(place.id for place in ordered)
         attempt.emit(Visiting(t=attempt.t, node=node.id, places=ids, optional=node.optional))
         if closed:
@@ -192,7 +199,8 @@ class ForEachPlace(Loop):
     def _next_chosen(self) -> Next:
         """Ask the guard which optional visit comes next, and say which are given up."""
         at_most = None if self.node.at_most is None else self.node.at_most - len(self._visited)
-        choice = self.attempt.guard.choose(self.attempt.state(self.node.id), list(self.left), at_most=at_most)
+        state, to_come = self.attempt.state(self.node.id), to_come_around(self)
+        choice = self.attempt.guard.choose(state, list(self.left), at_most=at_most, still_to_come=to_come)
         given_up = set(range(len(self.left))) if choice.index is None else set(choice.shed) - {choice.index}
         if given_up:
             places = [self.left[i].place for i in sorted(given_up)]

@@ -10,8 +10,7 @@ from py_trees.decorators import Decorator
 
 from fieldhand.errors import DriveFault, FieldhandError, OutputError
 from fieldhand.execution.attempt import Attempt
-from fieldhand.execution.behaviors.surroundings import first_places_of, is_caught, shed
-from fieldhand.forecast.optional import visit_of
+from fieldhand.execution.behaviors.surroundings import first_places_of, is_caught, shed, to_come_around
 from fieldhand.forecast.state import Choice
 from fieldhand.site.model import Place
 from fieldhand.task.plan import Optional
@@ -66,13 +65,13 @@ class DoIfItFits(Decorator):
         node, attempt = self.node, self.attempt
         state = attempt.state(node.id)
         try:
-            visit = visit_of(node, attempt.task, attempt.site, attempt.robot, attempt.drives, state.context)
+            visit = attempt.visits.of_step(node, state.context)
         except DriveFault as fault:
             never = Choice(index=None, reason=f"cannot be reached: {fault.what}")
             shed(attempt, node.id, first_places_of(node, attempt), never, optional=True)
             return False
         self.place = visit.place
-        choice = attempt.guard.choose(state, [visit])
+        choice = attempt.guard.choose(state, [visit], still_to_come=to_come_around(self))
         if choice.index is None:
             shed(attempt, node.id, [visit.place], choice, optional=True)
         return choice.index is not None

@@ -55,6 +55,11 @@ def loops(behavior: Behaviour) -> Iterator[ForEachPlace]:
             yield parent
 
 
+def to_come_around(behavior: Behaviour) -> list[Visit]:
+    """The mandatory visits that are still to come of the loops around a behavior, in their order."""
+    return [visit for loop in loops(behavior) if not loop.node.optional for visit in loop.still_to_come()]
+
+
 def optional_around(behavior: Behaviour) -> ForEachPlace | DoIfItFits | None:
     """The optional visit or step that a behavior is part of; there is at most one of them around it."""
     from fieldhand.execution.behaviors.loops import ForEachPlace
@@ -66,10 +71,10 @@ def optional_around(behavior: Behaviour) -> ForEachPlace | DoIfItFits | None:
     return None
 
 
-def visit_to(attempt: Attempt, place: Place, work: Node, reward: float = 1.0) -> Visit:
-    """A visit as the guard sees it."""
+def visit_to(attempt: Attempt, place: Place, work: Node) -> Visit:
+    """A mandatory visit as the guard sees it."""
     seconds, joules = service_of(work, attempt.robot)
-    return Visit(place=place, reward=reward, service_s=seconds, service_j=joules)
+    return Visit(place=place, service_s=seconds, service_j=joules)
 
 
 def admitted(
@@ -93,9 +98,7 @@ def admitted(
         refused: Places of the node that stay undone if the guard says no.
         later: Visits of the node itself that come after this one; those of the loops around it are added.
     """
-    around = list(loops(behavior))
-    to_come = [*later, *(visit for loop in around if not loop.node.optional for visit in loop.still_to_come())]
-    verdict = attempt.guard.admit(attempt.state(node.id), visit, to_come)
+    verdict = attempt.guard.admit(attempt.state(node.id), visit, [*later, *to_come_around(behavior)])
     if verdict.go:
         return True
     optional = optional_around(behavior)

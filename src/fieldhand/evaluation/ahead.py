@@ -1,0 +1,92 @@
+"""What must follow a mandatory visit: the visits of the loops around it, the rest of the plan, the way home."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from fieldhand.errors import DriveFault
+from fieldhand.evaluation.means import Means
+from fieldhand.forecast.rest import Rest, arrived
+from fieldhand.forecast.state import MissionState, Visit
+from fieldhand.forecast.ways import Way, way_of
+
+
+@dataclass(frozen=True, kw_only=True)
+class Following:
+    """From the arrival at a visit on.
+
+    Attributes:
+        way: The visit's own work, all that follows, and home.
+        stops: The visit and all visits that are known to follow.
+    """
+
+    way: Way
+    stops: tuple[Visit, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Loop:
+    """Visits one after another, and for each what is ahead on arriving there."""
+
+    node: str
+    stops: tuple[Visit, ...]
+    ways: tuple[Way, ...]
+
+    def position(self, node: str, visit: Visit, later: Sequence[Visit]) -> int | None:
+        """Which of the stops a visit is, where all that are to come after it are those that stand here."""
+        k = len(self.stops) - 1 - len(later)
+        if node != self.node or k < 0 or self.stops[k] is not visit:
+            return None
+        same = not later or (self.stops[k + 1] is later[0] and self.stops[-1] is later[-1])
+        return k if same else None
+
+
+class Ahead:
+    """Looks ahead; what it finds for a loop is kept for the loop's later visits.
+
+    Args:
+        means: Of the mission.
+    """
+
+    def __init__(self, means: Means) -> None:
+        self._means = means
+        self._loop: _Loop | None = None
+
+    def of(self, state: MissionState, visit: Visit, later: Sequence[Visit]) -> Following | None:
+        """What follows, on the branch that takes most; None where there is no way.
+
+        Args:
+            state: Of the mission.
+            visit: That is asked for.
+            later: Visits of the loops around it that come after it.
+        """
+        loop = self._loop
+        k = None if loop is None else loop.position(state.node, visit, later)
+        if loop is None or k is None:
+            try:
+                loop, k = self._looked(state, (visit, *later)), 0
+            except DriveFault:
+                # Said when it is its turn; until then what can be done is.
+                return None
+        return Following(way=loop.ways[k], stops=loop.stops[k:])
+
+    def _looked(self, state: MissionState, stops: tuple[Visit, ...]) -> _Loop:
+        means = self._means
+        rest = means.rest(state.node, arrived(state.context, stops), state.rounds)
+        last = stops[-1].end
+        way = way_of([0.0 if rest.first is None else means.length(last, rest.first)], stops[-1].work) + rest.way
+        ways = [way]
+        for stop, following in reversed(list(itertools.pairwise(stops))):
+            way = way_of([means.length(stop.end, following.place)], stop.work) + way
+            ways.append(way)
+        known = _Loop(node=state.node, stops=(*stops, *_visits(rest)), ways=tuple(reversed(ways)))
+        if rest.fixed:
+            self._loop = _Loop(node=state.node, stops=stops, ways=known.ways)
+        return known
+
+
+def _visits(rest: Rest) -> tuple[Visit, ...]:
+    """The stops of the rest but its last, which is home."""
+    return tuple(Visit(place=place) for place in rest.stops[:-1])

@@ -1,0 +1,266 @@
+"""Optional visits on board: which comes next, which are given up, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.errors import DriveFault
+from fieldhand.evaluation.means import Means
+from fieldhand.evaluation.reasons import Errand, left_out, no_way
+from fieldhand.forecast.legs import TABLE, legs_between
+from fieldhand.forecast.optional import GONE, left_before, policy_for, visits_problem
+from fieldhand.forecast.rest import Rest, optional_runs
+from fieldhand.forecast.state import Choice, MissionState, Visit
+from fieldhand.forecast.ways import cost_model, way_of
+from fieldhand.orienteering.tail import exceeding
+from fieldhand.site.context import Context
+from fieldhand.site.model import Place
+
+if TYPE_CHECKING:
+    from fieldhand.orienteering.policy import Policy
+    from fieldhand.orienteering.problem import Problem
+
+Floats = NDArray[np.float64]
+Key = tuple[tuple[float, float], tuple[float, float] | None]
+
+
+@dataclass(kw_only=True)
+class _Run:
+    """Optional visits of one node, from the first decision to the last.
+
+    Attributes:
+        problem: Where the run began is vertex 0, then come its candidates, then where the rest begins.
+        vertex: Number of each candidate's place in it.
+        start: Where it began.
+        rest: What follows.
+        accepted: Chance of running short of the whole mission that the run was planned with.
+        new: Whether nothing has been decided in it.
+        done: Vertices that were visited.
+    """
+
+    problem: Problem
+    policy: Policy
+    vertex: dict[Key, int]
+    start: Key
+    rest: Rest
+    accepted: float
+    new: bool
+    done: set[int] = field(default_factory=set)
+
+    def begins(self, candidates: Sequence[Visit]) -> bool:
+        """Whether these are what is left of the run's candidates."""
+        return all(self.vertex.get(_key(v.place), -1) not in {-1, *self.done} for v in candidates)
+
+    def here(self, place: Place) -> int | None:
+        """The vertex at which the robot stands; None for a place that the run does not know."""
+        vertex = self.vertex.get(_key(place))
+        if vertex in self.done:
+            return vertex
+        return 0 if _key(place) == self.start else None
+
+
+class Choosing:
+    """Chooses optional visits, one run after another.
+
+    Args:
+        means: Of the mission.
+        rng: For the search.
+    """
+
+    def __init__(self, means: Means, rng: np.random.Generator) -> None:
+        self._means, self._rng = means, rng
+        self._runs: dict[str, _Run] = {}
+
+    def next(
+        self, state: MissionState, candidates: Sequence[Visit], at_most: int | None, to_come: Sequence[Visit]
+    ) -> Choice:
+        """The visit that comes next, as the guard's ``choose`` says."""
+        if not candidates:
+            return Choice(index=None)
+        run = self._runs.get(state.node)
+        if run is not None and not run.begins(candidates):
+            run = None
+        rest = self._rest(state, run, candidates, to_come)
+        open_, cut_off = list(range(len(candidates))), list[int]()
+        if run is None or rest is not run.rest:
+            open_, cut_off = self._reachable(state.context.here, candidates, rest.first)
+            if not open_:
+                return Choice(index=None, shed=tuple(cut_off), reason=no_way(candidates, cut_off), chance_short=1.0)
+        visits = [candidates[i] for i in open_]
+        run = self._run(state, visits, rest, run, at_most)
+        here, left = run.here(state.context.here) or 0, self._left(state, rest)
+        known = [run.vertex[_key(v.place)] for v in visits]
+        chances = dict(zip(open_, self._chances(run, here, visits, known, left).tolist(), strict=True))
+        near = [v for v, chance in zip(known, chances.values(), strict=True) if chance < GONE]
+        if run.problem.end == 2:
+            chosen = known[0] if near and self._fits(state, visits[0], rest, run) else run.problem.end
+        else:
+            chosen = self._ask(run, here, near, left, state) if near else run.problem.end
+        if chosen == run.problem.end:
+            index, gone, chance = None, open_, min(chances.values())
+            del self._runs[state.node]
+        else:
+            run.done.add(chosen)
+            index = open_[known.index(chosen)]
+            chance = chances[index] if run.new else 1.0 - run.policy.outlook.success
+            gone = [i for i in open_ if chances[i] >= GONE and i != index]
+        reasons = [no_way(candidates, cut_off)] if cut_off else []
+        if gone:
+            safest = min(gone, key=lambda i: chances[i])
+            reasons.append(self._skipped(state, candidates, gone, rest, candidates[safest]))
+            chance = chances[safest]
+        return Choice(index=index, shed=(*cut_off, *gone), reason="; ".join(reasons), chance_short=chance)
+
+    # --- a run -------------------------------------------------------------------------------------------------------
+
+    def _run(
+        self, state: MissionState, visits: Sequence[Visit], rest: Rest, run: _Run | None, at_most: int | None
+    ) -> _Run:
+        """The run that goes on; made anew where it does not know a place, or what follows has changed."""
+        here = state.context.here
+        if run is not None and run.rest is rest and run.here(here) is not None and not _fewer(run, visits, at_most):
+            return run
+        accepted = self._accepted(state, rest) if run is None else run.accepted
+        problem = visits_problem(
+            legs=legs_between(here, visits, rest, self._means.drives, self._means.distances.between),
+            rewards=[v.reward for v in visits],
+            service=[v.work for v in visits],
+            rest=rest,
+            resources=self._means.resources(state),
+            robot=self._means.robot,
+            spent=state.spent,
+            accepted=accepted,
+            most=at_most,
+        )
+        vertex = {_key(visit.place): number for number, visit in enumerate(visits, start=1)}
+        warm: list[int] = []
+        price = None
+        if run is not None:
+            price, place_of = run.policy.price, {v: k for k, v in run.vertex.items()}
+            ahead = [place_of.get(v) for v in run.policy.outlook.vertices[1:-1]]
+            warm = [vertex[key] for key in ahead if key in vertex]
+        made = _Run(
+            problem=problem,
+            policy=policy_for(problem, int(self._rng.integers(2**31)), price=price, warm=warm),
+            vertex=vertex,
+            start=_key(here),
+            rest=rest,
+            accepted=accepted,
+            new=run is None,
+        )
+        self._runs[state.node] = made
+        return made
+
+    def _accepted(self, state: MissionState, rest: Rest) -> float:
+        """The chance of running short with which a run is planned: that without it, and its share on top."""
+        without = self._without(state, rest)
+        runs = optional_runs(self._means.task.composition.plan, state.node)
+        return float(without.max()) + self._means.allowance(without).share(runs)
+
+    def _without(self, state: MissionState, rest: Rest) -> Floats:
+        """For each limit the chance that what must follow runs short."""
+        here = state.context.here
+        there = 0.0 if rest.first is None else self._means.length(here, rest.first)
+        return self._means.chances(way_of([there]) + rest.way, state)
+
+    def _ask(self, run: _Run, here: int, near: Sequence[int], left: tuple[float, ...], state: MissionState) -> int:
+        from fieldhand.orienteering.policy import State
+
+        # Where only so many visits may be made, those count that were; a run is made anew when others fall away.
+        others = run.done if run.problem.most is not None else set(range(1, run.problem.end)) - set(near)
+        chosen = run.policy.next(State(vertex=here, left=left, visited=frozenset(others)))
+        if run.new:
+            run.new = False
+            # A long order is driven as planned at first: its chance is not known yet, so it counts for all its share.
+            without = float(self._without(state, run.rest).max())
+            priced = run.policy.price is not None
+            self._means.add((1.0 - run.policy.outlook.success if priced else run.accepted) - without)
+        return chosen
+
+    def _fits(self, state: MissionState, visit: Visit, rest: Rest, run: _Run) -> bool:
+        """Whether the only visit that there is adds no more than its share: that needs no search."""
+        without = self._without(state, rest)
+        added = self._means.chances(self._errand(state, visit, rest).way, state) - without
+        share = run.accepted - float(without.max())
+        if visit.reward <= 0.0 or not (added <= share * (1 + 1e-9) + 1e-12).all():
+            return False
+        self._means.add(float(added.max()))
+        return True
+
+    def _left(self, state: MissionState, rest: Rest) -> tuple[float, ...]:
+        return left_before(self._means.resources(state), self._means.robot, state.spent, rest)
+
+    def _rest(
+        self, state: MissionState, run: _Run | None, candidates: Sequence[Visit], to_come: Sequence[Visit]
+    ) -> Rest:
+        """What must follow; computed anew in a run only where it hangs on where the robot has been."""
+        if run is not None and run.rest.fixed:
+            return run.rest
+        context = state.context
+        if len(candidates) == 1 and candidates[0].leaves is not None:
+            context = Context(here=candidates[0].leaves, visited=context.visited, bound=context.bound)
+        rest = self._means.rest(state.node, context, state.rounds, to_come)
+        return run.rest if run is not None and run.rest == rest else rest
+
+    def _reachable(self, here: Place, candidates: Sequence[Visit], first: Place | None) -> tuple[list[int], list[int]]:
+        """Positions of the candidates that can be reached and left again, and of the others."""
+        if len(candidates) > TABLE:
+            # They were looked at together when the visits were listed.
+            return list(range(len(candidates))), []
+        distances = self._means.distances
+        ends = [here, *([] if first is None else [first])]
+        try:
+            distances.between([*ends, *(v.place for v in candidates)])
+        except DriveFault:
+            fine = [all(distances.linked(end, v.place) for end in ends) for v in candidates]
+        else:
+            fine = [True] * len(candidates)
+        return [i for i, ok in enumerate(fine) if ok], [i for i, ok in enumerate(fine) if not ok]
+
+    # --- what is given up --------------------------------------------------------------------------------------------
+
+    def _chances(
+        self, run: _Run, here: int, visits: Sequence[Visit], known: Sequence[int], left: tuple[float, ...]
+    ) -> Floats:
+        """For each candidate the chance that going straight there, and then on, runs short of some limit."""
+        problem, vertices = run.problem, np.array(known)
+        there, back = run.policy.lengths(here)[vertices], run.policy.lengths(problem.end)[vertices]
+        for k, visit in enumerate(visits):
+            if visit.leaves is not None and run.rest.first is not None:
+                back[k] = self._means.length(visit.leaves, run.rest.first)
+        after = np.array(problem.after)
+        first, squares, cubes = ((there**k + back**k + (after**k).sum()) for k in (1, 2, 3))
+        second, third = cost_model(self._means.robot).cumulants()
+        worst = np.zeros(len(vertices))
+        for limit, amount in zip(problem.limits, left, strict=True):
+            work = 0.0 if limit.service is None else limit.service[vertices]
+            worst = np.maximum(worst, exceeding(first, second * squares, third * cubes, amount - work))
+        return worst
+
+    def _skipped(
+        self, state: MissionState, candidates: Sequence[Visit], gone: Sequence[int], rest: Rest, safest: Visit
+    ) -> str:
+        """What is given up and why, told of the one that is least likely to run short."""
+        errand = self._errand(state, safest, rest)
+        return left_out(candidates, gone, self._means, state, errand, self._means.chances(errand.way, state))
+
+    def _errand(self, state: MissionState, visit: Visit, rest: Rest) -> Errand:
+        """Straight to a visit, and then on."""
+        there = self._means.length(state.context.here, visit.place)
+        back = 0.0 if rest.first is None else self._means.length(visit.end, rest.first)
+        way = way_of([there, back], visit.work) + rest.way
+        return Errand(way=way, to=visit.place, more=rest.mandatory)
+
+
+def _fewer(run: _Run, visits: Sequence[Visit], at_most: int | None) -> bool:
+    """Whether candidates were given up that a run with so many visits would count as made."""
+    return at_most is not None and len(visits) + len(run.done) < run.problem.end - 1
+
+
+def _key(place: Place) -> Key:
+    return place.xy, place.stand

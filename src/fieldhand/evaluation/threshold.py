@@ -1,0 +1,102 @@
+"""Up to which chance a visit is safe enough, where more must be done than will last.
+
+The robot makes one visit after another as long as going to the next and straight home from there runs short with no
+more than a certain chance. Each visit takes such a chance anew; so that the whole mission keeps to what is accepted, it
+has to be less. How much less is found by driving many missions on paper.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.forecast.allowance import SLIVER
+from fieldhand.forecast.state import Visit
+from fieldhand.orienteering.costs import CostModel
+from fieldhand.orienteering.tail import quantile_table, standardised
+from fieldhand.site.model import Place
+
+Floats = NDArray[np.float64]
+
+_DRAWS = 2000
+#: Parts of the accepted chance that are tried.
+_PARTS = np.geomspace(1.0, 0.02, 24)
+#: Visits for which the way home is looked at: those before the one that is out of reach.
+_LOOKED_AT = 200
+#: No robot comes farther than so many times what is left.
+_FARTHEST = 2.0
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Threshold:
+    """What is known when the question comes up.
+
+    Attributes:
+        here: Where the robot is.
+        stops: What must be visited, in its order.
+        length: Metres between two places.
+        home: Where the robot would go home to from a place.
+        service: Metres that the work at each stop counts for, shape (stops, limits).
+        left: Metres left of each limit.
+        costs: What a leg of length 1 costs.
+    """
+
+    here: Place
+    stops: Sequence[Visit]
+    length: Callable[[Place, Place], float]
+    home: Callable[[Place], Place]
+    service: Floats
+    left: Floats
+    costs: CostModel
+
+    def within(self, accepted: Floats, rng: np.random.Generator) -> Floats:
+        """For each limit the chance that one visit with the way home may have.
+
+        Args:
+            accepted: For each limit the chance that the whole mission may have.
+            rng: For the missions on paper.
+        """
+        legs, homes = self._lengths()
+        factors = np.maximum(self.costs.draw(rng, _DRAWS * (2 * len(legs))), 0.0).reshape(2, len(legs), _DRAWS)
+        for part in _PARTS:
+            failed = self._failed(part * accepted, legs, homes, factors)
+            if (failed <= (1.0 - SLIVER) * accepted).all():
+                return np.asarray(part * accepted)
+        return np.asarray(_PARTS[-1] * accepted)
+
+    def _lengths(self) -> tuple[Floats, Floats]:
+        """Metres to each stop that can be reached at all, and home from it; inf for those that surely can be left."""
+        legs: list[float] = []
+        driven, at = 0.0, self.here
+        for stop, work in zip(self.stops, self.service, strict=True):
+            legs.append(self.length(at, stop.place))
+            driven, at = driven + legs[-1] + float(work.min()), stop.end
+            if driven > _FARTHEST * float(self.left.max()):
+                break
+        homes = np.zeros(len(legs))
+        for k in range(max(0, len(legs) - _LOOKED_AT), len(legs)):
+            end = self.stops[k].end
+            homes[k] = self.length(end, self.home(end))
+        return np.array(legs), homes
+
+    def _failed(self, chances: Floats, legs: Floats, homes: Floats, factors: Floats) -> Floats:
+        """For each limit how often missions run short that hold each visit to these chances."""
+        left = np.repeat(self.left[None, :], _DRAWS, axis=0)
+        under_way = np.ones(_DRAWS, dtype=bool)
+        failed = np.zeros((_DRAWS, len(self.left)), dtype=bool)
+        tables = [quantile_table(float(chance)) for chance in chances]
+        second, third = self.costs.cumulants()
+        was_home = self.length(self.here, self.home(self.here))
+        for k, (leg, home) in enumerate(zip(legs, homes, strict=True)):
+            variance, cubes = second * (leg**2 + home**2), third * (leg**3 + home**3)
+            needs = [leg + home + np.sqrt(variance) * standardised(t, variance, cubes) for t in tables]
+            goes = under_way & (left - self.service[k] >= np.array(needs)).all(axis=1)
+            turns = under_way & ~goes
+            failed[turns] = left[turns] - (was_home * factors[1, k, turns])[:, None] < 0.0
+            left[goes] -= (leg * factors[0, k, goes])[:, None] + self.service[k]
+            under_way, was_home = goes, home
+        failed[under_way] = left[under_way] - (was_home * factors[1, -1, under_way])[:, None] < 0.0
+        return np.asarray(failed.mean(axis=0))

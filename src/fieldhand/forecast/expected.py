@@ -1,0 +1,176 @@
+"""Which optional visits a mission will probably make: the robot's own decisions, driven on paper."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.forecast.allowance import Allowance
+from fieldhand.forecast.drawn import DRAWS
+from fieldhand.forecast.legs import legs_between
+from fieldhand.forecast.limits import resources_of
+from fieldhand.forecast.optional import GONE, left_before, policy_for, visits_problem
+from fieldhand.forecast.rest import Rest, everything, optional_runs, rest_after
+from fieldhand.forecast.state import Spent, Visit
+from fieldhand.forecast.steps import Outlook
+from fieldhand.forecast.ways import Way, chances_short, cost_model, way_of
+from fieldhand.orienteering.preview import Preview
+from fieldhand.site.context import Context
+from fieldhand.site.model import Place
+from fieldhand.task.plan import ForEach, Optional
+
+if TYPE_CHECKING:
+    from fieldhand.forecast.walker import Walker
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Expected:
+    """What will probably come of some optional visits.
+
+    Attributes:
+        places: As many as missions make on average, the likeliest, in the order in which they are driven to.
+        shed: All others, the likeliest first.
+        outlook: How likely each is.
+        preview: Missions that make them.
+        allowance: What later optional visits may still add to the chance of running short.
+    """
+
+    places: tuple[Place, ...]
+    shed: tuple[Place, ...]
+    outlook: Outlook
+    preview: Preview
+    allowance: Allowance
+
+
+def expected_visits(
+    walker: Walker, node: ForEach | Optional, visits: Sequence[Visit], rng: np.random.Generator
+) -> Expected:
+    """What will come of optional visits where the walk is.
+
+    Args:
+        walker: Has come to the node.
+        node: A for-each, or a step.
+        visits: That can be made, each with its stand; one of a step.
+        rng: For what legs cost.
+    """
+
+    rest = _rest(walker, node, visits)
+    without, share, allowance = _share(walker, node, rest)
+    drawn = walker.drawn
+    used = np.zeros(DRAWS) if drawn is None else drawn.metres - walker.spent.metres
+    if len(visits) == 1:
+        found = _one(walker, visits[0], rest, share, used, rng)
+    else:
+        found = _several(walker, node, visits, rest, without + share, used, rng)
+    chances = np.zeros(len(visits))
+    chances[found.vertices - 1] = found.visited.mean(axis=0)
+    mean = float(found.visits.mean())
+    likely = sorted(range(len(visits)), key=lambda k: -chances[k])
+    chosen = set(likely[: round(mean)])
+    return Expected(
+        places=tuple(visits[v - 1].place for v in found.vertices.tolist() if v - 1 in chosen),
+        shed=tuple(visits[k].place for k in likely[round(mean) :]),
+        outlook=Outlook(
+            visits=mean,
+            chances={v.place.id: float(chance) for v, chance in zip(visits, chances, strict=True)},
+        ),
+        preview=found,
+        allowance=allowance,
+    )
+
+
+def _several(
+    walker: Walker,
+    node: ForEach | Optional,
+    visits: Sequence[Visit],
+    rest: Rest,
+    accepted: float,
+    used: Floats,
+    rng: np.random.Generator,
+) -> Preview:
+    """Missions that make some of the visits."""
+    from fieldhand.orienteering.policy import State
+    from fieldhand.orienteering.preview import preview
+
+    robot = walker.robot
+    resources = resources_of(walker.task.constraints, robot, walker.charge_percent)
+    problem = visits_problem(
+        legs=legs_between(walker.context.here, visits, rest, walker.drives),
+        rewards=[v.reward for v in visits],
+        service=[v.work for v in visits],
+        rest=rest,
+        resources=resources,
+        robot=robot,
+        spent=walker.spent,
+        accepted=accepted,
+        most=node.at_most if isinstance(node, ForEach) else None,
+    )
+    state = State(vertex=0, left=left_before(resources, robot, walker.spent, rest))
+    return preview(policy_for(problem, 0), state, rng, used)
+
+
+def _one(walker: Walker, visit: Visit, rest: Rest, share: float, used: Floats, rng: np.random.Generator) -> Preview:
+    """Missions that make the only visit that there is, where it adds no more than its share."""
+    here, costs = walker.context.here, cost_model(walker.robot)
+    there = _length(walker, here, visit.place)
+    back, home = (0.0 if rest.first is None else _length(walker, at, rest.first) for at in (visit.end, here))
+    resources = resources_of(walker.task.constraints, walker.robot, walker.charge_percent)
+    with_it, without = (
+        chances_short(way + rest.way, resources, walker.robot, walker.spent, used)
+        for way in (way_of([there, back], visit.work), way_of([home]))
+    )
+    fits = (with_it - without <= share * (1 + 1e-9) + 1e-12) & (with_it < GONE)
+    goes = np.asarray(fits.all(axis=0)) & (visit.reward > 0.0)
+    return Preview(
+        vertices=np.ones(1, dtype=np.int64),
+        visited=goes[:, None],
+        legs=np.where(goes, there * costs.draw(rng, len(used)), 0.0),
+        last=np.where(goes, back, home) * costs.draw(rng, len(used)),
+    )
+
+
+def _rest(walker: Walker, node: ForEach | Optional, visits: Sequence[Visit]) -> Rest:
+    """What must follow, from where a step ends, or from where a for-each begins."""
+    here, to_come = walker.context, walker.to_come()
+    if isinstance(node, Optional):
+        here = Context(here=visits[0].end, visited=here.visited, bound=here.bound)
+    return rest_after(
+        walker.task,
+        walker.site,
+        walker.robot,
+        walker.drives,
+        node.id,
+        here,
+        to_come=to_come,
+        rounds=walker.rounds,
+    )
+
+
+def _share(walker: Walker, node: ForEach | Optional, rest: Rest) -> tuple[float, float, Allowance]:
+    """The chance of running short without the visits, what they may add to it, and what that leaves for later ones."""
+    task, robot = walker.task, walker.robot
+    resources = resources_of(task.constraints, robot, walker.charge_percent)
+    allowance = walker.allowance
+    if allowance is None:
+        whole = everything(task, walker.site, robot, walker.drives, walker.beginning)
+        way = _way_on(walker, walker.beginning.here, whole)
+        allowance = Allowance.before(
+            [r.failure_probability for r in resources], chances_short(way, resources, robot, Spent())
+        )
+    without = chances_short(_way_on(walker, walker.context.here, rest), resources, robot, walker.spent)
+    share = allowance.share(optional_runs(task.composition.plan, node.id))
+    return float(without.max()), share, allowance.less(share)
+
+
+def _way_on(walker: Walker, here: Place, rest: Rest) -> Way:
+    return way_of([0.0 if rest.first is None else _length(walker, here, rest.first)]) + rest.way
+
+
+def _length(walker: Walker, a: Place, b: Place) -> float:
+    return 0.0 if a.xy == b.xy else walker.drives.between(a, b).length_m

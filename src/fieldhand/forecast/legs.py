@@ -1,0 +1,74 @@
+"""How far it is between optional visits: a table where they are few, the drivable graph itself where they are many."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.forecast.rest import Rest
+from fieldhand.forecast.state import Visit
+from fieldhand.orienteering.labels import Labels
+from fieldhand.site.model import Place
+
+if TYPE_CHECKING:
+    from fieldhand.site.drives import Drives
+
+Floats = NDArray[np.float64]
+
+#: So many places have a table of all distances (100 MB with its copies); more are looked up in the drivable graph.
+TABLE = 2000
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Legs:
+    """Metres between vertices, in one of the forms that a problem takes; the others are empty."""
+
+    distances: Floats = field(default_factory=lambda: np.zeros((0, 0)))
+    plane: Floats | None = None
+    labels: Labels | None = None
+
+
+def legs_between(
+    here: Place,
+    visits: Sequence[Visit],
+    rest: Rest,
+    drives: Drives,
+    between: Callable[[Sequence[Place]], Floats] | None = None,
+    table: int = TABLE,
+) -> Legs:
+    """Between here, optional visits, and where the rest begins.
+
+    Args:
+        here: Where the robot is: the first vertex.
+        visits: The next ones; the way on from a visit begins where it ends.
+        rest: What follows. Where it drives nowhere the robot may end anywhere: the last vertex is 0 away from all.
+        drives: The ways of the site.
+        between: A table of metres between places, where the caller keeps one.
+        table: Up to so many places have a table. An open end, and visits that end elsewhere, always need one.
+
+    Raises:
+        DriveFault: There is no way between some of them.
+    """
+    places = [here, *(v.place for v in visits), *([] if rest.first is None else [rest.first])]
+    if len(places) > table and rest.first is not None and all(v.leaves is None for v in visits):
+        from fieldhand.orienteering.network import Network
+
+        roads = drives.roads(places)
+        if roads.straight:
+            return Legs(plane=np.ascontiguousarray(roads.at[: len(places)]))
+        network = Network(nodes=len(roads.at), ways=roads.ways, lengths=roads.lengths)
+        return Legs(labels=network.labels(range(len(places))))
+    lengths = between or (lambda some: np.asarray(drives.lengths(some), dtype=np.float64))
+    found = lengths(places)
+    for number, visit in enumerate(visits, start=1):
+        if visit.leaves is not None:
+            found[number] = lengths([visit.leaves, *places])[0, 1:]
+    if rest.first is None:
+        padded = np.zeros((len(found) + 1, len(found) + 1))
+        padded[:-1, :-1] = found
+        found = padded
+    return Legs(distances=found)

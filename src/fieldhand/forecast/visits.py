@@ -1,0 +1,116 @@
+"""Optional work as visits, with the drives inside it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from fieldhand.errors import DriveFault, PlaceError
+from fieldhand.forecast.limits import speed_of
+from fieldhand.forecast.rest import arrived, every_answer
+from fieldhand.forecast.service import reward_of, work_of
+from fieldhand.forecast.state import Visit
+from fieldhand.forecast.walker import Walker
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.context import Context
+from fieldhand.site.model import Place, Site
+from fieldhand.task import plan
+from fieldhand.task.frames import Task
+from fieldhand.task.plan import ForEach, Node, Optional
+
+if TYPE_CHECKING:
+    from fieldhand.site.drives import Drives
+
+#: For more visits than this the drives inside are not looked at one by one: each counts for the longest that was seen.
+_LOOKED_AT = 60
+
+
+class Visits:
+    """Makes visits of optional nodes.
+
+    Args:
+        task, site, robot, drives: The mission.
+    """
+
+    def __init__(self, task: Task, site: Site, robot: RobotProfile, drives: Drives) -> None:
+        self._task, self._site, self._robot, self._drives = task, site, robot, drives
+
+    def of_places(self, node: ForEach, places: Sequence[Place], context: Context) -> tuple[Visit, ...]:
+        """The visits of an optional for-each.
+
+        Args:
+            node: The for-each.
+            places: Where, each with its stand.
+            context: Where the robot is and has been when it comes to the for-each.
+        """
+        work = work_of(node.body, self._robot)
+        visits = [
+            Visit(
+                place=place,
+                reward=reward_of(node, place, self._site),
+                service_s=work.seconds,
+                service_j=work.joules,
+            )
+            for place in places
+        ]
+        if all(plan.selector_of(inner) is None for inner in plan.walk(node.body)):
+            return tuple(visits)
+        step = max(1, -(-len(visits) // _LOOKED_AT))
+        looked_at = {k: self._inside(node, visits[k], context) for k in range(0, len(visits), step)}
+        longest = max((v.inside_m for v in looked_at.values()), default=0.0)
+        return tuple(looked_at.get(k, replace(visit, inside_m=longest)) for k, visit in enumerate(visits))
+
+    def of_step(self, node: Optional, context: Context) -> Visit:
+        """An optional step: from where its body first drives to, on the branch that takes most.
+
+        Args:
+            node: The step.
+            context: Where the robot is and has been.
+
+        Returns:
+            The visit; at the place in hand where nothing is driven. Of places that cannot be told before the robot is
+            on its way, and of what comes after them, the work is counted and no drive.
+
+        Raises:
+            PlaceError: Its first place cannot be told.
+            DriveFault: A place that cannot be reached.
+        """
+        return replace(self._longest(node.body, context), reward=node.reward)
+
+    def _inside(self, node: ForEach, visit: Visit, context: Context) -> Visit:
+        """A visit of a for-each with what its body drives; where that cannot be told, without."""
+        there = arrived(context, [visit])
+        if node.label:
+            there = replace(there, bound={**there.bound, node.label: (visit.place,)})
+        try:
+            found = self._longest(node.body, there)
+        except (PlaceError, DriveFault):
+            return visit
+        if found.place.xy == visit.place.xy:
+            return replace(visit, inside_m=found.inside_m, leaves=found.leaves)
+        first = self._drives.between(visit.place, found.place).length_m
+        return replace(visit, inside_m=first + found.inside_m, leaves=found.end)
+
+    def _longest(self, body: Node, context: Context) -> Visit:
+        """The visit that a body makes on the branch that takes most."""
+        speed, work = speed_of(self._task.constraints, self._robot), work_of(body, self._robot)
+        longest, most = Visit(place=context.here), -1.0
+        for holds in every_answer((body,)):
+            walker = Walker(
+                self._task, self._site, self._robot, self._drives, holds, optional=False, context=context
+            )  # fmt: skip
+            steps = walker.along(body)
+            legs = [(s.drive.length_m, s.places[0]) for s in steps if s.drive is not None]
+            acts = [s for s in steps if s.kind == "act"]
+            visit = Visit(
+                place=legs[0][1] if legs else context.here,
+                service_s=max(work.seconds, sum(s.seconds for s in acts)),
+                service_j=max(work.joules, sum(s.joules for s in acts)),
+                inside_m=sum(metres for metres, _ in legs[1:]),
+                leaves=legs[-1][1] if len(legs) > 1 else None,
+            )
+            seconds = visit.service_s + sum(metres for metres, _ in legs) / speed
+            if seconds > most:
+                longest, most = visit, seconds
+        return longest

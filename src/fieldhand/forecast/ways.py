@@ -1,0 +1,70 @@
+"""A way with the work along it, and the chance that it takes more than is left."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.forecast.limits import Resource
+from fieldhand.forecast.state import Spent, Work
+from fieldhand.orienteering.costs import CostModel, Deterministic, ShiftedExponential
+from fieldhand.orienteering.tail import exceeding
+from fieldhand.robot.model import RobotProfile
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Way:
+    """Legs, and the work along them.
+
+    Attributes:
+        sums: Of the legs' lengths in metres, of their squares, and of their cubes: all that their random cost hangs on.
+        work: Done on the way.
+    """
+
+    sums: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    work: Work = field(default_factory=Work)
+
+    def __add__(self, other: Way) -> Way:
+        a, b = self.sums, other.sums
+        return Way(sums=(a[0] + b[0], a[1] + b[1], a[2] + b[2]), work=self.work + other.work)
+
+
+def way_of(legs_m: Iterable[float], work: Work | None = None) -> Way:
+    """The way over some legs."""
+    legs = np.asarray(tuple(legs_m), dtype=np.float64)
+    sums = (float(legs.sum()), float((legs**2).sum()), float((legs**3).sum()))
+    return Way(sums=sums, work=work or Work())
+
+
+def cost_model(robot: RobotProfile) -> CostModel:
+    """What a metre of a leg costs."""
+    alpha = robot.leg_cost.alpha
+    return Deterministic() if alpha >= 1.0 else ShiftedExponential(alpha)
+
+
+def taken(way: Way, resources: Sequence[Resource], robot: RobotProfile) -> Floats:
+    """What a way takes of each resource on average, in metres of driving."""
+    return np.array([way.sums[0] + r.metres_of(way.work, robot) for r in resources])
+
+
+def chances_short(
+    way: Way, resources: Sequence[Resource], robot: RobotProfile, spent: Spent, used: Floats | None = None
+) -> Floats:
+    """For each resource the chance that a way takes more of it than is left, shape (resources,).
+
+    Args:
+        way, resources, robot: What is to be done, and what may be used for it.
+        spent: What has been used.
+        used: Metres that each of some missions has driven beyond that, shape (missions,); then for each resource and
+            mission, shape (resources, missions).
+    """
+    first, squares, cubes = way.sums
+    second, third = cost_model(robot).cumulants()
+    room = np.array([r.metres_left(spent) - r.metres_of(way.work, robot) for r in resources])
+    left = room if used is None else room[:, None] - used
+    return exceeding(first, second * squares, third * cubes, left)

@@ -1,0 +1,91 @@
+"""How far it is between optional visits, from a table and from the drivable graph."""
+
+import numpy as np
+import pytest
+
+from fieldhand.forecast.legs import legs_between
+from fieldhand.forecast.limits import resources_of
+from fieldhand.forecast.optional import policy_for, visits_problem
+from fieldhand.forecast.rest import Rest
+from fieldhand.forecast.routes import beginning, drives_for, standing
+from fieldhand.forecast.state import Spent, Visit
+from fieldhand.orienteering.policy import State
+from fieldhand.robot.loader import load_robot
+from fieldhand.site.bench.orchard import benchmark_orchard
+from fieldhand.site.geojson import parse_site
+from fieldhand.task.frames import Budget, Constraints
+from orchards import orchard
+
+ROBOT = load_robot("husky")
+
+
+@pytest.fixture(scope="module")
+def planted():
+    """A site with rows and a pond: its drives, where the mission begins, visits, and the way home."""
+    site = parse_site(benchmark_orchard(260, 3), name="made")
+    drives = drives_for(site, ROBOT)
+    here = beginning(drives)
+    places = [t.place for t in site.trees if not drives.problem(t.place)]
+    visits = [Visit(place=p) for p in standing(drives, here, places)]
+    (home,) = drives.stands((site.home("return_to_end", here),))
+    return drives, here, visits, Rest(stops=(home,))
+
+
+def test_many_places_are_as_far_from_each_other_in_the_graph_as_in_the_table(planted):
+    drives, here, visits, rest = planted
+    table = legs_between(here, visits, rest, drives).distances
+    labels = legs_between(here, visits, rest, drives, table=10).labels
+    pairs = np.random.default_rng(0).integers(0, len(table), (400, 2))
+    straight = np.array([table[i, j] for i, j in pairs])
+    looked_up = np.array([labels.length(int(i), int(j)) for i, j in pairs])
+    assert (looked_up >= straight * (1 - 1e-6) - 1e-6).all()
+    assert np.median(looked_up - straight) < 0.5
+    assert (looked_up <= 1.1 * straight + 3.0).all()
+
+
+def test_a_policy_over_the_graph_visits_about_as_much(planted):
+    drives, here, visits, rest = planted
+    resources = resources_of(Constraints(budgets=(Budget(kind="distance_m", limit=400.0),)), ROBOT)
+    found = []
+    for table in (1000, 10):
+        problem = visits_problem(
+            legs=legs_between(here, visits, rest, drives, table=table),
+            rewards=[1.0] * len(visits),
+            service=[v.work for v in visits],
+            rest=rest,
+            resources=resources,
+            robot=ROBOT,
+            spent=Spent(),
+            accepted=0.1,
+            most=None,
+        )
+        policy = policy_for(problem, 0)
+        assert 1 <= policy.next(State(vertex=0, left=tuple(x.budget for x in problem.limits))) < problem.end
+        found.append(policy.outlook.reward)
+    assert found[1] == pytest.approx(found[0], rel=0.08)
+
+
+def test_where_drives_are_straight_lines_coordinates_do():
+    site = orchard(zones=[])
+    drives = drives_for(site, ROBOT)
+    here = beginning(drives)
+    visits = [Visit(place=p) for p in standing(drives, here, [t.place for t in site.trees])]
+    rest = Rest(stops=(site.home("return_to_end", here),))
+    legs = legs_between(here, visits, rest, drives, table=3)
+    lengths = legs_between(here, visits, rest, drives).distances
+    if legs.plane is not None:
+        between = np.hypot(*(legs.plane[:, None] - legs.plane[None]).transpose(2, 0, 1))
+        assert between == pytest.approx(lengths, abs=1e-6)
+    else:
+        assert legs.labels is not None
+
+
+def test_an_open_end_and_visits_that_end_elsewhere_have_a_table(planted):
+    drives, here, visits, rest = planted
+    open_end = legs_between(here, visits[:20], Rest(), drives, table=3).distances
+    assert open_end.shape == (22, 22)
+    assert (open_end[-1] == 0.0).all()
+    moved = [Visit(place=visits[0].place, leaves=visits[1].place), *visits[2:20]]
+    lengths = legs_between(here, moved, rest, drives, table=3).distances
+    assert lengths[1, 2] == pytest.approx(drives.between(visits[1].place, visits[2].place).length_m)
+    assert lengths[2, 1] == pytest.approx(drives.between(visits[2].place, visits[0].place).length_m)
