@@ -11,10 +11,9 @@ from fieldhand.errors import ProblemError
 from fieldhand.orienteering.ground import ground_of
 from fieldhand.orienteering.kernels.legs import length
 from fieldhand.orienteering.network import Network
-from fieldhand.orienteering.policy import Policy, State, left_of, solve
-from fieldhand.orienteering.problem import Limit, Problem
+from fieldhand.orienteering.policy import Policy, State, solve
+from fieldhand.orienteering.problem import Limit, Problem, left_of
 from fieldhand.orienteering.route import Stop
-from fieldhand.orienteering.stepwise import decide
 from fieldhand.orienteering.trials import drive
 
 seeds = st.integers(0, 10_000)
@@ -141,9 +140,3 @@ def test_labels_that_do_not_belong_to_a_problem_are_refused():
         Problem(labels=labels, rewards=np.ones(8), **values)
     with pytest.raises(ProblemError, match="more than one way"):
         Problem(labels=labels, plane=np.zeros((9, 2)), rewards=np.ones(9), **values)
-
-
-def test_a_search_over_a_table_says_that_it_needs_one():
-    labels = both(grid(3), np.ones(9), 0, 8, Limit(budget=9.0))[1]
-    with pytest.raises(ProblemError, match="table"):
-        decide(labels, (0.1,), np.random.default_rng(0))

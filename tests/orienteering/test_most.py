@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.errors import ProblemError
-from fieldhand.orienteering.policy import Policy, State, left_of, solve
-from fieldhand.orienteering.problem import Limit, Problem
+from fieldhand.orienteering.policy import Policy, State, solve
+from fieldhand.orienteering.problem import Limit, Problem, left_of
 from fieldhand.orienteering.route import Stop
 from fieldhand.orienteering.trials import drive
 from graphs import problem

@@ -19,7 +19,7 @@ Ints = NDArray[np.int64]
 
 _ALL = 400
 
-_NOWHERE = Ways(
+NOWHERE = Ways(
     matrix=np.zeros((0, 0)),
     xy=np.zeros((0, 2)),
     spans=np.zeros((0, 2), dtype=np.int64),
@@ -104,13 +104,13 @@ def _ways(problem: Problem) -> Ways:
     if problem.labels is not None:
         labels = problem.labels
         spans = np.stack([labels.starts[nodes], labels.starts[nodes + 1]], axis=1)
-        return _NOWHERE._replace(
+        return NOWHERE._replace(
             spans=spans, hubs=labels.hubs, gaps=labels.gaps, close=labels.close[nodes],
             close_gaps=labels.close_gaps[nodes],
         )  # fmt: skip
     if problem.plane is not None:
-        return _NOWHERE._replace(xy=np.ascontiguousarray(problem.plane[nodes], dtype=np.float64))
-    return _NOWHERE._replace(matrix=np.ascontiguousarray(problem.distances[np.ix_(nodes, nodes)], dtype=np.float64))
+        return NOWHERE._replace(xy=np.ascontiguousarray(problem.plane[nodes], dtype=np.float64))
+    return NOWHERE._replace(matrix=np.ascontiguousarray(problem.distances[np.ix_(nodes, nodes)], dtype=np.float64))
 
 
 def _nearest(ways: Ways, problem: Problem) -> Ints:

@@ -110,11 +110,11 @@ def _searched(table: Floats, n: int, path: list[int]) -> list[int]:
 
 def _searched_compiled(distances: Lengths, n: int, path: list[int]) -> list[int]:
     """The path after local search in compiled code."""
-    from fieldhand.orienteering.kernels.legs import Ways
+    from fieldhand.orienteering.ground import NOWHERE
 
     ways = distances
     if isinstance(ways, np.ndarray):
-        ways = Ways(np.ascontiguousarray(ways, dtype=np.float64), np.zeros((0, 2)))
+        ways = NOWHERE._replace(matrix=np.ascontiguousarray(ways, dtype=np.float64))
     size = min(_NEAREST, n - 1)
     held = tour.Tour(
         path=np.array(path, np.int64),
@@ -159,80 +159,3 @@ def _exact(d: Floats, start: int, end: int, inner: list[int]) -> list[int]:
         backwards.append(inner[j])
         mask, j = mask & ~(1 << j), int(before[mask, j])
     return [start, *reversed(backwards), end]
-
-
-def improve(path: Ints, distances: Floats) -> Ints:
-    """The path after 2-opt and or-opt until neither shortens it; its ends stay where they are."""
-    path = path.copy()
-    for _ in range(_MAX_PASSES):
-        changed = False
-        for i in _promising_reversals(path, distances):
-            changed |= _reverse_from(path, int(i), distances)
-        for size in (1, 2, 3):
-            for i in _promising_moves(path, size, distances):
-                path, moved = _move_segment(path, int(i), size, distances)
-                changed |= moved
-        if not changed:
-            break
-    return path
-
-
-def _promising_reversals(path: Ints, d: Floats) -> Ints:
-    """Positions of first edges with which some 2-opt move gains."""
-    if len(path) < 4:
-        return np.empty(0, dtype=np.intp)
-    along = d[np.ix_(path, path)]
-    step = along.diagonal(1)
-    gain = step[:, None] + step - along[:-1, :-1] - along[1:, 1:]
-    np.fill_diagonal(gain, 0.0)
-    return np.flatnonzero(np.triu(gain).max(axis=1) > _GAIN)
-
-
-def _reverse_from(path: Ints, i: int, d: Floats) -> bool:
-    """The best 2-opt move that replaces edge (i, i+1), in place."""
-    ends, after = path[i + 2 : -1], path[i + 3 :]
-    if not len(ends):
-        return False
-    # Reversing path[i+1 .. j] replaces edges (i, i+1) and (j, j+1).
-    gain = d[path[i], path[i + 1]] + d[ends, after] - d[path[i], ends] - d[path[i + 1], after]
-    best = int(gain.argmax())
-    if gain[best] <= _GAIN:
-        return False
-    path[i + 1 : i + 3 + best] = path[i + 1 : i + 3 + best][::-1].copy()
-    return True
-
-
-def _promising_moves(path: Ints, size: int, d: Floats) -> Ints:
-    """Positions of segments of ``size`` vertices that some other place suits better."""
-    count = len(path) - 1 - size
-    if count < 1:
-        return np.empty(0, dtype=np.intp)
-    along = d[np.ix_(path, path)]
-    step = along.diagonal(1)
-    first = np.arange(1, 1 + count)
-    last = first + size - 1
-    saved = step[first - 1] + step[last] - along[first - 1, last + 1]
-    forth = along[first, :-1] + along[last, 1:]
-    back = along[last, :-1] + along[first, 1:]
-    added = np.minimum(forth, back) - step
-    edges = np.arange(len(step))
-    own = (edges >= first[:, None] - 1) & (edges <= last[:, None])
-    added[own] = np.inf
-    return np.asarray(first[saved - added.min(axis=1) > _GAIN], dtype=np.intp)
-
-
-def _move_segment(path: Ints, i: int, size: int, d: Floats) -> tuple[Ints, bool]:
-    """The segment path[i .. i+size-1] at its best place, either way round."""
-    segment = path[i : i + size]
-    rest = np.concatenate([path[:i], path[i + size :]])
-    first, last = segment[0], segment[-1]
-    saved = d[path[i - 1], first] + d[last, path[i + size]] - d[path[i - 1], path[i + size]]
-    left, right = rest[:-1], rest[1:]
-    forth = d[left, first] + d[last, right]
-    back = d[left, last] + d[first, right]
-    added = np.minimum(forth, back) - d[left, right]
-    best = int(added.argmin())
-    if saved - added[best] <= _GAIN:
-        return path, False
-    turned = segment if forth[best] <= back[best] else segment[::-1]
-    return np.concatenate([rest[: best + 1], turned, rest[best + 1 :]]), True

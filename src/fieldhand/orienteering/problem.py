@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -133,6 +133,27 @@ def under_way(
 def visits(problem: Problem, vertices: Iterable[int]) -> int:
     """How many of these vertices count against :attr:`Problem.most`."""
     return sum(problem.rewards[v] > 0.0 for v in set(vertices) - {problem.start, problem.end})
+
+
+def left_of(problem: Problem, vertex: int, left: tuple[float, ...], collected: tuple[int, ...] = ()) -> Problem:
+    """The problem that is left at ``vertex`` with these budgets; what was collected is worth nothing any more."""
+    rewards = problem.rewards.copy()
+    most = None if problem.most is None else max(0, problem.most - visits(problem, collected))
+    rewards[list(collected)] = 0.0
+    limits = tuple(replace(limit, budget=budget) for limit, budget in zip(problem.limits, left, strict=True))
+    return under_way(
+        distances=problem.distances,
+        rewards=rewards,
+        start=vertex,
+        end=problem.end,
+        limits=limits,
+        alpha=problem.alpha,
+        after=problem.after,
+        costs=problem.costs,
+        plane=problem.plane,
+        labels=problem.labels,
+        most=most,
+    )
 
 
 def _check_graph(problem: Problem) -> None:

@@ -1,8 +1,7 @@
 """The chance that the legs of a route cost more than is left.
 
-The sum of legs ``d_i * (alpha + X_i)`` is a fixed part ``alpha * sum(d_i)`` and a sum of exponentials with means
-``(1 - alpha) * d_i``. That sum is taken as the gamma distribution with the same mean and variance: exact for legs of
-equal length (Erlang) and for a single leg, and checked against sampling in the tests for the others.
+Cumulants of independent legs add up; the sum is taken as the Pearson III distribution (a shifted gamma) through its
+first three. docs/orienteering.md says how far that is from sampling.
 """
 
 from __future__ import annotations
@@ -14,37 +13,6 @@ from scipy.special import gammainc, gammaincc, gammainccinv, gammaincinv, ndtr, 
 Floats = NDArray[np.float64]
 
 _SYMMETRIC = 1e-3
-
-
-def chance_over(length: ArrayLike, squares: ArrayLike, left: ArrayLike, alpha: float) -> Floats:
-    """P(cost of the legs > ``left``), elementwise.
-
-    Args:
-        length: Sum of the legs' lengths.
-        squares: Sum of the legs' squared lengths.
-        left: What the legs may cost together; below 0 the answer is 1.
-        alpha: The certain part of a leg's cost, 0 to 1.
-    """
-    total, square = np.asarray(length, dtype=np.float64), np.asarray(squares, dtype=np.float64)
-    room = np.asarray(left, dtype=np.float64)
-    over = room - alpha * total
-    certain = (over < -1e-9 * (1.0 + np.abs(room))).astype(np.float64)
-    random = (1.0 - alpha) * total
-    moving = (random > 0.0) & (square > 0.0) & np.isfinite(total)
-    if not moving.any():
-        return np.where(np.isfinite(total), certain, 1.0)
-    safe_total = np.where(moving, total, 1.0)
-    safe_square = np.where(moving, square, 1.0)
-    shape = safe_total**2 / safe_square
-    scale = (1.0 - alpha) * safe_square / safe_total if alpha < 1.0 else np.ones_like(safe_total)
-    tail = gammaincc(shape, np.maximum(over, 0.0) / scale)
-    return np.where(moving, np.where(over < 0.0, 1.0, tail), np.where(np.isfinite(total), certain, 1.0))
-
-
-def leg_costs(length: float, alpha: float, count: int) -> Floats:
-    """Equally likely costs of one leg: the middles of ``count`` slices of its distribution, ascending."""
-    middles = (np.arange(count) + 0.5) / count
-    return length * (alpha - (1.0 - alpha) * np.log1p(-middles))
 
 
 def exceeding(mean: ArrayLike, variance: ArrayLike, third: ArrayLike, left: ArrayLike) -> Floats:
@@ -79,3 +47,13 @@ def quantile_table(chance: float) -> Floats:
     shape = 4.0 / safe**2
     at = np.where(safe > 0.0, gammainccinv(shape, chance), gammaincinv(shape, chance))
     return np.where(skewed, (at - shape) * safe / 2.0, -ndtri(chance))
+
+
+def standardised(table: Floats, variance: float, third: float) -> float:
+    """The entry of a :func:`quantile_table` for a sum with this variance and third central moment; 0 for a certain one.
+
+    Times the standard deviation it is by how much the sum exceeds its mean with the table's chance.
+    """
+    if variance <= 0.0:
+        return 0.0
+    return float(np.interp(third / variance**1.5, np.arange(-4.0, 8.0 + 1e-9, 1.0 / 16.0), table))
