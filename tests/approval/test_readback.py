@@ -117,6 +117,16 @@ def test_a_relative_place_that_can_be_known_is_named():
     assert steps(plan)[1] == "At tree 20 (the tree farthest from tree 1): read CO₂."
 
 
+def test_the_visits_that_go_first_are_named_where_they_are_few():
+    plan = ForEach(id="", select=Trees(), body=act(), optional=True)
+    ample, tight = (
+        read(plan, constraints=Constraints(budgets=(Budget(kind="distance_m", limit=metres),))).lines[0].text
+        for metres in (500.0, 125.0)
+    )
+    assert "(20 of 20 expected, 0 % chance of running short)" in ample
+    assert re.search(r"\d+ of 20 expected, \d+ % chance of running short; trees? .* go(es)? first\)", tight)
+
+
 def test_a_relative_place_after_optional_visits_is_never_promised():
     plan = Sequence(
         id="",
@@ -128,7 +138,8 @@ def test_a_relative_place_after_optional_visits_is_never_promised():
     budget = Constraints(budgets=(Budget(kind="distance_m", limit=80.0),))
     words = read(plan, constraints=budget)
     first, second, *_ = (line.text for line in words.lines)
-    assert re.search(r"as many of the 20 trees as the budget allows \(about \d+ of 20 by the estimate\)", first)
+    expected = r"as many of the 20 trees as the budget allows \(\d+ of 20 expected, \d+ % chance of running short"
+    assert re.search(expected, first)
     assert "decided on the way" in second
     assert "at most 80 m of driving" in words.limits[0]
     assert "10 %" in words.limits[0]

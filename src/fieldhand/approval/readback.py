@@ -13,7 +13,7 @@ from fieldhand.approval.resolved import gather
 from fieldhand.approval.sentences import Line, say_exit, write_lines
 from fieldhand.forecast.estimate import BranchEstimate, Estimate, Figure
 from fieldhand.forecast.limits import reserve_percent
-from fieldhand.forecast.walk import Walk
+from fieldhand.forecast.steps import Walk
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.site.places import notes
@@ -90,7 +90,7 @@ def read_back(task: Task, site: Site, robot: RobotProfile, estimate: Estimate) -
         estimate: Its estimate there; its branches tell what each selector comes to.
     """
     walks = [branch.walk for branch in estimate.branches]
-    found = gather(task, walks)
+    found = gather(task, walks, max((c.chance for c in estimate.worst.chances), default=0.0))
     return ReadBack(
         lines=write_lines(task, site, robot, found),
         limits=_limits(task, robot),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from fieldhand.forecast.walk import Walk
+from fieldhand.forecast.steps import Outlook, Walk
 from fieldhand.site.model import Place
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import ForEach, GoTo, Node, children, is_optional, selector_of
@@ -21,11 +21,15 @@ class Found:
             a drive, all in their order for a for-each; for an optional step where it begins, none where it is shed.
         shed: Places for which the budget is not expected to last.
         known: They are the same on every branch and whatever legs cost; else they are decided on the way.
+        outlook: What will probably come of optional visits, the first time.
+        short: The chance that the mission runs short, with them.
     """
 
     visits: tuple[tuple[Place, ...], ...]
     shed: tuple[Place, ...]
     known: bool
+    outlook: Outlook | None = None
+    short: float = 0.0
 
     @property
     def places(self) -> tuple[Place, ...]:
@@ -39,8 +43,13 @@ class Found:
         return next(iter(places.values())) if self.known and len(places) == 1 else None
 
 
-def gather(task: Task, walks: Sequence[Walk]) -> Mapping[str, Found]:
-    """What each selector of a plan came to, by the id of its node; nodes that no walk reached are left out."""
+def gather(task: Task, walks: Sequence[Walk], short: float = 0.0) -> Mapping[str, Found]:
+    """What each selector of a plan came to, by the id of its node; nodes that no walk reached are left out.
+
+    Args:
+        task, walks: The Task on its branches.
+        short: The chance that the mission runs short.
+    """
     doubtful = _doubtful(task.composition.plan)
     per_walk = [_of_walk(w) for w in walks]
     found: dict[str, Found] = {}
@@ -49,14 +58,16 @@ def gather(task: Task, walks: Sequence[Walk]) -> Mapping[str, Found]:
         first = seen[0]
         same = all(a[0] == b[0] for other in seen for a, b in zip(first, other, strict=False))
         found[node_id] = Found(
-            visits=tuple(places for places, _ in first),
+            visits=tuple(places for places, _, _ in first),
             shed=first[0][1],
             known=same and node_id not in doubtful,
+            outlook=first[0][2],
+            short=short,
         )
     return found
 
 
-_Visit = tuple[tuple[Place, ...], tuple[Place, ...]]
+_Visit = tuple[tuple[Place, ...], tuple[Place, ...], Outlook | None]
 
 
 def _of_walk(walk: Walk) -> dict[str, list[_Visit]]:
@@ -66,7 +77,7 @@ def _of_walk(walk: Walk) -> dict[str, list[_Visit]]:
         listed = step.kind == "visit-list"
         done = step.kind == "act" or (step.kind == "drive" and isinstance(step.node, GoTo))
         if listed or (done and selector_of(step.node) is not None):
-            found.setdefault(step.node.id, []).append((step.places, step.shed))
+            found.setdefault(step.node.id, []).append((step.places, step.shed, step.outlook))
     return found
 
 

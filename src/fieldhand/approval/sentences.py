@@ -49,6 +49,10 @@ def say_marker(name: str) -> str:
     return "the charger" if name == "charger" else f"the {say_name(name)} marker"
 
 
+#: Optional visits that are less likely than this are named as those that go first, where they are no more than so many.
+_SURE, _NAMED = 0.9, 6
+
+
 def write_lines(task: Task, site: Site, robot: RobotProfile, found: Mapping[str, Found]) -> tuple[Line, ...]:
     """The plan and its nominal exit as lines.
 
@@ -220,12 +224,7 @@ class _Writer:
     def _optional_visits(self, node: ForEach, said: str, found: Found | None) -> str:
         most = f", at most {node.at_most}" if node.at_most is not None else ""
         worth = f", preferring high {say_name(node.reward)}" if node.reward else ""
-        expected = ""
-        if found:
-            total = len(found.places) + len(found.shed)
-            fit = len(found.places)
-            expected = f" (about {fit} of {total} by the estimate)" if found.shed else f" (all {fit} by the estimate)"
-        return f"At as many of {said} as the budget allows{most}{worth}{expected}"
+        return f"At as many of {said} as the budget allows{most}{worth}{_expected_visits(found)}"
 
     def _repeat(self, node: Repeat, indent: int) -> None:
         times = "twice" if node.times == 2 else f"{node.times} times"
@@ -275,6 +274,21 @@ def _expected(found: Found | None) -> str:
     if times > 1 and 0 < fit < times:
         return f" (about {fit} of {times} times by the estimate)"
     return " (by the estimate it does)" if fit else " (by the estimate it does not)"
+
+
+def _expected_visits(found: Found | None) -> str:
+    """How many optional visits are made on average, the chance of running short, and the few that go first."""
+    if found is None or found.outlook is None:
+        return ""
+    total = len(found.places) + len(found.shed)
+    said = f"{found.outlook.visits:.0f} of {total} expected, {100 * found.short:.0f} % chance of running short"
+    doubtful = sorted((chance, place) for place, chance in found.outlook.chances.items() if chance < _SURE)
+    if 0 < len(doubtful) <= _NAMED:
+        kinds = {place.kind for place in (*found.places, *found.shed)}
+        name = ("tree " if len(doubtful) == 1 else "trees ") if kinds == {"tree"} else ""
+        goes = "goes" if len(doubtful) == 1 else "go"
+        said += f"; {name}{say_places(tuple(place for _, place in doubtful))} {goes} first"
+    return f" ({said})"
 
 
 def _one_line(text: str) -> str:
