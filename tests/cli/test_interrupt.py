@@ -12,9 +12,9 @@ from pathlib import Path
 import pytest
 
 
-def start(tmp_path: Path) -> subprocess.Popen[str]:
-    """A mission of many captures, slow enough to be ended under way."""
-    words = ["run", "Take a picture of every tree.", "--site", "demo", "--yes", "--speed", "2000"]
+def start(tmp_path: Path, speed: int) -> subprocess.Popen[str]:
+    """A mission of many captures, so many times faster than it would be driven."""
+    words = ["run", "Take a picture of every tree.", "--site", "demo", "--yes", "--speed", str(speed)]
     files = ["--out", str(tmp_path / "out"), "--events", str(tmp_path / "e.jsonl")]
     return subprocess.Popen(
         [sys.executable, "-u", "-m", "fieldhand", *words, *files],
@@ -35,7 +35,8 @@ def until_a_capture(process: subprocess.Popen[str]) -> None:
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_keeps_what_was_gathered(number: signal.Signals, tmp_path: Path) -> None:
-    process = start(tmp_path)
+    # Slow enough to be ended under way, also where this process has to wait for its turn.
+    process = start(tmp_path, 150)
     until_a_capture(process)
     process.send_signal(number)
     out, err = process.communicate(timeout=60)
@@ -49,7 +50,7 @@ def test_a_signal_keeps_what_was_gathered(number: signal.Signals, tmp_path: Path
 
 
 def test_a_reader_that_goes_away_ends_no_mission(tmp_path: Path) -> None:
-    process = start(tmp_path)
+    process = start(tmp_path, 2000)
     until_a_capture(process)
     assert process.stdout is not None
     process.stdout.close()
