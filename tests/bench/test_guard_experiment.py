@@ -1,4 +1,4 @@
-"""The acceptance experiment of the budget guard, in small: twenty whole missions on small sites."""
+"""The acceptance experiment of the budget guard, in small: a dozen whole missions on small sites."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from fieldhand.bench.fly import Trial, fly, fly_all
 from fieldhand.bench.summary import Summary, summarize, wrongs
 from fieldhand.task.results import to_json
 
-MISSIONS, TREES = 20, 30
+MISSIONS, TREES = 12, 30
 
 
 @pytest.fixture(scope="module")
