@@ -49,7 +49,11 @@ class Expected:
 
 
 def expected_visits(
-    walker: Walker, node: ForEach | Optional, visits: Sequence[Visit], rng: np.random.Generator
+    walker: Walker,
+    node: ForEach | Optional,
+    visits: Sequence[Visit],
+    rng: np.random.Generator,
+    before: Expected | None = None,
 ) -> Expected:
     """What will come of optional visits where the walk is.
 
@@ -58,6 +62,7 @@ def expected_visits(
         node: A for-each, or a step.
         visits: That can be made, each with its stand; one of a step.
         rng: For what legs cost.
+        before: What another walk found for the node; its order is begun with.
     """
 
     rest = _rest(walker, node, visits)
@@ -67,7 +72,11 @@ def expected_visits(
     if len(visits) == 1:
         found = _one(walker, visits[0], rest, share, used, rng)
     else:
-        found = _several(walker, node, visits, rest, without + share, used, rng)
+        ids = [] if before is None else list(before.outlook.chances)
+        ahead = [] if before is None else [ids[v - 1] for v in before.preview.vertices.tolist()]
+        number = {v.place.id: k for k, v in enumerate(visits, start=1)}
+        warm = [number[i] for i in ahead if i in number]
+        found = _several(walker, node, visits, rest, without + share, used, rng, warm)
     chances = np.zeros(len(visits))
     chances[found.vertices - 1] = found.visited.mean(axis=0)
     mean = float(found.visits.mean())
@@ -93,6 +102,7 @@ def _several(
     accepted: float,
     used: Floats,
     rng: np.random.Generator,
+    warm: Sequence[int],
 ) -> Preview:
     """Missions that make some of the visits."""
     from fieldhand.orienteering.policy import State
@@ -112,7 +122,7 @@ def _several(
         most=node.at_most if isinstance(node, ForEach) else None,
     )
     state = State(vertex=0, left=left_before(resources, robot, walker.spent, rest))
-    return preview(policy_for(problem, 0), state, rng, used)
+    return preview(policy_for(problem, 0, warm=warm), state, rng, used)
 
 
 def _one(walker: Walker, visit: Visit, rest: Rest, share: float, used: Floats, rng: np.random.Generator) -> Preview:

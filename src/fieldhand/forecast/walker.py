@@ -215,7 +215,8 @@ class Walker:
         found = self._kept.get(key)
         if found is None:
             rng = np.random.default_rng([0 if self.drawn is None else self.drawn.seed, len(self._steps)])
-            found = self._kept[key] = expected_visits(self, node, visits, rng)
+            found = expected_visits(self, node, visits, rng, self._kept.get(node.id))
+            self._kept[key] = self._kept[node.id] = found
         self.allowance = found.allowance
         step = Step(node=node, kind="visit-list", context=self._context, shed=(*found.shed, *closed))
         self._note(replace(step, places=found.places, outlook=found.outlook))
