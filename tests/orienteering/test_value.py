@@ -28,8 +28,11 @@ def test_a_leg_is_integrated_exactly(leg, alpha, work, seed):
     chances = (np.arange(20_000) + 0.5) / 20_000
     costs = work + leg * (alpha - (1.0 - alpha) * np.log1p(-chances))
     expected = [np.interp(left - costs, grid, function, left=0.0).mean() for left in grid]
-    # The sum over costs is off by what one of them weighs where the function jumps to 0.
-    assert over_a_leg(function, leg, alpha, work) == pytest.approx(expected, abs=1e-3)
+    found = over_a_leg(function, leg, alpha, work)
+    # Where exactly the least cost is left, the function jumps to 0, and rounding says on which side that is.
+    clear = np.abs(grid - (work + leg * alpha)) > 1e-9
+    # The sum over costs is off by what one of them weighs at the jump.
+    assert found[clear] == pytest.approx(np.array(expected)[clear], abs=1e-3)
 
 
 @given(leg=legs, alpha=certain, work=works, seed=st.integers(0, 100))

@@ -16,7 +16,7 @@ from fieldhand.orienteering.annealing import HOT, WARM, Annealing, stops_of
 from fieldhand.orienteering.ground import Ground
 from fieldhand.orienteering.kernels.grow import floors_of, grow
 from fieldhand.orienteering.kernels.legs import uniform
-from fieldhand.orienteering.kernels.value import backward, drive, forward
+from fieldhand.orienteering.kernels.value import WORK, backward, drive, forward
 from fieldhand.orienteering.tail import quantile_table
 
 Floats = NDArray[np.float64]
@@ -46,7 +46,7 @@ class Depth:
     """
 
     levels: tuple[float, ...] = (0.4,)
-    rounds: int = 40
+    rounds: int = 20
     insertions: int = 4
     skip: int = 6
     points: int = 64
@@ -154,8 +154,9 @@ class Lookout:
         route, choice, _ = self._programme(stops, bonus)
         mass = np.empty(choice.shape)
         forward(
-            route, ground.ways, self._service[0], step, self._depth.skip, ground.points, ground.weights, choice, mass
-        )
+            route, ground.ways, self._service[0], step, self._depth.skip, ground.points, ground.weights, choice, mass,
+            np.empty((WORK, choice.shape[1])),
+        )  # fmt: skip
         return np.asarray(mass[1:-1].sum(axis=1))
 
     def choices(self, stops: Ints, bonus: float) -> tuple[Ints, float, int]:
@@ -202,7 +203,7 @@ class Lookout:
     def bettered(self, order: Order, bonus: float) -> Order:
         """The order, or a better one after a longer search from it at a level of chance."""
         level = 0.05 + 0.6 * uniform(self._state)
-        stops = self.route(level, order.stops.tolist(), 8 * self._depth.rounds)
+        stops = self.route(level, order.stops.tolist(), 16 * self._depth.rounds)
         other = self.order(stops, bonus, 2 * self._depth.insertions)
         return other if other.value(bonus) > order.value(bonus) else order
 
@@ -227,6 +228,7 @@ class Lookout:
         backward(
             route, ground.ways, ground.rewards, self._service[0], self.ends(), floors, bonus, self._step,
             depth.skip, ground.points, ground.weights, worth, success, ahead, choice,
+            np.empty((WORK, size)),
         )  # fmt: skip
         return route, choice, success
 

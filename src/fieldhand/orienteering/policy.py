@@ -177,7 +177,7 @@ class Policy:
         if certain or len(lookout.free) > LONG:
             route = lookout.route(0.5, self._warm, self._rounds(lookout))
             while seconds is not None and time.perf_counter() - began < seconds:
-                route = lookout.route(0.5, route.tolist(), 8 * self._depth.rounds)
+                route = lookout.route(0.5, route.tolist(), 16 * self._depth.rounds)
             # Of legs that are certain nothing is to be learnt on the way: the best route is the best policy.
             if certain or len(route) > LONG:
                 ahead = Order(stops=route, first=0, worth=self._reward(route.tolist()), success=1.0)
@@ -264,7 +264,7 @@ class Policy:
 
     def _rounds(self, lookout: Lookout) -> int:
         """More for the first plan of a mission: all others begin with what is left of the one before."""
-        return self._depth.rounds if self._warm or self._begun else 50 * self._depth.rounds + 20 * len(lookout.free)
+        return self._depth.rounds if self._warm or self._begun else 100 * self._depth.rounds + 20 * len(lookout.free)
 
     def _reward(self, vertices: Sequence[int]) -> float:
         return float(self._problem.rewards[list(vertices)].sum())

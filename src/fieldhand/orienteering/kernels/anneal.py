@@ -11,7 +11,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.orienteering.kernels.compiled import compiled
+from fieldhand.orienteering.kernels.compiled import compiled, inner
 from fieldhand.orienteering.kernels.legs import Floats, Ints, Seeds, Ways, copy, length, needed, sort_by, uniform
 
 # Entries of ``sums``: of the legs' lengths, squares and cubes; the reward; the number of stops.
@@ -20,7 +20,7 @@ from fieldhand.orienteering.kernels.legs import Floats, Ints, Seeds, Ways, copy,
 _BLINK = 0.02
 
 
-@compiled
+@inner
 def excess(sums: Floats, used: Floats, budgets: Floats, cumulants: Floats, quantiles: Floats) -> float:
     """By how much the limit that binds most is exceeded; not above 0 where all are kept."""
     worst = -np.inf
@@ -30,7 +30,7 @@ def excess(sums: Floats, used: Floats, budgets: Floats, cumulants: Floats, quant
     return worst
 
 
-@compiled
+@inner
 def link(
     p: int, v: int, after: Ints, before: Ints, sums: Floats, used: Floats, ways: Ways, rewards: Floats, service: Floats,
 ) -> None:  # fmt: skip
@@ -50,7 +50,7 @@ def link(
     before[q] = v
 
 
-@compiled
+@inner
 def unlink(
     v: int, after: Ints, before: Ints, sums: Floats, used: Floats, ways: Ways, rewards: Floats, service: Floats,
 ) -> None:  # fmt: skip
@@ -70,7 +70,7 @@ def unlink(
     before[v] = -1
 
 
-@compiled
+@inner
 def begin(
     here: int, stops: Ints, afterwards: Floats, after: Ints, before: Ints, sums: Floats, used: Floats, ways: Ways,
     rewards: Floats, service: Floats, budgets: Floats, cumulants: Floats, quantiles: Floats, most: int,
@@ -113,7 +113,7 @@ def begin(
         unlink(worst, after, before, sums, used, ways, rewards, service)
 
 
-@compiled
+@inner
 def _best_place(
     v: int, here: int, end: int, after: Ints, before: Ints, near: Ints, ways: Ways, blink: float,
     state: Seeds,
@@ -140,7 +140,7 @@ def _best_place(
     return place
 
 
-@compiled
+@inner
 def _take_out(
     seed: int, here: int, turn: int, allowed: NDArray[np.bool_], seen: Ints, moves: Ints, after: Ints, before: Ints,
     sums: Floats, used: Floats, ways: Ways, near: Ints, rewards: Floats, service: Floats, state: Seeds,
@@ -174,7 +174,7 @@ def _take_out(
     return steps
 
 
-@compiled
+@inner
 def _rank(out: Ints, key: Floats, count: int, seed: int, ways: Ways, rewards: Floats, state: Seeds) -> None:
     """Sort the stops that may be put in: at random, by reward, by reward with noise, or by nearness to ``seed``."""
     rule = int(uniform(state) * 4.0)
@@ -191,7 +191,7 @@ def _rank(out: Ints, key: Floats, count: int, seed: int, ways: Ways, rewards: Fl
     sort_by(key, out, count)
 
 
-@compiled
+@inner
 def _drop(v: int, p: int, after: Ints, before: Ints) -> None:
     """Take v, which follows p, out of the list; the figures are the caller's."""
     q = after[v]
@@ -201,7 +201,7 @@ def _drop(v: int, p: int, after: Ints, before: Ints) -> None:
     before[v] = -1
 
 
-@compiled
+@inner
 def _undo(moves: Ints, steps: int, after: Ints, before: Ints) -> None:
     """Take the moves back, the last one first."""
     for i in range(steps - 1, -1, -1):

@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.orienteering.kernels.compiled import compiled
+from fieldhand.orienteering.kernels.compiled import compiled, inner
 from fieldhand.orienteering.kernels.legs import Floats, Ints, Ways, length, sort_by
-from fieldhand.orienteering.kernels.value import backward, forward, gains
+from fieldhand.orienteering.kernels.value import WORK, backward, forward, gains
 
 #: Vertices that are tried for the first insertion, and for those after it.
 CANDIDATES = 24
 _AGAIN = 8
 
 
-@compiled
+@inner
 def floors_of(route: Ints, service: Floats, budgets: Floats, floors: Floats) -> None:
     """What the other limits ask to be left of the first at the end, when the robot goes home from each position."""
     end = route[len(route) - 1]
@@ -83,7 +83,7 @@ def grow(
     worth, success = np.empty((capacity, size)), np.empty((capacity, size))
     ahead, mass = np.empty((capacity, size)), np.empty((capacity, size))
     choice = np.empty((capacity, size), np.int64)
-    floors = np.empty(capacity)
+    floors, work, ways_over = np.empty(capacity), np.empty((WORK, size)), np.empty((2, capacity))
     route = np.empty(capacity, np.int64)
     inside = np.zeros(end + 1, np.bool_)
     count = len(stops)
@@ -101,14 +101,15 @@ def grow(
         floors_of(route[:n], service, budgets, floors[:n])
         backward(
             route[:n], ways, rewards, service[0], ends, floors[:n], bonus, step, skip, points, weights,
-            worth[:n], success[:n], ahead[:n], choice[:n],
+            worth[:n], success[:n], ahead[:n], choice[:n], work,
         )  # fmt: skip
         if trial == insertions or n >= capacity or left == 0:
             break
-        forward(route[:n], ways, service[0], step, skip, points, weights, choice[:n], mass[:n])
+        forward(route[:n], ways, service[0], step, skip, points, weights, choice[:n], mass[:n], work)
         gains(
             route[:n], ways, rewards, service[0], ends, floors[:n], bonus, step, points, weights,
             worth[:n], success[:n], ahead[:n], mass[:n], candidates[:left], gain[:left], place[:left],
+            work, ways_over,
         )  # fmt: skip
         most = 0
         for i in range(left):

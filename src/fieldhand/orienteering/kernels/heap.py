@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from fieldhand.orienteering.kernels.compiled import compiled
+from fieldhand.orienteering.kernels.compiled import inner
 from fieldhand.orienteering.kernels.legs import Floats, Ints
 
 
-@compiled
+@inner
 def push(keys: Floats, items: Ints, count: int, key: float, item: int) -> None:
     """Add a pair to a heap of ``count``."""
     at = count
@@ -21,7 +21,7 @@ def push(keys: Floats, items: Ints, count: int, key: float, item: int) -> None:
     items[at] = item
 
 
-@compiled
+@inner
 def drop(keys: Floats, items: Ints, count: int) -> None:
     """Take the least pair, which stands first, out of a heap of ``count``."""
     last = count - 1

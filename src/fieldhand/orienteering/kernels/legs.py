@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.orienteering.kernels.compiled import compiled
+from fieldhand.orienteering.kernels.compiled import inner
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -42,7 +42,7 @@ TABLE_FROM = -4.0
 TABLE_PER_UNIT = 16.0
 
 
-@compiled
+@inner
 def uniform(state: Seeds) -> float:
     """The next number in [0, 1) of a generator (splitmix64, Steele et al. 2014) with this one word of state."""
     z = state[0] + np.uint64(0x9E3779B97F4A7C15)
@@ -53,7 +53,7 @@ def uniform(state: Seeds) -> float:
     return float(z >> np.uint64(11)) * (1.0 / 9007199254740992.0)
 
 
-@compiled
+@inner
 def over_hubs(spans: Ints, hubs: Numbers, gaps: Floats, u: int, v: int) -> float:
     """The distance between two nodes over the best hub that both have; ``inf`` where there is none."""
     i, j, u_end, v_end = spans[u, 0], spans[v, 0], spans[u, 1], spans[v, 1]
@@ -67,7 +67,7 @@ def over_hubs(spans: Ints, hubs: Numbers, gaps: Floats, u: int, v: int) -> float
     return best
 
 
-@compiled
+@inner
 def _on_network(spans: Ints, hubs: Numbers, gaps: Floats, close: Numbers, close_gaps: Floats, u: int, v: int) -> float:
     # Always the same row for two nodes, so that there and back are equal to the last digit.
     if u < v:
@@ -84,7 +84,7 @@ def _on_network(spans: Ints, hubs: Numbers, gaps: Floats, close: Numbers, close_
     return over_hubs(spans, hubs, gaps, u, v)
 
 
-@compiled
+@inner
 def length(ways: Ways, u: int, v: int) -> float:
     """Of the leg from u to v: an entry of the matrix, the straight line, or the way over the best hub of both."""
     if ways.matrix.shape[0] > 0:
@@ -95,7 +95,7 @@ def length(ways: Ways, u: int, v: int) -> float:
     return _on_network(ways.spans, ways.hubs, ways.gaps, ways.close, ways.close_gaps, u, v)
 
 
-@compiled
+@inner
 def needed(first: float, second: float, third: float, cumulants: Floats, quantiles: Floats) -> float:
     """What legs exceed with one certain chance: Pearson III through their first three cumulants.
 
@@ -115,14 +115,14 @@ def needed(first: float, second: float, third: float, cumulants: Floats, quantil
     return first + deviation * (quantiles[entry] * (1.0 - part) + quantiles[entry + 1] * part)  # type: ignore[no-any-return]
 
 
-@compiled
+@inner
 def copy(values: Floats, to: Floats) -> None:
     """Overwrite ``to``. Written out: an assignment of slices takes a second longer to compile."""
     for i in range(len(values)):
         to[i] = values[i]
 
 
-@compiled
+@inner
 def sort_by(key: Floats, values: Ints, count: int) -> None:
     """Sort the first ``count`` values by their keys, and the keys (Shell 1959). numpy's takes seconds to compile."""
     gap = count // 2

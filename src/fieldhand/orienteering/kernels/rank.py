@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.orienteering.kernels.compiled import compiled
+from fieldhand.orienteering.kernels.compiled import compiled, inner
 from fieldhand.orienteering.kernels.heap import drop, push
 from fieldhand.orienteering.kernels.legs import Floats, Ints, Numbers, Seeds, sort_by, uniform
 
@@ -24,7 +24,7 @@ _TELLING = 8.0
 EQUAL = 1.0 + 1e-12
 
 
-@compiled
+@inner
 def _grow(
     root: int, starts: Ints, heads: Numbers, lengths: Floats, ranked: NDArray[np.bool_], away: Floats, came: Numbers,
     state: NDArray[np.int8], keys: Floats, items: Ints, seen: Numbers, settled: Numbers,

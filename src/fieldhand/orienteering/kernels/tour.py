@@ -324,16 +324,16 @@ def _take_back(tour: Tour) -> None:
 def for_long_paths() -> tuple[Callable[..., None], Callable[..., None], Callable[..., None]]:
     """:func:`neighbours`, :func:`begin` and :func:`shorten` compiled, for arrays and for :class:`legs.Ways`."""
     from fieldhand.orienteering.kernels import legs
-    from fieldhand.orienteering.kernels.compiled import compiled
+    from fieldhand.orienteering.kernels.compiled import inner
 
     def length(ways: legs.Ways, u: int, v: int) -> float:
         return 0.0 if u < 0 or v < 0 else legs.length(ways, u, v)
 
     # The same code, but each name in it means what is compiled.
-    names: dict[str, Any] = {**globals(), "leg": compiled(length)}
+    names: dict[str, Any] = {**globals(), "leg": inner(length)}
     for plain in (
         neighbours, begin, _turn_round, _flip, _look, _next, _move, _turn, _shift, _settle, _settle_all, _kick,
         _take_back, shorten,
     ):  # fmt: skip
-        names[plain.__name__] = compiled(FunctionType(plain.__code__, names, plain.__name__))
+        names[plain.__name__] = inner(FunctionType(plain.__code__, names, plain.__name__))
     return names["neighbours"], names["begin"], names["shorten"]

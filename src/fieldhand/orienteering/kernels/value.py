@@ -12,11 +12,17 @@ import math
 
 import numpy as np
 
-from fieldhand.orienteering.kernels.compiled import compiled
+from fieldhand.orienteering.kernels.compiled import inner
 from fieldhand.orienteering.kernels.legs import Floats, Ints, Ways, copy, length
 
+#: Rows that the programme works in.
+WORK = 7
+#: After how many positions a candidate is tried, and how rarely a mission comes to one where it is not.
+_PLACES = 5
+_RARE = 1e-3
 
-@compiled
+
+@inner
 def drive(
     worth: Floats,
     success: Floats,
@@ -58,20 +64,23 @@ def drive(
     whole = math.ceil(at)
     stay, earlier, later = cell(1.0, scale / step)
     last_stay, last_earlier, last_later = cell(whole - at, scale / step)
-    was_worth, was_success = 0.0, 0.0
-    # What is left then lies below the grid's second point.
+    mean_worth, mean_success = 0.0, 0.0
+    low_worth, low_success = worth[0], success[0]
+    high_worth, high_success = worth[min(1, size - 1)], success[min(1, size - 1)]
+    # With only ``whole`` left, what is left then lies below the grid's second point.
     if whole < size:
-        to_worth[whole] = last_earlier * worth[0] + last_later * worth[min(1, size - 1)]
-        to_success[whole] = last_earlier * success[0] + last_later * success[min(1, size - 1)]
+        to_worth[whole] = last_earlier * low_worth + last_later * high_worth
+        to_success[whole] = last_earlier * low_success + last_later * high_success
     for k in range(1, size - whole):
-        was_worth = stay * was_worth + earlier * worth[k - 1] + later * worth[k]
-        was_success = stay * was_success + earlier * success[k - 1] + later * success[k]
-        next_worth, next_success = worth[min(k + 1, size - 1)], success[min(k + 1, size - 1)]
-        to_worth[k + whole] = last_stay * was_worth + last_earlier * worth[k] + last_later * next_worth
-        to_success[k + whole] = last_stay * was_success + last_earlier * success[k] + last_later * next_success
+        mean_worth = stay * mean_worth + (earlier * low_worth + later * high_worth)
+        mean_success = stay * mean_success + (earlier * low_success + later * high_success)
+        low_worth, low_success = high_worth, high_success
+        high_worth, high_success = worth[min(k + 1, size - 1)], success[min(k + 1, size - 1)]
+        to_worth[k + whole] = last_stay * mean_worth + (last_earlier * low_worth + last_later * high_worth)
+        to_success[k + whole] = last_stay * mean_success + (last_earlier * low_success + last_later * high_success)
 
 
-@compiled
+@inner
 def cell(width: float, mean: float) -> tuple[float, float, float]:
     """The expectation over an exponential cost at ``width`` above a grid point, both in cells of the grid.
 
@@ -85,7 +94,7 @@ def cell(width: float, mean: float) -> tuple[float, float, float]:
     return stay, 1.0 - stay - later, later
 
 
-@compiled
+@inner
 def _shift(worth: Floats, success: Floats, to_worth: Floats, to_success: Floats, at: float, weight: float) -> None:
     size = len(worth)
     if at >= size:
@@ -102,7 +111,7 @@ def _shift(worth: Floats, success: Floats, to_worth: Floats, to_success: Floats,
             to_success[k] += weight * success[k - whole]
 
 
-@compiled
+@inner
 def gather(
     mass: Floats, choice: Ints, chosen: int, into: Floats, leg: float, service: float, step: float, points: Floats,
     weights: Floats, work: Floats,
@@ -152,7 +161,7 @@ def gather(
     into[0] += earlier * coming
 
 
-@compiled
+@inner
 def home(success: Floats, to_success: Floats, floor: float, step: float) -> None:
     """Chances to keep to every limit, by what is left of the first; another asks that ``floor`` of it be left."""
     size = len(success)
@@ -166,11 +175,11 @@ def home(success: Floats, to_success: Floats, floor: float, step: float) -> None
             to_success[k] = (1.0 - part) * success[k - whole] + part * success[k - whole - 1]
 
 
-@compiled
+@inner
 def backward(
     route: Ints, ways: Ways, rewards: Floats, service: Floats, ends: Floats, floors: Floats,
     bonus: float, step: float, skip: int, points: Floats, weights: Floats,
-    worth: Floats, success: Floats, ahead: Floats, choice: Ints,
+    worth: Floats, success: Floats, ahead: Floats, choice: Ints, work: Floats,
 ) -> None:  # fmt: skip
     """Fill the programme from the end of ``route`` to its beginning.
 
@@ -189,10 +198,11 @@ def backward(
         worth, success: Overwritten, shape (positions, points of the grid).
         ahead: Overwritten: ``worth`` with the reward of the position itself.
         choice: Overwritten: the position that is driven to.
+        work: Overwritten, shape (:data:`WORK`, points of the grid).
     """
     last = len(route) - 1
     size = worth.shape[1]
-    to_worth, to_success, arrived = np.empty(size), np.empty(size), np.empty(size)
+    to_worth, to_success, arrived = work[0], work[1], work[2]
     for k in range(size):
         worth[last, k] = 0.0
         ahead[last, k] = 0.0
@@ -220,15 +230,14 @@ def backward(
         collected -= reward
 
 
-@compiled
+@inner
 def forward(
     route: Ints, ways: Ways, service: Floats, step: float, skip: int, points: Floats, weights: Floats,
-    choice: Ints, mass: Floats,
+    choice: Ints, mass: Floats, work: Floats,
 ) -> None:  # fmt: skip
-    """Fill ``mass``: how likely a mission comes to each position with each amount left."""
+    """Fill ``mass``: how likely a mission comes to each position with each amount left. ``work`` is overwritten."""
     last = len(route) - 1
     size = mass.shape[1]
-    work = np.empty(size)
     for i in range(last + 1):
         for k in range(size):
             mass[i, k] = 0.0
@@ -242,54 +251,76 @@ def forward(
                     going += mass[i, k]
             if going > 1e-12:
                 leg = length(ways, route[i], route[j])
-                gather(mass[i], choice[i], j, mass[j], leg, service[route[j]], step, points, weights, work)
+                gather(mass[i], choice[i], j, mass[j], leg, service[route[j]], step, points, weights, work[0])
 
 
-@compiled
+@inner
+def _tried(v: int, route: Ints, ways: Ways, coming: Floats, detour: Floats) -> float:
+    """Fill ``detour``: what the way over v adds after each position; the longest detour that is tried."""
+    last = len(route) - 1
+    came = length(ways, route[0], v)
+    for i in range(last):
+        goes = length(ways, v, route[i + 1])
+        detour[i] = came + goes - length(ways, route[i], route[i + 1]) if coming[i] >= _RARE else np.inf
+        came = goes
+    longest = -np.inf
+    for _ in range(_PLACES):
+        least = np.inf
+        for i in range(last):
+            if longest < detour[i] < least:
+                least = detour[i]
+        if least == np.inf:
+            break
+        longest = least
+    return longest
+
+
+@inner
 def gains(
     route: Ints, ways: Ways, rewards: Floats, service: Floats, ends: Floats, floors: Floats,
     bonus: float, step: float, points: Floats, weights: Floats,
     worth: Floats, success: Floats, ahead: Floats, mass: Floats, candidates: Ints, gain: Floats, place: Ints,
+    work: Floats, ways_over: Floats,
 ) -> None:  # fmt: skip
     """For each candidate, what the order gains when it may be visited after the one position where it gains most.
 
-    From there the robot drives on to the next position or to the end.
+    From there the robot drives on to the next position or to the end. Those positions are tried where the way over
+    the candidate is the least detour. ``work`` is overwritten, shape (:data:`WORK`, points of the grid), and so is
+    ``ways_over``, shape (2, positions).
     """
     last = len(route) - 1
     size = worth.shape[1]
-    then_worth, then_success = np.empty(size), np.empty(size)
-    to_worth, to_success, arrived = np.empty(size), np.empty(size), np.empty(size)
-    home_worth, home_success = np.empty(size), np.empty(size)
-    here = np.empty(last)
-    here[0] = bonus
-    for i in range(1, last):
-        here[i] = here[i - 1] + rewards[route[i]]
-    there = np.empty(last)
+    then_worth, then_success, to_worth, to_success = work[0], work[1], work[2], work[3]
+    arrived, home_worth, home_success = work[4], work[5], work[6]
+    coming, detour = ways_over[0], ways_over[1]
     for i in range(last):
-        there[i] = 0.0
+        coming[i] = 0.0
         for k in range(size):
-            there[i] += mass[i, k]
+            coming[i] += mass[i, k]
     for c in range(len(candidates)):
         v = candidates[c]
         gain[c] = 0.0
         place[c] = 0
         leg_home = length(ways, v, route[last])
+        longest = _tried(v, route, ways, coming, detour)
         floor = -1.0
+        here = bonus
         for i in range(last):
-            if there[i] < 1e-3:
+            here += rewards[route[i]] if i > 0 else 0.0
+            if detour[i] > longest:
                 continue
-            value = here[i] + rewards[v]
+            value = here + rewards[v]
             if floors[i] != floor:
                 floor = floors[i]
-                work = service[route[last]]
+                takes = service[route[last]]
                 home(ends, arrived, floor, step)
-                drive(worth[last], arrived, home_worth, home_success, leg_home, work, step, points, weights)
+                drive(worth[last], arrived, home_worth, home_success, leg_home, takes, step, points, weights)
             copy(home_worth, then_worth)
             copy(home_success, then_success)
             if i + 1 < last:
                 leg = length(ways, v, route[i + 1])
-                work = service[route[i + 1]]
-                drive(ahead[i + 1], success[i + 1], to_worth, to_success, leg, work, step, points, weights)
+                takes = service[route[i + 1]]
+                drive(ahead[i + 1], success[i + 1], to_worth, to_success, leg, takes, step, points, weights)
                 for k in range(size):
                     if to_worth[k] + value * to_success[k] > then_worth[k] + value * then_success[k]:
                         then_worth[k] = to_worth[k]
@@ -300,7 +331,7 @@ def gains(
             drive(then_worth, then_success, to_worth, to_success, leg, service[v], step, points, weights)
             found = 0.0
             for k in range(size):
-                more = to_worth[k] - worth[i, k] + here[i] * (to_success[k] - success[i, k])
+                more = to_worth[k] - worth[i, k] + here * (to_success[k] - success[i, k])
                 if more > 0.0:
                     found += more * mass[i, k]
             if found > gain[c]:
