@@ -72,16 +72,26 @@ def bench_orienteering(
                 show.note(f"{row.graph}, budget {b:g}, Pf {p:g}, {row.solver}: done")
         if certain > 0.0:
             compared += _compared(loaded, b, seed, certain)
-    if plot is not None:
-        from fieldhand.orienteering.bench.plot import plot as draw
-
-        draw(rows, plot)
     if json:
         show.print_json(
             {"machine": on, "seed": seed, "rows": [asdict(r) for r in rows], "published": _published(rows),
              "certain": compared}
         )  # fmt: skip
-        return
+    else:
+        _say(rows, compared, trials, certain, on)
+    # Last, so that a picture that cannot be written takes no figures with it.
+    if plot is not None:
+        from fieldhand.orienteering.bench.plot import plot as draw
+
+        draw(rows, plot)
+
+
+def _say(
+    rows: Sequence[Row], compared: Sequence[dict[str, Any]], trials: int, certain: float, on: dict[str, Any]
+) -> None:
+    """Tables, what they mean, and where they were measured."""
+    from fieldhand.cli import show
+
     for setting in dict.fromkeys((row.graph, row.budget, row.failure_probability) for row in rows):
         show.out.print(_table([r for r in rows if (r.graph, r.budget, r.failure_probability) == setting]))
     show.out.print(

@@ -273,9 +273,11 @@ class Policy:
 def compile_ahead() -> None:
     """Compile the inner loops now and keep them on disk, so that no later process waits for it (some ten seconds).
 
-    Covers fixed routes, policies and their chances, over tables, coordinates and labels: the loops take all three.
+    Covers fixed routes, policies and their chances, over tables, coordinates and labels, for the loops take all three,
+    and orders of many visits.
     """
     from fieldhand.orienteering.network import Network
+    from fieldhand.orienteering.order import COMPILED_FROM, shortest_order
 
     ways = np.array([[i, i + 1] for i in range(11)], dtype=np.int64)
     chain = Network(nodes=12, ways=ways, lengths=np.full(11, 0.1))
@@ -286,3 +288,5 @@ def compile_ahead() -> None:
     for seconds in (None, 0.05):
         policy.next(State(vertex=0, left=(2.0,)), seconds)
     policy.chances()
+    places = np.arange(COMPILED_FROM, dtype=np.float64)
+    shortest_order(np.abs(places[:, None] - places), 0, None)

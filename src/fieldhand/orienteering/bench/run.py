@@ -113,7 +113,8 @@ def wilson(part: float, count: int) -> tuple[float, float]:
     square = _Z**2 / count
     middle = (part + 0.5 * square) / (1.0 + square)
     half = _Z / (1.0 + square) * np.sqrt(part * (1.0 - part) / count + 0.25 * square / count)
-    return max(0.0, float(middle - half)), min(1.0, float(middle + half))
+    # Where none or all failed, rounding may leave the part itself outside.
+    return max(0.0, min(part, float(middle - half))), min(1.0, max(part, float(middle + half)))
 
 
 def _prepare(solver: str, problem: Problem, options: Options) -> tuple[Prepared, float]:
