@@ -6,6 +6,36 @@ Longer than other files because it is a table.
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
+    ("husky", "can u get me a co2 reading at whichever tree is furthest to the west please", "co2 @ Extreme(west)"),
+    ("husky", "take a picture at tree 4 because I like it", "picture @ TreeIs(4)"),
+    ("husky", "We had a leak last week. Take a picture of tree 4.", "picture @ TreeIs(4)"),
+    (
+        "husky",
+        "Could you take thermal photos of four trees along the western edge, so we can check for water stress?",
+        "for Take(4, of Edge(west)): [picture]",
+    ),
+    (
+        "husky",
+        "One pic per corner of the block, whatever order is quickest, and then drive to the end point.",
+        "for Corners: [picture]; go Marker(end)",
+    ),
+    ("husky", "Every tree in row 3 should be photographed.", "for Rows(3, 3): [picture]"),
+    ("husky", "take a pictrue of tree 4", "picture @ TreeIs(4)"),
+    (
+        "husky",
+        "Look for yellow trees in the south-west quarter and photograph up to five of them",
+        "for Where(leaf_color, eq, yellow, of Quarter(sw)) at most 5: [picture]",
+    ),
+    (
+        "husky",
+        "You've got 5 minutes tops. Get pictures of as many trees as you can in that time.",
+        "for Trees optional: [picture] | duration_s 300",
+    ),
+    (
+        "husky",
+        "Check the air temp at the tree nearest the charger. If its hotter than 95 F take three shots of that same tree, if not one shot is plenty.",
+        "air @ Nearest(Marker(charger)) = r1; if r1 > 35 degC: [picture x3] else [picture]",
+    ),
     ("husky", "If the battery allows, also take a picture of tree 5.", "maybe [picture @ TreeIs(5)]"),
     (
         "husky",
@@ -658,6 +688,7 @@ ASKED = [
 ]
 
 REFUSED = [
+    ("husky", "Take a picture of tree 4. Dig a hole at tree 5.", "not understood: 'Dig', 'hole'"),
     (
         "husky",
         "If the battery is below 30 %, return.",
@@ -776,7 +807,6 @@ REFUSED = [
         "take a picture and a CO2 reading at tree 4 and tree 9 respectively",
         "'respectively' is not possible yet",
     ),
-    ("husky", "take a picture at tree 4 because I like it", "not understood: 'I', 'like'"),
     (
         "husky",
         "Take a picture of every tree in the pond",

@@ -6,6 +6,16 @@
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
+    (
+        "husky",
+        "Take one picture per row.",
+        "for Union(Take(1, of Rows(1, 1))+Take(1, of Rows(2, 2))+Take(1, of Rows(3, 3))+Take(1, of Rows(4, 4))+Take(1, of Rows(5, 5))+Take(1, of Rows(6, 6))+Take(1, of Rows(7, 7))+Take(1, of Rows(8, 8))+Take(1, of Rows(9, 9))+Take(1, of Rows(10, 10))): [picture]",
+    ),
+    (
+        "husky",
+        "take a picture of every tree in row 3 that's not yellow",
+        "for Where(leaf_color, ne, yellow, of Rows(3, 3)): [picture]",
+    ),
     ("husky", "take a picture of every tree in row 3", "for Rows(3, 3): [picture]"),
     ("husky", "take a picture of every tree in the third row", "for Rows(3, 3): [picture]"),
     ("husky", "take a picture of every tree in rows 2 to 5", "for Rows(2, 5): [picture]"),
@@ -1177,7 +1187,6 @@ REFUSED = [
     ),
     ("husky", "Photograph row 2 from end to end.", "'from end': of which row is not clear"),
     ("husky", "Take a photo of the tree at the head of row 5.", "'the': a place was expected"),
-    ("husky", "Take one picture per row.", "not understood: 'per'"),
     ("husky", "Take pictures of all trees in the outermost rows.", "not understood: 'outermost'"),
     (
         "husky",
@@ -1222,7 +1231,11 @@ REFUSED = [
         "Photograph at least 3 trees in row 2.",
         "'at least 3 trees': which attribute is compared does not stand there",
     ),
-    ("husky", "Skip row 3 and take pictures of all other rows.", "not understood: 'Skip'"),
+    (
+        "husky",
+        "Skip row 3 and take pictures of all other rows.",
+        "'except row 3': it is not clear what that area is of",
+    ),
     (
         "husky",
         "Take pictures of every tree but the first and last of row 3.",
@@ -1316,7 +1329,6 @@ REFUSED = [
     ),
     ("husky", "take a soil sample at the start of row 3", "not understood: 'soil'"),
     ("husky", "put the robot in row 3", "not understood: 'put'"),
-    ("husky", "take a picture of every tree in row 3 that's not yellow", "not understood: 'that's'"),
     (
         "husky",
         "take a picture of the trees in row 3 between 5 and 10 years old",

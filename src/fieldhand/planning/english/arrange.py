@@ -23,6 +23,8 @@ _NEEDS_HEAD = frozenset(
 )
 #: In a clause that gives a reason, these would be something to do or to decide.
 _MORE_THAN_A_REASON = VERBS | {"NUM", "AMOUNT", "IF", "OTHERWISE", "TREE", "CORNER", "WHETHER", "BUDGET", "FITS"}
+#: A reason with words that are not known is one all the same, but for these.
+_A_DEED = frozenset({"NUM", "AMOUNT", "IF", "OTHERWISE", "TREE", "CORNER", "BUDGET", "FITS", "NOUN", "ACTV", "IDS"})
 #: A clause that begins with one of these says what is to be done.
 _TO_DO = frozenset({"in order to", "so as to", "so that we", "so that i", "so we can", "so i can"})
 
@@ -41,20 +43,38 @@ class Sentence:
 
 @dataclass(frozen=True, kw_only=True)
 class Arranged:
-    """The sentences of a request, the words that need no grammar, and the reasons that it gives with their text."""
+    """The sentences of a request, and what of it needs no grammar.
+
+    Attributes:
+        filler: Where words stand that mean nothing to a plan.
+        reasons: What is said as a reason.
+        remarks: What is said besides.
+        notes: How words were read that are not known as they are written, as sentences.
+    """
 
     sentences: tuple[Sentence, ...]
     filler: tuple[Span, ...] = ()
     reasons: tuple[str, ...] = ()
+    remarks: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
-def arrange(terms: list[Term], request: str) -> Arranged:
+@dataclass(frozen=True, kw_only=True)
+class Asked:
+    """The terms that ask for something, where the others stand, and the reasons among these with their text."""
+
+    terms: tuple[Term, ...]
+    filler: tuple[Span, ...] = ()
+    reasons: tuple[str, ...] = ()
+
+
+def arrange(asked: Asked) -> Arranged:
     """Arrange the terms of a request.
 
     Raises:
-        Unclear: A reason holds something to do, or "instead" replaces nothing.
+        Unclear: An order or a limit that means nothing here.
     """
-    kept, filler, reasons = _without_filler(terms, request)
+    kept, filler, reasons = list(asked.terms), list(asked.filler), asked.reasons
     sentences: list[Sentence] = []
     for group in _split(kept, filler):
         sentence, silent = _sentence(group)
@@ -78,7 +98,13 @@ def _split(terms: list[Term], filler: list[Span]) -> Iterable[list[Term]]:
     yield group
 
 
-def _without_filler(terms: list[Term], request: str) -> tuple[list[Term], list[Span], list[str]]:
+def without_filler(terms: Iterable[Term], request: str) -> Asked:
+    """What a request asks for, without words that mean nothing to a plan, and without the reasons that it gives.
+
+    Raises:
+        Unclear: A reason holds something to do, or "instead" replaces nothing.
+    """
+    terms = list(terms)
     kept: list[Term] = []
     filler: list[Span] = []
     reasons: list[str] = []
@@ -97,7 +123,11 @@ def _without_filler(terms: list[Term], request: str) -> tuple[list[Term], list[S
             while end < len(terms) and terms[end].kind not in ("COMMA", "STOPMARK", "THEN"):
                 end += 1
             clause = terms[at:end]
-            if term.text.lower() in _TO_DO and clause and clause[0].kind in VERBS:
+            if any(t.kind == "UNKNOWN" for t in clause) and not any(t.kind in _A_DEED for t in clause):
+                filler.append((term.start, clause[-1].end))
+                reasons.append(request[term.start : clause[-1].end])
+                at = end
+            elif term.text.lower() in _TO_DO and clause and clause[0].kind in VERBS:
                 kept.append(replace(term, kind="AND"))
             elif any(t.kind in _MORE_THAN_A_REASON for t in clause):
                 advice = "say what is to be done in a sentence of its own, and leave the reason out"
@@ -109,7 +139,7 @@ def _without_filler(terms: list[Term], request: str) -> tuple[list[Term], list[S
                 at = end
         else:
             kept.append(term)
-    return kept, filler, reasons
+    return Asked(terms=tuple(kept), filler=tuple(filler), reasons=tuple(reasons))
 
 
 def _contrasted(before: list[Term]) -> bool:

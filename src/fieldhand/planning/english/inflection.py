@@ -10,7 +10,6 @@ _PAST = {
     "do": "did done",
     "go": "went gone",
     "drive": "drove driven",
-    "shoot": "shot",
     "run": "ran",
     "find": "found",
     "choose": "chose chosen",

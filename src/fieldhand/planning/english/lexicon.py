@@ -20,13 +20,15 @@ from fieldhand.site.model import Site
 _REPLACEABLE = frozenset({"READING", "FILLER", "TREE", "PLACE", "EDGE", "SIDE"})
 #: Orders by the compass, as the lexicon of orders calls them.
 _WAYS = (("west", "east"), ("east", "west"), ("north", "south"), ("south", "north"))
-_SINGLE = {"stop": "STOPMARK", "comma": "COMMA", "dash": "DASH", "sign": "AND", "hash": "NUMBERED"}
+_SINGLE = {"stop": "STOPMARK", "comma": "COMMA", "dash": "DASH", "sign": "AND", "hash": "NUMBERED", "silent": "FILLER"}
 #: Behind "starting in the north", these go on with a place: it is no order then.
 _NO_ORDER = frozenset(
     {"DIR", "MOST", "CORNER", "TREE", "IDS", "QUARTER", "HALF", "MIDDLE", "OF", "EDGE", "ROW", "SIDE", "FINISH", "ZONE"}
 )
 #: What a word that names a block may be besides: never an article or another word of the grammar ("a block").
 _MAY_NAME = frozenset({"UNKNOWN", "ATTRVAL", "ATTR", "START", "FINISH", "DIR", "ZONE", "IDS", "NAMED", "MIDDLE"})
+#: A shorter word is no word that another may be a misspelling of.
+_SPELLABLE = 6
 _TENS = ("twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety")
 _UNITS = ("one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 
@@ -49,6 +51,18 @@ class Lexicon:
     def longest(self) -> int:
         """Words of the longest phrase."""
         return max(len(p) for p in (*self.own, *_shared()))
+
+    @cached_property
+    def vocabulary(self) -> frozenset[str]:
+        """Every word that stands in some phrase, names of rows, blocks and trees among them."""
+        words = {word for phrase in (*self.own, *_shared()) for word in phrase}
+        names = [*self.trees, *self._rows, *self._blocks]
+        return frozenset({*words, *names, *(part for name in names for part in split(name))})
+
+    @cached_property
+    def spellings(self) -> tuple[str, ...]:
+        """The words of some length, which a word may be a misspelling of."""
+        return tuple(sorted(word for word in self.vocabulary if len(word) >= _SPELLABLE and word.isalpha()))
 
     def entry(self, phrase: Phrase) -> Entry | None:
         """What a phrase is; None if it is not known."""

@@ -8,16 +8,19 @@ from dataclasses import replace
 
 from fieldhand.errors import PlaceError, RequestError, TaskError
 from fieldhand.forecast.homeward import costs_too_much
-from fieldhand.planning.english.arrange import Arranged, arrange
+from fieldhand.planning.english.arrange import Arranged, arrange, without_filler
 from fieldhand.planning.english.discourse import Discourse
 from fieldhand.planning.english.draft import Halt, node_of
 from fieldhand.planning.english.faults import Question, Unclear
 from fieldhand.planning.english.leaving import place_unsure
 from fieldhand.planning.english.lexicon import Lexicon, lexicon_for
 from fieldhand.planning.english.limits import Limit
+from fieldhand.planning.english.remarks import without_remarks
+from fieldhand.planning.english.spelling import respelt
 from fieldhand.planning.english.syntax import NotParsed, parse
 from fieldhand.planning.english.tokens import Term, Word, words_of
 from fieldhand.planning.english.told import Told, settle
+from fieldhand.planning.english.wording import reworded
 from fieldhand.planning.foreseen import foreseeable
 from fieldhand.planning.planner import Clarify, Outcome, Planned, Reason, Refused
 from fieldhand.robot.capabilities import measures_of
@@ -54,13 +57,15 @@ class EnglishPlanner:
         """
         _check_text(request)
         lexicon = lexicon_for(robot, site)
-        words = words_of(request)
-        terms = lexicon.terms(words)
-        unknown = _unknown(terms, lexicon)
-        if unknown:
-            return Refused(reasons=unknown, planner=NAME)
+        words, notes = respelt(reworded(words_of(request)), lexicon)
+        terms, aside, remarks = without_remarks(lexicon.terms(words), request)
         try:
-            arranged = arrange(terms, request)
+            asked = without_filler(terms, request)
+            unknown = _unknown(asked.terms, lexicon)
+            if unknown:
+                return Refused(reasons=unknown, planner=NAME)
+            arranged = arrange(asked)
+            arranged = replace(arranged, filler=(*arranged.filler, *aside), remarks=tuple(remarks), notes=tuple(notes))
             _all_accounted(words, arranged)
             told = _told(arranged, request, robot, site)
             return _planned(request, told, site, robot)
@@ -147,6 +152,9 @@ def _told(arranged: Arranged, request: str, robot: RobotProfile, site: Site) -> 
     settle(discourse.told)
     for reason in arranged.reasons:
         discourse.told.assumptions.append(f"'{reason}' is taken as a reason, not as something to do.")
+    for remark in arranged.remarks:
+        discourse.told.assumptions.append(f"'{remark}' is taken as a remark: nothing is done about it.")
+    discourse.told.assumptions.extend(arranged.notes)
     return discourse.told
 
 

@@ -1,0 +1,117 @@
+"""Everyday turns of phrase put into words that the grammar knows, before the lexicon looks at them.
+
+``wordings.toml`` holds the rules: what may be said, as a regular expression over the words in lower case, and what it
+stands for. Words that a rule keeps stay where they were said; those that it puts in stand for the whole phrase.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cache
+from importlib.resources import files
+
+from fieldhand.planning.english.tokens import Word
+
+_KEPT = re.compile(r"\$(\d)")
+
+
+def reworded(words: Sequence[Word]) -> list[Word]:
+    """The words after every rule, in the order of the file, each as often as it fits."""
+    found = list(words)
+    for pattern, said in _rules():
+        found = _applied(pattern, said, found)
+    return found
+
+
+def _applied(pattern: re.Pattern[str], said: str, words: list[Word]) -> list[Word]:
+    starts: list[int] = []
+    text = ""
+    for word in words:
+        starts.append(len(text))
+        text += word.norm + " "
+    first_at = {start: index for index, start in enumerate(starts)}
+    last_at = {start + len(word.norm): index for index, (start, word) in enumerate(zip(starts, words, strict=True))}
+    made: list[Word] = []
+    done = 0
+    for match in pattern.finditer(text.rstrip()):
+        begin, end = match.span()
+        end = begin + len(text[begin:end].rstrip())
+        if begin not in first_at or end not in last_at or end <= begin or first_at[begin] < done:
+            continue
+        first, last = first_at[begin], last_at[end]
+        made += words[done:first]
+        made += _put(said, match, words, first, last, first_at, last_at)
+        done = last + 1
+    return [*made, *words[done:]]
+
+
+def _put(
+    said: str,
+    match: re.Match[str],
+    words: list[Word],
+    first: int,
+    last: int,
+    first_at: dict[int, int],
+    last_at: dict[int, int],
+) -> list[Word]:
+    """What a rule says in place of some words, which it keeps in part.
+
+    A word that it puts in stands where the words stood that it replaces: before, between or behind those that are kept.
+    """
+    end = words[last].end
+    made: list[Word] = []
+    place, put = words[first].start, 0
+    for piece in said.split():
+        kept = _KEPT.fullmatch(piece)
+        if kept is None:
+            kind = {",": "comma", ".": "stop"}.get(piece, "number" if piece.isdigit() else "word")
+            made.append(Word(kind=kind, text=piece, norm=piece, start=place, end=end))
+            put += 1
+            continue
+        number = int(kept[1])
+        group = match.group(number)
+        if not group or not group.strip():
+            continue
+        begin = match.start(number) + len(group) - len(group.lstrip())
+        stop_at = begin + len(group.strip())
+        if begin not in first_at or stop_at not in last_at:  # part of a word: "the northern end" as "north"
+            made += [Word(kind="word", text=w, norm=w, start=place, end=end) for w in group.split()]
+            put += len(group.split())
+            continue
+        group_words = words[first_at[begin] : last_at[stop_at] + 1]
+        _end_at(made, put, max(place, group_words[0].start))
+        made += group_words
+        place, put = max(place, group_words[-1].end), 0
+    if not put and place < end:
+        # What is left says nothing to a plan; it is said all the same.
+        made.append(Word(kind="silent", text="", norm="", start=place, end=end))
+    return made
+
+
+def _end_at(made: list[Word], put: int, end: int) -> None:
+    """End the last words, which were put in, where kept words begin."""
+    for index in range(len(made) - put, len(made)):
+        made[index] = replace(made[index], end=end)
+
+
+@cache
+def _rules() -> tuple[tuple[re.Pattern[str], str], ...]:
+    text = (files("fieldhand.planning.english") / "wordings.toml").read_text(encoding="utf-8")
+    book = tomllib.loads(text)
+    short: dict[str, str] = {}
+    for name, pattern in book["short"].items():
+        short[name] = _spelt_out(pattern, short)
+    rules = []
+    for rule in book["rule"]:
+        for pattern in rule["said"]:
+            whole = rf"(?:(?<=\s)|^)(?:{_spelt_out(pattern, short)})(?:(?=\s|$)|(?<=\s))"
+            rules.append((re.compile(whole), rule["means"]))
+    return tuple(rules)
+
+
+def _spelt_out(pattern: str, short: dict[str, str]) -> str:
+    """A pattern with its abbreviations (``<DIR>``) written out."""
+    return re.sub(r"<([A-Z]+)>", lambda m: f"(?:{short[m[1]]})", pattern)
