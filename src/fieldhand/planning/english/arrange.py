@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from fieldhand.planning.english.allowing import with_allowances
 from fieldhand.planning.english.faults import unclear
-from fieldhand.planning.english.kinds import VERBS
+from fieldhand.planning.english.kinds import PLACES, RELATIONS, VERBS
 from fieldhand.planning.english.limits import with_amounts, with_limits
 from fieldhand.planning.english.rowwords import with_row_ids, with_row_words
 from fieldhand.planning.english.separators import separated
@@ -25,6 +25,21 @@ _NEEDS_HEAD = frozenset(
 _MORE_THAN_A_REASON = VERBS | {"NUM", "AMOUNT", "IF", "OTHERWISE", "TREE", "CORNER", "WHETHER", "BUDGET", "FITS"}
 #: A reason with words that are not known is one all the same, but for these.
 _A_DEED = frozenset({"NUM", "AMOUNT", "IF", "OTHERWISE", "TREE", "CORNER", "BUDGET", "FITS", "NOUN", "ACTV", "IDS"})
+#: Where a terse "what, where" ends, and what makes a sentence one that says more than that.
+_CLAUSE_ENDS = frozenset({"COMMA", "AND", "THEN", "OTHERWISE", "IF", "WHERE", "UNLESS", "BUDGET", "NOORDER", "INORDER"})
+_SAID_FULLY = VERBS | {
+    "IF",
+    "WHERE",
+    "UNLESS",
+    "WHETHER",
+    "OTHERWISE",
+    "TRY",
+    "FITS",
+    "BUDGET",
+    "EXCEPT",
+    "ISNOT",
+    "NOT",
+}
 #: A clause that begins with one of these says what is to be done.
 _TO_DO = frozenset({"in order to", "so as to", "so that we", "so that i", "so we can", "so i can"})
 
@@ -157,9 +172,36 @@ def _sentence(terms: list[Term]) -> tuple[Sentence, list[Span]]:
     terms = with_row_words(with_ids(with_row_ids(terms)))
     terms = classed(with_orders(terms))
     terms = with_limits(terms)
-    terms = _with_heads(terms)
+    terms = _tersely(_with_heads(terms))
     terms, then, silent = separated(terms)
     return Sentence(terms=tuple(terms), then=then), silent
+
+
+def _tersely(terms: list[Term]) -> list[Term]:
+    """ "Soil moisture, tree 88" and "tree 30 first, nitrate": what, and where, with no verb and no preposition."""
+    comma = next((k for k, t in enumerate(terms) if t.kind in ("COMMA", "DASH")), 0)
+    before, after = terms[:comma], terms[comma + 1 :]
+    ends = next((k for k, t in enumerate(after) if t.kind in _CLAUSE_ENDS), len(after))
+    clause = after[:ends]
+    if not before or not clause or any(t.kind in _SAID_FULLY for t in (*before, *clause)):
+        return terms
+    what = [any(t.kind in ("NOUN", "READING") for t in part) for part in (before, clause)]
+    where = [any(t.kind in PLACES for t in part) for part in (before, clause)]
+    if what == [True, False] and where == [False, True]:
+        return [*before, replace(terms[comma], kind="AT"), *after]
+    if what == [False, True] and where == [True, False]:
+        # "First the westernmost tree, ...", "tree 30 first, ...": the word says when, not which.
+        place = [t for t in before if t.kind != "THEN" and not _first_of_all(t, before)]
+        if place and place[0].kind not in RELATIONS:
+            when = [replace(t, kind="THEN") for t in before if t not in place]
+            at = replace(place[0], kind="AT", text="", end=place[0].start)
+            return [*when, at, *place, *terms[comma:]]
+    return terms
+
+
+def _first_of_all(term: Term, among: list[Term]) -> bool:
+    """Whether "first" stands at either end of what it is said of."""
+    return term.kind == "ORD" and term.value == 1 and term in (among[0], among[-1])
 
 
 def _with_heads(terms: list[Term]) -> list[Term]:
@@ -168,6 +210,8 @@ def _with_heads(terms: list[Term]) -> list[Term]:
     for index, term in enumerate(terms):
         found.append(term)
         after = terms[index + 1].kind if index + 1 < len(terms) else ""
+        if term.kind == "ATTRVAL" and term.plural and after not in _NEEDS_HEAD | {"ATTR", "ATTRVAL", "AND", "COMMA"}:
+            found.append(replace(term, kind="TREE", text="", start=term.end, value=None))  # "6 Carmels"
         one = after == "PLACE" and terms[index + 1].text.lower() == "one"
         if term.kind != "DIR" or (after in _NEEDS_HEAD and not one):
             continue

@@ -30,8 +30,16 @@ def filtered(bag: Bag, of: s.Selector, site: Site) -> s.Selector:
     for group in bag.compared:
         of = _compared(group, bag, of, site)
     bag.compared = []
+    values = []
     while (value := bag.take("ATTRVAL")) is not None:
-        of = s.Where(attribute=_one(value, bag), test="eq", value=_text(value, bag), of=of)
+        values.append(value)
+    # "Golden Hills trees with yellow leaves": the attribute is said of one of the values.
+    word = bag.take("ATTR") if values and bag.has("ATTR") else None
+    meant = next((v for v in values if word is not None and any(n in word.value for n, _ in v.value)), None)
+    if word is not None and meant is None:
+        raise bag.fault(f"'{values[0].text}' is no {word.text}")
+    for value in values:
+        of = s.Where(attribute=_one(value, word if value is meant else None), test="eq", value=_text(value, bag), of=of)
     return of
 
 
@@ -69,7 +77,10 @@ def _compared(group: tuple[Term, ...], bag: Bag, of: s.Selector, site: Site) -> 
     terms = [t for t in group if t.kind not in ("NOT", "ISNOT", "JOIN")]
     head = terms[0]
     if head.kind == "ATTRVAL":
-        return s.Where(attribute=_one(head, bag), test="ne", value=_text(head, bag), of=of)
+        word = bag.take("ATTR") if bag.has("ATTR") else None
+        if word is not None and not any(name in word.value for name, _ in head.value):
+            raise bag.fault(f"'{head.text}' is no {word.text}")
+        return s.Where(attribute=_one(head, word), test="ne", value=_text(head, bag), of=of)
     if head.kind == "BETWEEN":
         low, high = number_of(terms[1]), number_of(terms[2])
         if low > high:
@@ -85,15 +96,11 @@ def _compared(group: tuple[Term, ...], bag: Bag, of: s.Selector, site: Site) -> 
     return s.Where(attribute=attribute_of(bag, hint, terms[1], site), test=test, value=number_of(terms[1]), of=of)
 
 
-def _one(value: Term, bag: Bag) -> str:
+def _one(value: Term, named: Term | None) -> str:
     """The attribute that a text stands under; the phrase may name it ("variety Carmel")."""
     names = tuple(name for name, _ in value.value)
-    named = bag.take("ATTR") if bag.has("ATTR") else None
     if named is not None:
-        fitting = tuple(n for n in names if n in named.value)
-        if not fitting:
-            raise bag.fault(f"'{value.text}' is no {named.text}")
-        names = fitting
+        names = tuple(n for n in names if n in named.value)
     if len(names) > 1:
         raise Question(f"'{value.text}' stands under {' and '.join(names)}: which is meant?", names)
     return str(names[0])

@@ -294,6 +294,7 @@ class Discourse(Leaving):
         made = repeating.copied(passage, lambda st: id(st) not in sentence, self._fresh)
         found = None if part.places is None else self._related(part)
         if found is not None and not found.here:
+            found = repeating.as_many_as(old, found)
             repeating.without_place(made, part)
             if found.many:
                 loop = self._add_loop(found, part)

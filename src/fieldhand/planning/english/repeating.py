@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import unclear
+from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.syntax import Part
 from fieldhand.task import selectors as s
 
@@ -15,6 +16,33 @@ def last_passage(steps: list[d.Step]) -> d.Block:
     """What was done at the last place: from the last step that goes somewhere."""
     start = next((k for k in range(len(steps) - 1, -1, -1) if _has_place(steps[k])), 0)
     return d.Block(steps=steps[start:])
+
+
+def as_many_as(steps: list[d.Step], found: Found) -> Found:
+    """An area in which something is done again: at as many trees of it as there were of the area before."""
+    if not (found.many and found.region) or found.each or found.counted:
+        return found
+    last = next((s_ for s_ in reversed(steps) if _selects(s_) is not None), None)
+    before = None if last is None else _selects(last)
+    if isinstance(before, s.Union) and any(isinstance(part, s.Here) for part in s.parts(before)):
+        # "Photograph it and the one beside it": the place was come to before.
+        before = next((at for step in reversed(steps) if isinstance(at := _selects(step), s.Take)), before)
+    if not isinstance(before, s.Take):
+        return found
+    fresh = s.Other(of=found.selector)
+    return replace(found, selector=replace(before, of=fresh), many=before.count > 1, counted=before.count)
+
+
+def _selects(step: d.Step) -> s.Selector | None:
+    match step:
+        case d.Go(place=place):
+            return place
+        case d.Loop(select=select):
+            return select
+        case d.Capture(at=at):
+            return at
+        case _:
+            return None
 
 
 def without_place(passage: d.Block, part: Part) -> None:
@@ -31,6 +59,8 @@ def without_place(passage: d.Block, part: Part) -> None:
             first.select = replace(select, near=s.Here())
         case d.Loop(select=s.Nearest() as select):
             first.select = replace(select, to=s.Here())
+        case d.Loop(select=s.Union() as select) if any(isinstance(part, s.Here) for part in s.parts(select)):
+            pass  # "it and the one beside it": of the new place now
         case d.Loop(body=body):
             passage.steps = [*body.steps, *passage.steps[1:]]
         case _:
