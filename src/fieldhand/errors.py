@@ -7,6 +7,7 @@
     │   ├── ProfileError            the robot profile
     │   ├── TaskError               a Task document: its XML, its schema, its meaning
     │   ├── WorldError              the world file of a simulation
+    │   ├── CaseError               a file of cases: requests with what they mean
     │   ├── PlaceError              a selector that this site cannot resolve
     │   ├── OutputError             a place to write to that cannot be written
     │   ├── ProblemError            an orienteering problem that contradicts itself or has no solution
@@ -23,6 +24,7 @@ from __future__ import annotations
 
 __all__ = [
     "ActionFault",
+    "CaseError",
     "DriveFault",
     "ExecutionError",
     "FieldhandError",
@@ -87,6 +89,10 @@ class TaskError(InputError):
 
 class WorldError(InputError):
     """The world file of a simulation cannot be used."""
+
+
+class CaseError(InputError):
+    """A file of cases (requests with what they mean), or an event log that is to be judged, cannot be used."""
 
 
 class PlaceError(InputError):

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from fieldhand.execution.runtime import Result
     from fieldhand.execution.world import World
     from fieldhand.forecast.estimate import Estimate
+    from fieldhand.planning.llm.chat import Chat
 
 PLANNERS = ("auto", "english", "llm")
 
@@ -58,13 +59,20 @@ class Assessment:
         return all(o.outcome == "success" for o in self.outcomes)
 
 
-def make_planner(name: str, environ: Mapping[str, str], transcript: Path | None = None) -> Planner:
+def make_planner(
+    name: str,
+    environ: Mapping[str, str],
+    transcript: Path | None = None,
+    *,
+    watched: Callable[[Chat], Chat] = lambda chat: chat,
+) -> Planner:
     """The planner of that name, a language model configured from the environment.
 
     Args:
         name: ``auto``, ``english`` or ``llm``.
         environ: Where the language model is configured.
         transcript: Where to keep what is said to a language model and its answers; else :func:`transcript_path`.
+        watched: Takes the language model and gives one that asks it: to count its answers, say.
 
     Raises:
         InputError: There is no planner of that name.
@@ -83,8 +91,9 @@ def make_planner(name: str, environ: Mapping[str, str], transcript: Path | None 
     if settings is None:
         return AutoPlanner(EnglishPlanner(), None)
     from fieldhand.planning.llm.planner import LlmPlanner
+    from fieldhand.planning.llm.transport import ModelChat
 
-    model = LlmPlanner(settings, transcript or transcript_path(environ))
+    model = LlmPlanner(settings, transcript or transcript_path(environ), chat=watched(ModelChat(settings)))
     return model if name == "llm" else AutoPlanner(EnglishPlanner(), model)
 
 

@@ -148,7 +148,7 @@ def _content(text: str, source: str) -> dict[Any, Any]:
     import yaml
 
     try:
-        content = yaml.load(text, Loader=_loader())  # noqa: S506  a SafeLoader
+        content = yaml.load(text, Loader=strict_yaml())  # noqa: S506  a SafeLoader
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         where = f"{source}, line {mark.line + 1}" if mark else source
@@ -168,7 +168,7 @@ def _content(text: str, source: str) -> dict[Any, Any]:
     return content
 
 
-def _loader() -> Any:
+def strict_yaml() -> Any:
     """Safe YAML in which a key stands once: a second value for the same quantity must not replace the first unseen."""
     import yaml
 

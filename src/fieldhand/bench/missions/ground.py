@@ -1,0 +1,165 @@
+"""Trees and markers of a site as its GeoJSON has them, measured by the judge itself."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from scipy.spatial import KDTree
+
+from fieldhand.errors import CaseError
+
+CornerName = Literal["nw", "ne", "sw", "se"]
+
+#: WGS 84: half the long axis in metres, and the squared eccentricity.
+_AXIS_M, _ECCENTRICITY2 = 6_378_137.0, 6.694_379_990_14e-3
+_TOWARD: Mapping[CornerName, tuple[float, float]] = {
+    "nw": (-1.0, 1.0),
+    "ne": (1.0, 1.0),
+    "sw": (-1.0, -1.0),
+    "se": (1.0, -1.0),
+}
+
+Points = NDArray[np.float64]
+
+
+class Ground:
+    """Trees and markers in metres east and north of the first tree.
+
+    A degree is as long as on the ellipsoid at that tree, which is right to a few parts in ten thousand within a farm.
+
+    Args:
+        trees: (n, 2), latitude and longitude in degrees, in the order of the file; two or more.
+        properties: Of each tree.
+        markers: Latitude and longitude of ``start`` and ``end``, where there are any.
+    """
+
+    def __init__(
+        self,
+        trees: Points,
+        properties: tuple[Mapping[str, Any], ...],
+        markers: Mapping[str, tuple[float, float]],
+    ) -> None:
+        self._origin = trees[0]
+        lat = math.radians(float(trees[0, 0]))
+        flat = 1.0 - _ECCENTRICITY2 * math.sin(lat) ** 2
+        north = _AXIS_M * (1.0 - _ECCENTRICITY2) / flat**1.5
+        east = _AXIS_M * math.cos(lat) / math.sqrt(flat)
+        self._metres_a_degree = np.radians(np.array([north, east]))
+        self.properties = properties
+        self.xy: Points = self.metres(trees)
+        self.markers: Mapping[str, Points] = {name: self.metres(np.array(at)) for name, at in markers.items()}
+        self._near = KDTree(self.xy)
+
+    def metres(self, degrees: Points) -> Points:
+        """Metres east and north of latitudes and longitudes; the last axis holds the two."""
+        return np.asarray(((degrees - self._origin) * self._metres_a_degree)[..., ::-1])
+
+    def nearest(self, at: Points) -> tuple[int, float]:
+        """The tree nearest to a point, and the metres to it."""
+        away, tree = self._near.query(at)
+        return int(tree), float(away)
+
+    def ranked(self, at: Points, count: int) -> list[int]:
+        """The ``count`` trees nearest to a point, nearest first; of equally near ones the earlier in the file."""
+        away = np.hypot(*(self.xy - at).T)
+        return [int(k) for k in np.argsort(away, kind="stable")[:count]]
+
+    def distances(self, tree: int) -> Points:
+        """Metres from a tree to each."""
+        return np.asarray(np.hypot(*(self.xy - self.xy[tree]).T))
+
+    @cached_property
+    def spacing_m(self) -> float:
+        """How far a tree's nearest neighbour is, for the tree in the middle of all when sorted by that."""
+        away = np.sort(np.asarray(self._near.query(self.xy, k=2)[0])[:, 1])
+        return float(away[len(away) // 2])
+
+    @cached_property
+    def low(self) -> Points:
+        """Westernmost and southernmost metres of any tree."""
+        return np.asarray(self.xy.min(axis=0))
+
+    @cached_property
+    def high(self) -> Points:
+        """Easternmost and northernmost metres of any tree."""
+        return np.asarray(self.xy.max(axis=0))
+
+    @cached_property
+    def middle(self) -> Points:
+        """Of the trees' extent."""
+        return (self.low + self.high) / 2
+
+    @cached_property
+    def corners(self) -> Mapping[CornerName, frozenset[int]]:
+        """The trees that may pass for each corner of the farm.
+
+        The tree nearest to that corner of the smallest enclosing rectangle, others that are hardly farther from it, and
+        the tree that lies farthest in that direction of the compass.
+        """
+        hull = shapely.oriented_envelope(shapely.MultiPoint(self.xy))
+        rectangle = np.unique(shapely.get_coordinates(hull), axis=0)
+        centre = rectangle.mean(axis=0)
+        found = {}
+        for name, toward in _TOWARD.items():
+            corner = rectangle[int(np.argmax((rectangle - centre) @ np.array(toward)))]
+            away = np.hypot(*(self.xy - corner).T)
+            trees = set(np.flatnonzero(away <= away.min() + self.spacing_m / 4).tolist())
+            found[name] = frozenset(trees | {int(np.argmax(self.xy @ np.array(toward)))})
+        return found
+
+
+def load_ground(path: Path) -> Ground:
+    """The ground of a GeoJSON file.
+
+    Points are trees if their ``marker-symbol`` or ``kind`` says so or if they have neither; ``start`` and ``end`` are
+    markers; whatever else the file holds is nothing to the judge.
+
+    Raises:
+        CaseError: The file cannot be read, is no GeoJSON, or holds fewer than two trees.
+    """
+    trees: list[tuple[float, float]] = []
+    properties: list[Mapping[str, Any]] = []
+    markers: dict[str, tuple[float, float]] = {}
+    for said, at in _points(path):
+        kind = str(said.get("marker-symbol") or said.get("kind") or "tree")
+        if kind in ("start", "end"):
+            markers[kind] = at
+        elif "tree" in kind or "vine" in kind:
+            trees.append(at)
+            properties.append(said)
+    if len(trees) < 2:
+        raise CaseError(
+            f"the judge finds {len(trees)} trees in it", where=str(path), advice="give a site with two trees or more"
+        )
+    return Ground(np.array(trees), tuple(properties), markers)
+
+
+def _points(path: Path) -> list[tuple[Mapping[str, Any], tuple[float, float]]]:
+    """Properties, latitude and longitude of each point."""
+    try:
+        features = json.loads(path.read_text(encoding="utf-8-sig"))["features"]
+        points = [f for f in features if f["geometry"]["type"] == "Point"]
+        return [(f["properties"] or {}, _degrees(f["geometry"]["coordinates"])) for f in points]
+    except OSError as error:
+        raise CaseError(
+            f"the site cannot be read: {error.strerror}", where=str(path), advice="correct the key 'site'"
+        ) from None
+    except (ValueError, KeyError, TypeError, IndexError, RecursionError):
+        raise CaseError(
+            "is not a GeoJSON file that the judge can read", where=str(path), advice="a case needs a site in GeoJSON"
+        ) from None
+
+
+def _degrees(position: list[float]) -> tuple[float, float]:
+    lon, lat = float(position[0]), float(position[1])
+    if not (math.isfinite(lat) and math.isfinite(lon)):
+        raise ValueError("no number")
+    return lat, lon
