@@ -1,4 +1,4 @@
-"""Experiments on whole missions: drawn by chance, approved, carried out in simulation, judged from their logs.
+"""Experiments on whole missions: approved, carried out in simulation, judged from their logs.
 
 scenes      a random orchard and a random robot
 families    random plans of seven kinds
@@ -7,6 +7,8 @@ follow      a plan held against an event log; account: what the log shows of it
 referee     a finished mission judged from its Task and its log alone
 fly         a mission of a seed flown and judged
 summary     many missions in figures
+missions    requests with what they mean, planned, flown and judged from their logs
+planning    how long the English planner takes on an orchard of a size
 
 Nothing in it knows how the guard decides. It stands above ``mission``, which puts guard, simulation and
 runtime together.

@@ -9,7 +9,9 @@ import typer
 
 from fieldhand.cli.bench import bench
 from fieldhand.cli.bench_guard import bench_guard
+from fieldhand.cli.bench_missions import bench_missions
 from fieldhand.cli.bench_orienteering import bench_orienteering
+from fieldhand.cli.bench_planning import bench_planning
 from fieldhand.cli.check import check
 from fieldhand.cli.demo import demo
 from fieldhand.cli.plan import plan
@@ -33,6 +35,8 @@ def assemble(*others: Callable[..., None]) -> typer.Typer:
         app.command()(command)
     bench.command("orienteering")(bench_orienteering)
     bench.command("guard")(bench_guard)
+    bench.command("missions")(bench_missions)
+    bench.command("planning")(bench_planning)
     app.add_typer(bench)
     app.callback()(_top)
     return app

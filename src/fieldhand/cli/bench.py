@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fieldhand.cli.options import JsonOption, RobotOption, SeedOption
+from fieldhand.cli.options import CpuTimeOption, JsonOption, RobotOption, SeedOption
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -31,9 +31,7 @@ def bench_site(
     repeats: Annotated[int, typer.Option("--repeats", min=1, max=100, help="Each figure is a median of so many.")] = 5,
     robot: RobotOption = "husky",
     seed: SeedOption = 1,
-    cpu_time: Annotated[
-        bool, typer.Option("--cpu-time", help="Count processor time, where others use the machine as well.")
-    ] = False,
+    cpu_time: CpuTimeOption = False,
     json: JsonOption = False,
 ) -> None:
     """Make an orchard and measure: reading it, rows, drivable graph, every selector, drives, peak memory."""

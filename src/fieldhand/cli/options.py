@@ -29,3 +29,6 @@ TranscriptOption = Annotated[
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object instead of text.")]
 PictureOption = Annotated[Path | None, typer.Option("--picture", help="Draw a map to this PNG file.")]
 SeedOption = Annotated[int, typer.Option("--seed", min=0, help="Same seed, same mission.")]
+CpuTimeOption = Annotated[
+    bool, typer.Option("--cpu-time", help="Count processor time, where others use the machine as well.")
+]
