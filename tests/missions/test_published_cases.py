@@ -6,32 +6,35 @@ requests are flown as the English planner plans them, and as a language model on
 
 from __future__ import annotations
 
-import importlib.util
 import json
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import pytest
 import yaml
 
+from fieldhand.bench.missions.case_file import load_cases
+from fieldhand.bench.missions.cases import Expected
+from fieldhand.bench.missions.ground import load_ground
+from fieldhand.bench.missions.judge import judge
+from fieldhand.bench.missions.log import read_log
 from fieldhand.execution.world import World, parse_world
 from fieldhand.planning.llm.replay import replay
 from fieldhand.planning.llm.transcript import read_transcript
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
-from flights import Flight, fly_request, fly_task
+from flights import fly_request, fly_task
+from outside_referee import CASES, HERE, ground, referee
+from tampered import tampered
 
 ROOT = Path(__file__).resolve().parents[2]
-SHARED = ROOT.parent / "shared"
-CASES = SHARED / "data" / "missions" / "orchard.yaml"
 TRANSCRIPTS = ROOT / "tests" / "data" / "transcripts"
 
 
 def cases(names: tuple[str, ...] | None = None) -> list[Any]:
     """Each world of the cases of these names, of all cases by default."""
-    if not CASES.exists():
+    if not HERE:
         return [pytest.param(None, 0, "", marks=pytest.mark.skip(reason="the published cases are not here"))]
     book = yaml.safe_load(CASES.read_text())
     return [
@@ -43,36 +46,43 @@ def cases(names: tuple[str, ...] | None = None) -> list[Any]:
 
 
 @pytest.fixture(scope="module")
-def referee() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("referee", SHARED / "tools" / "referee.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+def expected() -> dict[str, tuple[Expected, ...]]:
+    """What the bench's judge expects of each world of each case."""
+    return {case.id: tuple(world.expected for world in case.worlds) for case in load_cases([str(CASES)])}
 
 
-def problem_of(flight: Flight, site: Path, meant: dict[str, Any], referee: ModuleType) -> str | None:
-    """What the referee finds wrong with a flight; None if it is as asked."""
-    found: str | None = referee.judge(referee.Site(site), meant["expect"], [json.loads(line) for line in flight.lines])
+def problem_of(lines: list[str], site: Path, meant: dict[str, Any]) -> str | None:
+    """What the referee finds wrong with a log; None if it is as asked."""
+    found: str | None = referee().judge(ground(site), meant["expect"], [json.loads(line) for line in lines])
     return found
 
 
+def agree(lines: list[str], site: Path, meant: dict[str, Any], expected: Expected) -> None:
+    """The bench's judge and the referee find a log right or wrong alike, whatever mistake is planted in it."""
+    ours = load_ground(site)
+    points = [f for f in json.loads(site.read_text())["features"] if f["geometry"]["type"] == "Point"]
+    lon, lat = points[len(points) // 2]["geometry"]["coordinates"]
+    for mistake, log in [("none", lines), *tampered(lines, (lat, lon))]:
+        wrong, said = judge(ours, expected, read_log(log, ours)), problem_of(log, site, meant)
+        assert bool(wrong) is (said is not None), (mistake, wrong, said)
+
+
 @pytest.mark.parametrize(("case", "world", "default_site"), cases())
-def test_plain_english_ends_as_it_was_meant(
-    case: dict[str, Any], world: int, default_site: str, referee: ModuleType
+def test_plain_english_ends_as_it_was_meant_and_both_judges_agree(
+    case: dict[str, Any], world: int, default_site: str, expected: dict[str, tuple[Expected, ...]]
 ) -> None:
     site = (CASES.parent / case.get("site", default_site)).resolve()
     meant = case["worlds"][world]
     flight = fly_request(
         case["request"], site=str(site), robot=case.get("robot", "husky"), readings=meant.get("readings", {})
     )
-    assert problem_of(flight, site, meant, referee) is None
+    assert problem_of(flight.lines, site, meant) is None
+    agree(flight.lines, site, meant, expected[case["id"]][world])
 
 
 @pytest.mark.parametrize(("case", "world", "default_site"), cases(tuple(p.stem for p in TRANSCRIPTS.glob("*.jsonl"))))
 def test_what_a_language_model_planned_ends_as_it_was_meant(
-    case: dict[str, Any], world: int, default_site: str, referee: ModuleType
+    case: dict[str, Any], world: int, default_site: str
 ) -> None:
     site = (CASES.parent / case.get("site", default_site)).resolve()
     meant = case["worlds"][world]
@@ -84,4 +94,4 @@ def test_what_a_language_model_planned_ends_as_it_was_meant(
     flight = fly_task(
         outcome.task, open_site(str(site)), robot, world=parse_world({"readings": readings}) if readings else World()
     )
-    assert problem_of(flight, site, meant, referee) is None
+    assert problem_of(flight.lines, site, meant) is None

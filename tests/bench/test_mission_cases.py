@@ -1,0 +1,116 @@
+"""The cases that come along are as asked, and the judge says what the referee outside the project says."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections import Counter
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+
+import pytest
+import yaml
+
+from fieldhand.bench.missions.case_file import BUILTIN, load_cases
+from fieldhand.bench.missions.case_form import PlaceForm
+from fieldhand.bench.missions.cases import Case
+from fieldhand.bench.missions.ground import load_ground
+from fieldhand.bench.missions.judge import judge
+from fieldhand.bench.missions.log import read_log
+from fieldhand.bench.missions.trial import Range, try_all
+from fieldhand.planning.english.planner import EnglishPlanner
+from outside_referee import HERE, SHARED, ground, referee
+from tampered import tampered
+
+BUILT_IN = load_cases([BUILTIN])
+FILES = sorted({case.source for case in BUILT_IN})
+#: Positions of trees to which planted mistakes move a capture: one beside many others, one at a corner.
+ELSEWHERE = (94, 18)
+
+
+def degrees(case: Case, tree: int) -> tuple[float, float]:
+    points = json.loads(case.site.read_text())["features"]
+    trees = [f for f in points if "tree" in f["properties"].get("marker-symbol", "")]
+    lon, lat = trees[tree]["geometry"]["coordinates"]
+    return lat, lon
+
+
+def test_there_are_forty_of_each_kind_at_least() -> None:
+    assert len([case for case in BUILT_IN if not case.asks]) >= 40
+    assert sum(case.asks for case in BUILT_IN) >= 5
+    assert sum(len(case.worlds) > 1 for case in BUILT_IN) >= 10
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda f: Path(f).stem)
+def test_every_case_is_as_asked_and_both_judges_agree_on_every_log(file: str) -> None:
+    cases = [case for case in BUILT_IN if case.source == file]
+    logs: list[tuple[Case, int, Sequence[str]]] = []
+    on = Range(
+        planner=EnglishPlanner(),
+        model=None,
+        seed=0,
+        clock=time.perf_counter,
+        keep=lambda case, world, lines: logs.append((case, world, tuple(lines))),
+    )
+    for trial in try_all(cases, on):
+        assert trial.as_asked, (trial.id, trial.why, trial.wrong)
+    assert Counter(case.id for case, _, _ in logs) == {c.id: len(c.worlds) for c in cases if c.worlds}
+    if HERE:
+        agree_on_every_mistake(logs, yaml.safe_load(Path(file).read_text()))
+
+
+def agree_on_every_mistake(logs: list[tuple[Case, int, Sequence[str]]], book: dict) -> None:
+    expects = {case["id"]: [world["expect"] for world in case.get("worlds", ())] for case in book["cases"]}
+    known = cache(load_ground)
+    for number, (case, world, lines) in enumerate(logs):
+        ours = known(case.site)
+        expect = expects[case.id][world]
+        elsewhere = degrees(case, ELSEWHERE[number % 2])
+        for mistake, log in [("none", list(lines)), *tampered(lines, elsewhere)]:
+            wrong = judge(ours, case.worlds[world].expected, read_log(log, ours))
+            said = referee().judge(ground(case.site), expect, [json.loads(line) for line in log])
+            assert bool(wrong) is (said is not None), (case.id, world, mistake, wrong, said)
+
+
+#: The two measure a degree in ways that differ by 1 in 1,000: a tree at just the distance asked for may go either way.
+ON_THE_BORDER = 2
+
+PLACES = [
+    *({"corner": name} for name in ("nw", "ne", "sw", "se", "any")),
+    *({"quarter": name} for name in ("nw", "ne", "sw", "se")),
+    *({key: side} for key in ("half", "most", "mid_edge") for side in ("north", "south", "east", "west")),
+    {"most": "east", "tol_m": 0.5},
+    {"center": 0.25},
+    {"center": 0.01},
+    {"same": "A"},
+    {"not": "A"},
+    {"not": ["A", "B"]},
+    {"next_to": "A"},
+    {"next_to": "A", "rank": 2},
+    {"near": "A"},
+    {"near": "A", "rank": 12, "not": ["A", "B"]},
+    {"far": "A"},
+    {"far": "A", "fraction": 0.5},
+    {"offset": {"from": "A", "trees": 5}, "toward": "north"},
+    {"offset": {"from": "A", "trees": 2}},
+    {"ids": [0, 3]},
+    {"first": True},
+    {"last": True},
+    {"any": True},
+]
+
+
+@pytest.mark.skipif(not HERE, reason="the referee is not here")
+@pytest.mark.parametrize("farm", ["reza_medium", "ucm_graph20", "ucm_graph40"])
+def test_both_judges_see_the_same_trees_in_every_place(farm: str) -> None:
+    path = SHARED / "data" / "farms" / f"{farm}.geojson"
+    ours, theirs = load_ground(path), ground(path)
+    trees = range(len(theirs.trees))
+    for place in PLACES:
+        form = PlaceForm.model_validate(place).place()
+        for a in trees[:: len(trees) // 4] if form.labels else trees[:1]:
+            labels = {"A": a, "B": (a + 1) % len(trees)}
+            seen = {tree for tree in trees if form.holds(ours, tree, labels)}
+            meant = {tree for tree in trees if referee().place_holds(theirs, place, tree, labels)}
+            assert len(seen ^ meant) <= ON_THE_BORDER, (place, a, seen ^ meant)
