@@ -10,6 +10,7 @@ import pytest
 import yaml
 
 from fieldhand.bench.missions.case_file import load_cases
+from fieldhand.bench.missions.case_form import EndForm, ExpectForm
 from fieldhand.bench.missions.places import Near, Positions
 from fieldhand.errors import CaseError, InputError
 
@@ -80,6 +81,17 @@ def test_a_case_names_its_own_site_beside_its_file(tmp_path: Path) -> None:
     (tmp_path / "two.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": [tree, other]}))
     (loaded,) = load_cases([write(tmp_path, {"cases": [case(site="two.geojson", robot="husky")]})])
     assert loaded.site == tmp_path / "two.geojson"
+    home = expecting(steps=[], end={"marker": "end"})
+    with pytest.raises(CaseError, match="the site has no end marker"):
+        load_cases([write(tmp_path, {"cases": [home | {"site": "two.geojson", "robot": "husky"}]})])
+
+
+def test_the_page_shows_a_file_that_can_be_used_and_names_every_key(tmp_path: Path) -> None:
+    page = (Path(__file__).resolve().parents[2] / "docs" / "bench-missions.md").read_text()
+    _, example, rest = page.replace("```yaml", "```").split("```", 4)[2:5]
+    assert [case.id for case in load_cases([write(tmp_path, example)])] == ["low-co2", "which-of-two"]
+    for key in (*ExpectForm.keys(), *EndForm.keys()):
+        assert key in rest, key
 
 
 BAD = {

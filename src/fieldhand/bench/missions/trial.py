@@ -14,6 +14,7 @@ from fieldhand.bench.missions.ground import Ground, load_ground
 from fieldhand.bench.missions.judge import judge
 from fieldhand.bench.missions.log import read_log
 from fieldhand.errors import ModelError, NotApprovedError
+from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.llm.chat import Chat, Message, Reply
 from fieldhand.planning.planner import Clarify, Outcome, Planned, Planner, Refused
 from fieldhand.robot.loader import load_robot
@@ -30,6 +31,7 @@ from fieldhand.task.results import to_json
 Answer = Literal["planned", "asked", "refused", "failed", "not approved"]
 
 _APPROVED_AT = datetime(2026, 1, 1, tzinfo=UTC)
+_FIRST = "go to the first tree"
 
 
 class Metered:
@@ -127,10 +129,12 @@ def try_all(cases: Sequence[Case], on: Range) -> Iterator[Trial]:
         SiteError: A site cannot be used.
         WorldError: A world speaks of what the site or the robot does not have.
     """
-    robots = {case.robot: load_robot(case.robot) for case in cases}
+    robots = {name: load_robot(name) for name in dict.fromkeys(case.robot for case in cases)}
     for case in cases:
         for world in case.worlds:
             mission.check_world(world.world, on.site(case.site), robots[case.robot])
+    for case in cases[:1]:  # grammar and lexicon are loaded with the first request, which is not to be timed with them
+        EnglishPlanner().plan(_FIRST, on.site(case.site), robots[case.robot])
     for case in cases:
         yield _try(case, robots[case.robot], on)
 
