@@ -13,7 +13,9 @@ if TYPE_CHECKING:
 
     from fieldhand.site.bench import SiteBenchmark, Timing
 
-bench = typer.Typer(name="bench", help="Measure how fast Fieldhand is on this machine.", no_args_is_help=True)
+bench = typer.Typer(
+    name="bench", help="Measure how fast Fieldhand is on this machine, and how well it does.", no_args_is_help=True
+)
 
 #: What a site of 100,000 trees is to take at most: seconds, seconds, seconds, bytes.
 LOAD_S, SELECTOR_S, DRIVE_S, PEAK_BYTES = 5.0, 0.05, 0.01, 10**9
@@ -22,7 +24,7 @@ _SLOWEST = 5
 
 @bench.callback()
 def _group() -> None:
-    """Measure how fast Fieldhand is on this machine."""
+    """Measure how fast Fieldhand is on this machine, and how well it does."""
 
 
 @bench.command("site")

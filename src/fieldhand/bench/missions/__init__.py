@@ -9,7 +9,7 @@ matching    steps that were asked for against actions that were done
 judge       an event log held against what was expected
 trial       a case planned, approved, driven in each of its worlds and judged
 published   which cases stand for the rows of a published experiment
-*.yaml      cases on the built-in orchard
+builtin     cases on the built-in orchard, as YAML
 
 The judge knows nothing of planning, of plans, or of how the project reads sites: it has the file of the site, the log
 and the case. So what is wrong there does not hide in it.

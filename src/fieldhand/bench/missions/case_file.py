@@ -89,7 +89,7 @@ class _Around:
 def _files(name: str) -> list[Path]:
     if name != BUILTIN:
         return [Path(name)]
-    folder = Path(str(resources.files("fieldhand.bench.missions"))) / "cases"
+    folder = Path(str(resources.files("fieldhand.bench.missions"))) / BUILTIN
     return sorted(folder.glob("*.yaml"))
 
 
