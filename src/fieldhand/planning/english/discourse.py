@@ -134,7 +134,9 @@ class Discourse(Leaving):
             case "come_back":
                 self._come_back(part)
             case "stop":
-                self._scope.add(d.Halt(said=part.said))
+                there = bool({"there", "here"} & set(text_of(part.terms).lower().split()))
+                gone = bool(self._scope.steps) and isinstance(self._scope.steps[-1], d.Go)
+                self._scope.add(d.Halt(said=part.said, here=there or gone))
             case "repeat":
                 self._repeat(part)
         if part.kind not in ("lead",):

@@ -96,9 +96,10 @@ class Maybe:
 
 @dataclass(eq=False)
 class Halt:
-    """The end of the mission."""
+    """The end of the mission; ``here`` where the request says that the robot is to stay."""
 
     said: tuple[Span, ...] = ()
+    here: bool = False
 
 
 Step = Go | Capture | Loop | Times | Choice | Attempt | Maybe | Halt

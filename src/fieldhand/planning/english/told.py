@@ -56,7 +56,9 @@ def settle(told: Told) -> None:
     if told.nominal is None and told.in_case is not None:
         told.nominal = told.in_case
         told.assumptions.append(f"The mission ends there in any case ({told.in_case.replace('_', ' ')}).")
-    while len(steps) > 1 and type(steps[-1]) is d.Halt:
+    while len(steps) > 1 and type(last := steps[-1]) is d.Halt:
+        if last.here and told.nominal is None:
+            told.nominal = "stay"  # "drive to the charger and finish there"
         steps.pop()  # a plan ends at its end
     _without_questions(told, told.root)
 
