@@ -52,7 +52,7 @@ def husky() -> RobotProfile:
     return load_robot("husky")
 
 
-def task_for(site: Site, plan: Node, request: str = "Do as the test says.", **more: Any) -> Task:
+def task_for(site: Site, plan: Node, request: str = "", **more: Any) -> Task:
     """A Task for the site and the husky."""
     robot = husky()
     resources = (

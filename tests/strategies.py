@@ -24,7 +24,7 @@ from fieldhand.task.capabilities import (
 )
 from fieldhand.task.conditions import Between, Compare, Condition, Level
 from fieldhand.task.frames import Budget, Constraints, FaultedExit, Resource, Task
-from fieldhand.task.plan import Act, Node
+from fieldhand.task.plan import Act, Node, Span
 from fieldhand.task.selectors import Selector, Value
 
 #: A robot with every kind of parameter, an action that measures two quantities and a quantity without level words.
@@ -68,8 +68,8 @@ _BY_FIELD: dict[str, st.SearchStrategy[Any]] = {
     "failure_probability": st.floats(0, 1, exclude_min=True, exclude_max=True),
     "reserve_percent": st.floats(0, 100, exclude_max=True),
     "speed_m_s": st.floats(0.01, 20),
-    "said": st.lists(st.tuples(st.integers(0, 999), st.integers(0, 999)), max_size=2).map(tuple),
 }
+_spans = st.lists(st.tuples(st.integers(0, 999), st.integers(0, 999)), max_size=2).map(tuple)
 
 
 @dataclass(frozen=True)
@@ -122,6 +122,8 @@ class Parts:
             return _BY_FIELD[name]
         if hint == Value:
             return values
+        if hint == tuple[Span, ...]:
+            return _spans
         if name == "parameters":
             return st.just(())
         if get_origin(hint) is tuple:
@@ -174,11 +176,14 @@ class Parts:
                 Constraints,
                 budgets=st.lists(self.instance(Budget), max_size=2).map(tuple),
                 reserve_percent=st.none() | _BY_FIELD["reserve_percent"],
+                reserve_said=_spans,
                 speed_m_s=st.none() | _BY_FIELD["speed_m_s"],
             ),
             nominal=st.sampled_from(("return_to_end", "return_to_start", "stay")),
             faulted=st.lists(self.instance(FaultedExit), max_size=3).map(tuple),
             assumptions=st.lists(texts, max_size=2).map(tuple),
+            nominal_said=_spans,
+            no_part=_spans,
         )
 
 

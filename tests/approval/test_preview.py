@@ -78,7 +78,7 @@ def test_a_stop_of_an_optional_step_is_drawn_as_the_budget_allows_and_the_others
 
 @pytest.mark.parametrize("plan", [CORNERS, BRANCHING])
 def test_every_stop_and_leg_stands_on_the_map_with_its_number(plan):
-    task, gathered, words = drawn(plan)
+    task, gathered, words = drawn(plan, request="Do as the test says.")
     ax, panel = draw_map(task, SITE, gathered, words).axes
     lines = [line.get_gid() for line in ax.get_lines()]
     assert lines.count("leg") == len(gathered.legs)

@@ -13,7 +13,7 @@ from fieldhand.errors import TaskError
 from fieldhand.task.codec import decode, decode_draft, encode
 from fieldhand.task.codec_shapes import FAMILIES, all_shapes, shape_of
 from fieldhand.task.conditions import Condition, TreeHas
-from fieldhand.task.frames import Command, Composition, Task
+from fieldhand.task.frames import Budget, Command, Composition, Constraints, Task
 from fieldhand.task.plan import Act, GoTo, If, Node, Sequence, Stop
 from fieldhand.task.schema import validate
 from fieldhand.task.selectors import Corners, Half, Here, Nearest, Selector, Trees, Where
@@ -172,3 +172,22 @@ def test_sixty_ifs_in_one_another_are_not_too_deep():
     for _ in range(60):
         plan = If(id="n", condition=TreeHas(attribute="a", test="eq", value=1.0), then=Sequence(id="s", steps=(plan,)))
     assert decode(encode(task_of(plan))) == task_of(plan)
+
+
+def test_the_ranges_of_words_are_attributes_and_may_be_left_out():
+    told = Task(
+        id="t",
+        command=Command(request="Please stop, at most 5 m, 9 % left, at the end.", no_part=((0, 6),)),
+        composition=Composition(plan=Stop(id="n1", said=((7, 11),)), nominal="stay", nominal_said=((36, 46),)),
+        constraints=Constraints(
+            budgets=(Budget(kind="distance_m", limit=5, said=((13, 24),)),),
+            reserve_percent=9,
+            reserve_said=((26, 34),),
+        ),
+    )
+    document = encode(told)
+    assert decode(document) == told
+    older = re.sub(rb' (no-part|said|nominal-said|reserve-said)="[^"]*"', b"", document)
+    assert len(older) < len(document)
+    assert decode(older).constraints.budgets == (Budget(kind="distance_m", limit=5),)
+    assert validate(older, ROVER) == ()

@@ -9,6 +9,8 @@ from fieldhand.api.inputs import Ground
 from fieldhand.api.maps import plan_map, site_map
 from fieldhand.mission import Review
 from fieldhand.planning.planner import Clarify, Refused
+from fieldhand.task.account import NAMES, account, has_ranges
+from fieldhand.task.frames import Task
 
 
 def unplanned_answer(outcome: Clarify | Refused) -> dict[str, Any]:
@@ -26,11 +28,19 @@ def unplanned_answer(outcome: Clarify | Refused) -> dict[str, Any]:
             return {"outcome": "refused", "planner": outcome.planner, "reasons": reasons}
 
 
+def words_answer(task: Task) -> list[dict[str, str]]:
+    """The request in pieces, each with what became of it; empty where the Task does not say it."""
+    if not has_ranges(task):
+        return []
+    return [{"text": p.text, "role": p.role, "name": NAMES.get(p.role, "")} for p in account(task)]
+
+
 def review_answer(review: Review, ground: Ground) -> dict[str, Any]:
     """A review: may it be approved, what is wrong, what will be done, what it takes, and where."""
     estimate = review.estimate
     return {
         "task": review.task.id,
+        "words": words_answer(review.task),
         "approvable": not review.errors,
         "problems": [
             {"severity": p.severity, "node": p.node, "where": p.where, "what": p.what, "advice": p.advice}

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
+from fieldhand.approval.account import unaccounted
 from fieldhand.approval.budget import budget_problems
 from fieldhand.approval.legs import driven_through
 from fieldhand.approval.problem import Problem
@@ -62,6 +63,7 @@ def examine(
 ) -> Examination:
     """As :func:`check`, with the estimate, so that nobody has to make it twice."""
     problems = [*_document(task, robot, document), *_references(task, robot), *_resources(task, site, robot)]
+    problems.extend(unaccounted(task))
     if not _errors(problems):
         problems.extend(_places(task, site, robot))
     forecast = None

@@ -30,8 +30,6 @@ def demo(
     from fieldhand.cli.inputs import open_ground, plan_or_read
     from fieldhand.execution.world import World
 
-    show.heading("The request")
-    show.out.print(f"  {REQUEST}")
     ground = open_ground("demo", "husky")
     task, document, planner = plan_or_read(REQUEST, ground, "english", None)
     orders = Orders(ask=False, by="demo", world=World(), seed=seed, folder=output)

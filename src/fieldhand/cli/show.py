@@ -14,6 +14,7 @@ from rich.console import Console
 from rich.text import Text
 
 from fieldhand.planning.planner import Clarify, Planned, Reason, Refused
+from fieldhand.task.account import NAMES, Role, account, has_ranges
 
 if TYPE_CHECKING:
     from fieldhand.mission import Review
@@ -32,6 +33,17 @@ class _Terminal(Console):
 out = _Terminal(highlight=False, markup=False, soft_wrap=True)
 err = _Terminal(stderr=True, highlight=False, markup=False, soft_wrap=True)
 
+#: How words look by what became of them: told apart by brightness and form, too, not by red and green.
+WORDS: dict[Role, str] = {
+    "action": "bold blue",
+    "place": "cyan",
+    "condition": "yellow",
+    "limit": "magenta",
+    "order": "italic",
+    "end": "bold",
+    "no_part": "dim",
+    "nothing": "bold reverse",
+}
 MARK = {"success": ("✓", "green"), "failure": ("✗", "red"), "indeterminate": ("?", "yellow")}
 
 
@@ -122,8 +134,31 @@ def mission_record(
     }
 
 
+def show_request(task: Task) -> None:
+    """The request with what became of its words: in colour, or else word by word behind it."""
+    pieces = [piece for piece in account(task) if piece.text.strip()]
+    if not pieces:
+        return
+    heading("The request")
+    if not has_ranges(task):
+        out.print(Text(f"  {task.command.request}"))
+        return
+    if out.color_system is None or out.no_color:
+        out.print(Text(f"  {task.command.request}"))
+        named = [f"{NAMES[p.role]}: {p.text.strip()}" for p in pieces if p.role in NAMES]
+        out.print(Text(f"  ({'; '.join(named)})"))
+        return
+    coloured = Text("  ")
+    for piece in account(task):
+        coloured.append(piece.text, style=WORDS.get(piece.role, ""))
+    out.print(coloured)
+    used = [role for role in WORDS if any(piece.role == role for piece in pieces)]
+    out.print(Text("  ") + Text("  ").join(Text(NAMES[role], style=WORDS[role]) for role in used))
+
+
 def show_review(review: Review) -> None:
     """The read-back, then every problem on its own line."""
+    show_request(review.task)
     if review.read_back is not None:
         heading("What will be done")
         for line in review.read_back.text_lines():

@@ -9,6 +9,7 @@ from fieldhand.evaluation.report_data import captures
 from fieldhand.forecast.estimate import BranchEstimate, Estimate, Figure
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
+from fieldhand.task.account import NAMES, account, has_ranges
 from fieldhand.task.authorization import Authorization
 from fieldhand.task.frames import BudgetKind, Task
 from fieldhand.task.results import Decided, Ended, Event, Faulted, GoalOutcome, Shed, Started
@@ -44,6 +45,7 @@ def report_markdown(
     blocks = [
         "# Mission report",
         f"> {escape(task.command.request) or '(no request)'}",
+        *_words(task),
         verdict(events, outcomes),
         "![The way that was driven, with its captures](path.png)",
         "## Goals",
@@ -59,6 +61,15 @@ def report_markdown(
         _record(task, site, robot, events, authorization),
     ]
     return "\n\n".join(blocks) + "\n"
+
+
+def _words(task: Task) -> Sequence[str]:
+    """What became of the words of the request; nothing where the Task does not say it."""
+    if not has_ranges(task):
+        return ()
+    found = {role: [p.text.strip() for p in account(task) if p.role == role] for role in NAMES}
+    lines = [f"- {NAMES[role]}: {escape('; '.join(texts))}" for role, texts in found.items() if texts]
+    return ("The words of the request, by what became of them:", "\n".join(lines))
 
 
 def escape(text: str) -> str:

@@ -21,7 +21,7 @@ from fieldhand.task.frames import (
     Then,
     Variable,
 )
-from fieldhand.task.plan import Act, AnyOrder, ForEach, If, Node, Optional, Repeat, Sequence, Try, walk
+from fieldhand.task.plan import Act, AnyOrder, ForEach, If, Node, Optional, Repeat, Sequence, Span, Try, walk
 from fieldhand.task.selectors import is_single
 
 #: What every mission does about faults unless its Task says otherwise.
@@ -49,6 +49,8 @@ def make_task(
     nominal: Then = "return_to_end",
     faulted: tuple[FaultedExit, ...] = FAULTED_EXITS,
     assumptions: tuple[str, ...] = (),
+    nominal_said: tuple[Span, ...] = (),
+    no_part: tuple[Span, ...] = (),
 ) -> Task:
     """A Task whose ids, goals and variables follow from its plan.
 
@@ -61,6 +63,8 @@ def make_task(
         nominal: Where the robot goes when the plan is done.
         faulted: What to do about each fault.
         assumptions: What was assumed in reading the request, as sentences.
+        nominal_said: Ranges of the request that say where the robot goes when the plan is done.
+        no_part: Ranges of the request that have no part in the plan.
 
     Returns:
         The same Task for the same arguments: its id is a hash of request, plan and resources.
@@ -70,9 +74,13 @@ def make_task(
     return Task(
         id=f"task-{digest[:12]}",
         command=Command(
-            request=request, goals=goals(numbered), variables=variables(numbered, measures), assumptions=assumptions
+            request=request,
+            goals=goals(numbered),
+            variables=variables(numbered, measures),
+            assumptions=assumptions,
+            no_part=no_part,
         ),
-        composition=Composition(plan=numbered, nominal=nominal, faulted=faulted),
+        composition=Composition(plan=numbered, nominal=nominal, nominal_said=nominal_said, faulted=faulted),
         constraints=constraints or Constraints(),
         resources=resources,
     )

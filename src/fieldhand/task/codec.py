@@ -17,7 +17,7 @@ from fieldhand.task.codec_shapes import NAMESPACE, SURROGATES, Attribute, Head, 
 from fieldhand.task.codec_text import bare_value, number_text, unwritable_character, written
 from fieldhand.task.codec_xml import MAX_BYTES, MAX_DEPTH, parse_xml
 from fieldhand.task.frames import Constraints, FaultedExit, Task, Then
-from fieldhand.task.plan import Node
+from fieldhand.task.plan import Node, Span
 
 if TYPE_CHECKING:
     from lxml.etree import _Element
@@ -38,6 +38,8 @@ class Draft:
     faulted: tuple[FaultedExit, ...]
     assumptions: tuple[str, ...]
     request: str
+    nominal_said: tuple[Span, ...] = ()
+    no_part: tuple[Span, ...] = ()
 
 
 def encode(task: Task) -> bytes:
@@ -84,6 +86,8 @@ def decode_draft(data: bytes, *, source: str = "") -> Draft:
         faulted=task.composition.faulted,
         assumptions=task.command.assumptions,
         request=task.command.request,
+        nominal_said=task.composition.nominal_said,
+        no_part=task.command.no_part,
     )
 
 

@@ -33,6 +33,7 @@ class Exits:
     """Where the robot goes when the plan is done, and what it does about each fault."""
 
     nominal: Then = "return_to_end"
+    nominal_said: tuple[Span, ...] = ()
     faulted: tuple[FaultedExit, ...] = ()
 
 
@@ -120,8 +121,12 @@ class Shape:
 SURROGATES: dict[type, tuple[type, Callable[[Any], Any], Callable[[Any], Any]]] = {
     Composition: (
         TaskComposition,
-        lambda c: TaskComposition(plan=c.plan, exits=Exits(nominal=c.nominal, faulted=c.faulted)),
-        lambda t: Composition(plan=t.plan, nominal=t.exits.nominal, faulted=t.exits.faulted),
+        lambda c: TaskComposition(
+            plan=c.plan, exits=Exits(nominal=c.nominal, nominal_said=c.nominal_said, faulted=c.faulted)
+        ),
+        lambda t: Composition(
+            plan=t.plan, nominal=t.exits.nominal, nominal_said=t.exits.nominal_said, faulted=t.exits.faulted
+        ),
     )
 }
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from fieldhand.task.plan import Node
+from fieldhand.task.plan import Node, Span
 
 Then = Literal["return_to_end", "return_to_start", "stay"]
 Fault = Literal["action_failed", "drive_failed", "low_budget", "aborted"]
@@ -46,12 +46,17 @@ class Variable:
 
 @dataclass(frozen=True, kw_only=True)
 class Command:
-    """What was asked: the request word for word, its goals, its state variables, what was assumed in reading it."""
+    """What was asked: the request word for word, its goals, its state variables, what was assumed in reading it.
+
+    Attributes:
+        no_part: Ranges of the request that have no part in the plan: politeness, a reason that is given.
+    """
 
     request: str
     goals: tuple[Goal, ...] = ()
     variables: tuple[Variable, ...] = ()
     assumptions: tuple[str, ...] = ()
+    no_part: tuple[Span, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,10 +69,15 @@ class FaultedExit:
 
 @dataclass(frozen=True, kw_only=True)
 class Composition:
-    """The plan and its exits. ``nominal`` is taken when the plan is done."""
+    """The plan and its exits. ``nominal`` is taken when the plan is done.
+
+    Attributes:
+        nominal_said: Ranges of the request that say where the robot goes then.
+    """
 
     plan: Node
     nominal: Then = "return_to_end"
+    nominal_said: tuple[Span, ...] = ()
     faulted: tuple[FaultedExit, ...] = ()
 
 
@@ -78,19 +88,26 @@ class Budget:
     Attributes:
         kind: Metres driven, seconds, or percent of a full battery.
         failure_probability: Accepted chance of exceeding it (Pf), above 0 and below 1.
+        said: Ranges of the request from which it came.
     """
 
     kind: BudgetKind
     limit: float
     failure_probability: float = 0.1
+    said: tuple[Span, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
 class Constraints:
-    """Budgets, and the charge in percent that must be left at the end (None: the profile's own reserve)."""
+    """Budgets, and the charge in percent that must be left at the end (None: the profile's own reserve).
+
+    Attributes:
+        reserve_said: Ranges of the request that ask for the reserve.
+    """
 
     budgets: tuple[Budget, ...] = ()
     reserve_percent: float | None = None
+    reserve_said: tuple[Span, ...] = ()
     speed_m_s: float | None = None
 
 

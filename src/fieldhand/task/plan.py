@@ -132,6 +132,7 @@ class Act:
 
     Attributes:
         at: Where; the place in hand if None.
+        at_said: Those of its ranges of the request that say where.
         count: How many captures at that place.
         parameters: Name and value of each parameter that the profile declares for the action.
         label: Binds the place for later nodes.
@@ -141,6 +142,7 @@ class Act:
     id: str
     action: str
     at: Selector | None = None
+    at_said: tuple[Span, ...] = ()
     count: int = 1
     parameters: tuple[tuple[str, str | float], ...] = ()
     label: str = ""

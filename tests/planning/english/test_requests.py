@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from english_requests import ASKED, PLANNED, REFUSED
+from fieldhand.approval.account import unaccounted
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Planned, Refused
 from fieldhand.robot.capabilities import capabilities_of
@@ -41,6 +42,7 @@ def test_planning_twice_gives_the_same_and_every_step_says_its_words(robot: str,
     assert isinstance(first, Planned)
     for node in walk(first.task.composition.plan):
         assert all(0 <= start < end <= len(request_) for start, end in node.said)
+    assert unaccounted(first.task) == ()
 
 
 @pytest.mark.parametrize(("robot", "request_", "question"), ASKED, ids=lambda v: str(v)[:50])

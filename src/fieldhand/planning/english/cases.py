@@ -135,6 +135,7 @@ class Cases(Hand):
         """ "If so": the question before it is answered with yes."""
         if self._choice is None or self._choice.then.steps:
             raise unclear(part.terms, "there is no question before it")
+        self._choice.said += part.said
         self._scope = self._choice.then
 
     def _otherwise(self, part: Part) -> None:
@@ -149,6 +150,7 @@ class Cases(Hand):
             earlier = holder.steps[at - 1]
             if earlier in self._sentence_choices and choice in self._sentence_choices:
                 raise unclear(part.terms, "to which 'if' does it belong?", "say each 'if' with its 'otherwise' in turn")
+        choice.said += part.said
         choice.otherwise = d.Block(parent=choice.then.parent)
         if self._objects != self._objects_at_if:
             self._objects = ()  # "otherwise take another" may mean what either case takes

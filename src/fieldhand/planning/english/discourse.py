@@ -21,12 +21,14 @@ from fieldhand.planning.english.counting import Wanted, counts_each
 from fieldhand.planning.english.faults import Question, spans_of, text_of, unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.hand import ACTS as _ACTS
+from fieldhand.planning.english.hand import said_of_places
 from fieldhand.planning.english.leaving import Leaving
 from fieldhand.planning.english.lines import points_over, stops_of
 from fieldhand.planning.english.places import find
 from fieldhand.planning.english.syntax import Part
 from fieldhand.planning.english.tokens import Term
 from fieldhand.task import selectors as s
+from fieldhand.task.plan import Span
 
 COMMANDS = (
     "act_on_objects",
@@ -64,10 +66,12 @@ class Discourse(Leaving):
         self._sentence_acts = False
         if parts[0].kind != "otherwise":
             self._sentence_choices = []
+        checked: tuple[Span, ...] = ()
         for index, part in enumerate(parts):
             following = parts[index + 1 :]
             match part.kind:
                 case "act_bare" if len(part.terms) == 1 and following and following[0].kind == "question":
+                    checked = part.said
                     continue  # "check | whether ..."
                 case "condition":
                     before = [p for p in parts[:index] if p.kind in COMMANDS and p.kind != "lead"]
@@ -78,6 +82,8 @@ class Discourse(Leaving):
                         self._scope = outer  # "take a picture if it is low and then return": the return is for all
                 case "question":
                     self._condition(part, trailing=False)
+                    if self._choice is not None:
+                        self._choice.said += checked
                     self._scope = self.told.root
                 case "so":
                     self._so(part)
@@ -218,6 +224,7 @@ class Discourse(Leaving):
             said = spans_of([t for t in part.terms if not self._of_another(t, index, part)])
             step = d.Capture(action=action, at=at if index == 0 else None, count=captures, said=said)
             step.command = self._commands
+            step.at_said = said_of_places(part) if index == 0 and part.places is not None else ()
             block.add(step)
             done.append((action, captures))
         self._objects = tuple(done)
@@ -266,6 +273,8 @@ class Discourse(Leaving):
         select = self._loop.select if self._loop is not None else None
         if not isinstance(select, s.Take | s.Top | s.Extreme | s.Nearest | s.Adjacent | s.Corners | s.Union):
             raise unclear(part.terms, "it is not clear how many trees that are", "say how many trees, and where")
+        if self._loop is not None:
+            self._loop.said += part.said
 
     def _order(self, part: Part) -> None:
         if part.terms[0].kind == "ORDERED":
@@ -273,11 +282,13 @@ class Discourse(Leaving):
                 raise unclear(part.terms, "two orders cannot be kept", "say one")
             if self._loop is not None and self._loop in self._sentence_steps:
                 self._in_order(self._loop, part.terms[0])
+                self._loop.said += part.said
             else:
                 self._pending = part.terms[0]
             return
         if self._loop is not None:
             self._loop.order = "given" if part.terms[0].kind == "INORDER" else "best"
+            self._loop.said += part.said
 
     def _repeat(self, part: Part) -> None:
         """ "Do the same": what was done at the last place, at the place that this sentence has gone to."""
@@ -318,6 +329,7 @@ class Discourse(Leaving):
             return
         repeating.without_place(made, part)
         last = new[-1]
+        last.said += part.said
         if isinstance(last, d.Loop):
             repeating.continue_with(made, last.body)
         else:

@@ -40,6 +40,7 @@ class Capture:
 
     action: str
     at: s.Selector | None = None
+    at_said: tuple[Span, ...] = ()
     count: int = 1
     reading: str = ""
     said: tuple[Span, ...] = ()
@@ -185,7 +186,15 @@ def _node(step: Step) -> p.Node:
         case Go():
             return p.GoTo(id="", place=step.place, said=step.said)
         case Capture():
-            return p.Act(id="", action=step.action, at=step.at, count=step.count, reading=step.reading, said=step.said)
+            return p.Act(
+                id="",
+                action=step.action,
+                at=step.at,
+                at_said=step.at_said,
+                count=step.count,
+                reading=step.reading,
+                said=step.said,
+            )
         case Loop():
             body = node_of(step.body) if step.body.steps else p.GoTo(id="", place=s.Here(), said=step.said)
             return p.ForEach(

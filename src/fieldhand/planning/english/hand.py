@@ -7,7 +7,7 @@ from dataclasses import replace
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.attributes import hinted
 from fieldhand.planning.english.counting import Wanted, counted, number_of_objects
-from fieldhand.planning.english.faults import Question, text_of, unclear
+from fieldhand.planning.english.faults import Question, spans_of, text_of, unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.english.pick import is_spot
@@ -19,6 +19,7 @@ from fieldhand.planning.english.told import Told
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task import selectors as s
+from fieldhand.task.plan import Span
 
 #: Relations that say no more than where.
 _PLAIN = ("OF", "AT", "FROM", "FOR", "INSIDE", "ALONG", "SPREAD")
@@ -34,6 +35,14 @@ def starts_here(selector: s.Selector) -> bool:
 def _counts(selector: s.Selector) -> bool:
     """Whether it takes every so many of a row or of the rows: where the count begins matters."""
     return isinstance(selector, s.EveryNth) or (isinstance(selector, s.Rows) and selector.every > 1)
+
+
+def said_of_places(part: Part) -> tuple[Span, ...]:
+    """The words of a part that say where; all of them where nothing is captured in it."""
+    if part.kind not in ACTS or part.places is None:
+        return part.said
+    ties = (part.relation, part.spacing)
+    return spans_of([*part.places.terms, *part.tails, *(term for term in ties if term is not None)])
 
 
 class Hand:
@@ -119,9 +128,10 @@ class Hand:
             order="given" if given else "best",
             optional=found.optional,
             at_most=found.at_most,
-            said=part.said,
+            said=said_of_places(part),
         )
         if self._pending is not None:
+            loop.said = (*loop.said, self._pending.span)
             self._in_order(loop, self._pending)
             self._pending = None
         self._scope.add(loop)

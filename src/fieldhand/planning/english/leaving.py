@@ -86,6 +86,7 @@ class Leaving(Motion):
         if holder.steps[at : at + len(whole)] != whole:
             raise unclear(part.terms, "what may be left out is not clear", "say it in a sentence of its own")
         if len(whole) == 1 and isinstance(whole[0], d.Loop) and whole[0].optional:
+            whole[0].said += part.said
             return  # "as many as you can, if the battery allows" is said twice
         if any(isinstance(step, d.Halt) for step in whole):
             raise unclear(part.terms, "the way home and the end of the mission are never left out", "leave it out")

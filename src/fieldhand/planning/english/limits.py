@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from fieldhand.planning.english.tokens import Term
+from fieldhand.task.plan import Span
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,11 +25,13 @@ class Limit:
     Attributes:
         unit: ``metres``, ``seconds`` or ``percent``.
         keep: The amount must be left at the end; else it may be used.
+        said: Range of the request that says it.
     """
 
     amount: float
     unit: str
     keep: bool = False
+    said: Span = (0, 0)
 
 
 _LESS = r"(?:<CMP\.(?:lt|le)>|<UPTO>)"
@@ -113,9 +116,9 @@ def with_limits(terms: list[Term]) -> list[Term]:
                 continue
             amount = terms[places[match.start(1)]].value
             value = amount if isinstance(amount, Amount) else Amount(number=float(amount), unit="percent")
-            limit = Limit(amount=value.number, unit=value.unit, keep=keep)
             text = " ".join(t.text for t in inside)
             start, end = inside[0].start, inside[-1].end
+            limit = Limit(amount=value.number, unit=value.unit, keep=keep, said=(start, end))
             budget = Term(kind="BUDGET", text=text, start=start, end=end, value=limit)
             terms = [*before, budget, *terms[last + 1 :]]
     return _within(terms)

@@ -20,12 +20,14 @@ class Motion(Cases):
 
     def _go(self, part: Part) -> None:
         if part.places is None:
+            self.told.no_part += part.said
             return
         if self._sentence_steps and part.verb is not None and part.verb.text.lower() in ("starting", "beginning"):
             raise unclear(part.terms, "where to begin cannot be said behind the work", "name the first tree first")
         found = self._related(part)
         self._rows_gone_to = self._area_gone_to = ""
         if found.here and part.kind != "visit":
+            self.told.no_part += part.said
             return
         if found.rows and found.region and part.kind != "visit":
             self._go_to_rows(found, part)
@@ -43,6 +45,7 @@ class Motion(Cases):
             and part.relation is not None
             and (part.relation.kind == "FROM" or part.kind == "go")
         ):
+            self.told.no_part += part.said
             return  # a mission starts there anyway
         if found.many:
             self._add_loop(found, part)
@@ -70,6 +73,7 @@ class Motion(Cases):
         if part.relation is not None and part.relation.kind == "FROM" and not self.told.root.steps:
             found = self._related(part)
             if found.selector == s.Marker(name="start"):
+                self.told.no_part += part.said
                 return
         if part.relation is not None and part.relation.kind == "EXCEPT":
             raise unclear(part.terms, "an exception must stand right behind what it is taken from")
@@ -83,6 +87,7 @@ class Motion(Cases):
         then, place = self._home(part)
         if self._scope is self.told.root and not self.told.root.steps and place is None:
             self.told.nominal = then  # "come back when done: photograph tree 5"
+            self.told.nominal_said += part.said
             self.told.first = True
         elif self._scope is self.told.root:
             self.told.nominal = then
@@ -94,7 +99,9 @@ class Motion(Cases):
         else:
             marker = place or s.Marker(name="start" if then == "return_to_start" else "end")
             self.told.in_case = then if place is None else None
-            if not (self._scope.steps and isinstance(self._scope.steps[-1], d.Halt)):
+            if self._scope.steps and isinstance(self._scope.steps[-1], d.Halt):
+                self._scope.steps[-1].said += part.said
+            else:
                 self._scope.add(d.Go(place=marker, said=part.said))
         self._loop = None
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
@@ -40,6 +41,8 @@ _HOMEWARD: dict[Then, str] = {
 NAME = "english"
 #: A request longer than this is no request. Nothing but reading it takes time, and that grows with its length.
 LONGEST_REQUEST = 8_000
+#: What may stand between two parts and says nothing of their order.
+_NO_WORDS = frozenset({"", ",", ":", ", and", "and", "but", ", but"})
 KINDS: dict[str, BudgetKind] = {"metres": "distance_m", "seconds": "duration_s", "percent": "energy_percent"}
 
 
@@ -137,7 +140,9 @@ def _all_accounted(words: Sequence[Word], arranged: Arranged) -> None:
 
 def _told(arranged: Arranged, request: str, robot: RobotProfile, site: Site) -> Told:
     discourse = Discourse(robot, site)
+    discourse.told.no_part += arranged.filler
     for sentence in arranged.sentences:
+        discourse.told.joints += [t.span for t in sentence.terms if t.kind == "SEP" and t.text.lower() not in _NO_WORDS]
         parts = parse(sentence)
         if isinstance(parts, NotParsed):
             raise Unclear(_misfit(parts, request))
@@ -176,9 +181,14 @@ def _planned(request: str, told: Told, site: Site, robot: RobotProfile) -> Outco
         )
         return Refused(reasons=(reason,), planner=NAME)
     nominal, assumptions = _exit(told, site)
+    plan = node_of(told.root)
+    if isinstance(plan, p.Sequence):
+        plan = replace(plan, said=tuple(told.joints))
+    else:
+        told.no_part += told.joints  # there is nothing that they could put in order
     task = make_task(
         request=request,
-        plan=node_of(told.root),
+        plan=plan,
         measures=measures_of(robot),
         resources=(
             Resource(kind="robot", name=robot.name, sha256=robot.sha256),
@@ -186,6 +196,8 @@ def _planned(request: str, told: Told, site: Site, robot: RobotProfile) -> Outco
         ),
         constraints=_constraints(told.limits),
         nominal=nominal,
+        nominal_said=tuple(told.nominal_said),
+        no_part=tuple((start, end) for start, end in told.no_part if re.search(r"\w", request[start:end])),
         faulted=_faulted(nominal),
         assumptions=tuple(dict.fromkeys([*told.assumptions, *assumptions])),
     )
@@ -234,18 +246,19 @@ def _faulted(nominal: Then) -> tuple[FaultedExit, ...]:
 
 
 def _constraints(limits: Iterable[Limit]) -> Constraints:
-    budgets: dict[BudgetKind, float] = {}
+    budgets: dict[BudgetKind, Budget] = {}
     reserve: float | None = None
+    reserve_said: tuple[p.Span, ...] = ()
     for limit in limits:
         _check(limit)
         if limit.keep:
             reserve = max(limit.amount, reserve or 0.0)
+            reserve_said = (*reserve_said, limit.said)
         else:
             kind = KINDS[limit.unit]
-            budgets[kind] = min(limit.amount, budgets.get(kind, limit.amount))
-    return Constraints(
-        budgets=tuple(Budget(kind=kind, limit=amount) for kind, amount in budgets.items()), reserve_percent=reserve
-    )
+            known = budgets.get(kind, Budget(kind=kind, limit=limit.amount))
+            budgets[kind] = replace(known, limit=min(limit.amount, known.limit), said=(*known.said, limit.said))
+    return Constraints(budgets=tuple(budgets.values()), reserve_percent=reserve, reserve_said=reserve_said)
 
 
 def _check(limit: Limit) -> None:

@@ -8,6 +8,7 @@ from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.limits import Limit
 from fieldhand.task import selectors as s
 from fieldhand.task.frames import Then
+from fieldhand.task.plan import Span
 
 
 @dataclass
@@ -18,17 +19,23 @@ class Told:
         root: The plan's own level.
         limits: Budgets and reserves.
         nominal: Where the robot is to end, if the request says it.
+        nominal_said: The ranges of the request that say it.
         first: The request says where to end before it says what to do.
         in_case: Where the robot is to end in one case, if the request says it.
         assumptions: What was assumed, as sentences.
+        joints: The ranges of the request that say in which order its parts follow each other ("then", "after that").
+        no_part: The ranges of the request that ask for nothing.
     """
 
     root: d.Block = field(default_factory=d.Block)
     limits: list[Limit] = field(default_factory=list)
     nominal: Then | None = None
+    nominal_said: list[Span] = field(default_factory=list)
     first: bool = False
     in_case: Then | None = None
     assumptions: list[str] = field(default_factory=list)
+    joints: list[Span] = field(default_factory=list)
+    no_part: list[Span] = field(default_factory=list)
 
 
 @dataclass(eq=False)
@@ -50,6 +57,7 @@ def settle(told: Told) -> None:
             steps[index] = d.Go(place=marker, said=step.said)
     if steps and isinstance(steps[-1], Homeward):
         told.nominal = steps[-1].then
+        told.nominal_said += steps[-1].said
         steps.pop()
     elif told.nominal in ("return_to_start", "return_to_end") and not told.first:
         told.nominal = None
@@ -59,7 +67,7 @@ def settle(told: Told) -> None:
     while len(steps) > 1 and type(last := steps[-1]) is d.Halt:
         if last.here and told.nominal is None:
             told.nominal = "stay"  # "drive to the charger and finish there"
-        steps.pop()  # a plan ends at its end
+        told.nominal_said += steps.pop().said  # a plan ends at its end
     _without_questions(told, told.root)
 
 
@@ -69,6 +77,7 @@ def _without_questions(told: Told, block: d.Block) -> None:
             _without_questions(told, inner)
         if isinstance(step, d.Choice) and not step.then.steps and not (step.otherwise and step.otherwise.steps):
             block.steps.remove(step)
+            told.no_part += step.said
             told.assumptions.append(
                 "What is asked about a reading is answered by the reading; nothing is done about it."
             )

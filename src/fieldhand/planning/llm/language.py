@@ -25,7 +25,7 @@ from fieldhand.task.selectors import Selector
 LETTERS = {"node": "N", "condition": "C", "selector": "S"}
 
 #: Attributes that only the program writes.
-DERIVED = frozenset({"id", "said"})
+DERIVED = frozenset({"id", "said", "at-said", "reserve-said", "nominal-said", "no-part"})
 
 _KINDS = {"text": "name", "integer": "int", "number": "number", "flag": "true", "value": "value"}
 
@@ -99,7 +99,7 @@ def _child(child: Child) -> str:
 def _meaning(shape: Shape) -> str:
     """The docstring on one line, its attributes after it."""
     text, _, attributes = inspect.cleandoc(shape.cls.__doc__ or "").partition("\n\nAttributes:\n")
-    shown = {a.field for a in shape.attributes} | {child.field for child in shape.children}
+    shown = {a.field for a in shape.attributes if a.name not in DERIVED} | {child.field for child in shape.children}
     attributes = "\n".join(line for line in _entries(attributes) if _named(line) & shown)
     attributes = re.sub(r"(?m)^ {4}(\w+(?:, \w+)*):", lambda m: f"{m[1].replace('_', '-')}:", attributes)
     return _plain(f"{text} {attributes}")

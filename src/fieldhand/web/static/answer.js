@@ -11,10 +11,19 @@ export const title = (answer) => TITLES[answer.outcome];
 export function render(answer, request, map) {
   if (answer.outcome === "clarify") return question(answer);
   if (answer.outcome === "refused") return refusal(answer, request);
-  const parts = [...problems(answer), ...answer.warnings.map((w) => notice("warning", sentence(w)))];
+  const parts = [...words(answer), ...problems(answer), ...answer.warnings.map((w) => notice("warning", sentence(w)))];
   if (answer.read_back) parts.push(steps(answer, map), ...rest(answer.read_back), totals(answer.read_back.totals));
   parts.push(document_(answer));
   return parts;
+}
+
+// The request with what became of its words; the legend names what occurs.
+function words({ words: pieces }) {
+  if (!pieces.length) return [];
+  const shown = pieces.map((piece) => (piece.name ? el("span", { class: `word ${piece.role}`, title: piece.name }, piece.text) : piece.text));
+  const names = new Map(pieces.filter((piece) => piece.name).map((piece) => [piece.role, piece.name]));
+  const legend = [...names].map(([role, name]) => el("li", {}, el("span", { class: `word ${role}` }, name)));
+  return [el("blockquote", { class: "said" }, shown), el("ul", { class: "word-legend", "aria-label": "What the words became" }, legend)];
 }
 
 // Which words of the request a choice would replace only the person knows, so the choices are shown, not inserted.

@@ -1,0 +1,138 @@
+"""What became of each word of the request, by the ranges that a Task carries, whichever planner wrote it.
+
+Only what a Task says is believed: a word that stands in no range became nothing, unless it is one of the words that say
+nothing alone.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import groupby
+from typing import Literal, get_args
+
+from fieldhand.task.frames import Task
+from fieldhand.task.plan import (
+    Act,
+    AnyOrder,
+    ForEach,
+    GoTo,
+    If,
+    Node,
+    Optional,
+    Repeat,
+    Sequence,
+    Span,
+    Stop,
+    Try,
+    walk,
+)
+
+#: What words can become. Of two ranges that are the same, the role that stands first here is shown.
+Role = Literal["condition", "limit", "end", "action", "place", "order", "no_part", "nothing", "between"]
+ROLES: tuple[Role, ...] = get_args(Role)
+
+#: How each is called; ``between`` has no name, since it is nothing to show.
+NAMES: dict[Role, str] = {
+    "action": "action",
+    "place": "place",
+    "condition": "condition",
+    "limit": "limit",
+    "order": "order",
+    "end": "end",
+    "no_part": "no part in the plan",
+    "nothing": "not in the plan",
+}
+#: What the words of a node are, by its kind.
+_OF_NODE: dict[type[Node], Role] = {
+    Act: "action",
+    GoTo: "place",
+    ForEach: "place",
+    If: "condition",
+    Try: "condition",
+    Optional: "limit",
+    Sequence: "order",
+    AnyOrder: "order",
+    Repeat: "order",
+    Stop: "end",
+}
+#: Articles, prepositions, conjunctions, pronouns and auxiliaries: alone they ask for nothing. What turns a meaning
+#: round or limits it ("not", "except", "if", "only") is none of them.
+_BETWEEN = frozenset(
+    {"a", "an", "the", "this", "that", "these", "those", "my", "our", "your", "its", "their"}
+    | {"of", "at", "in", "on", "to", "from", "by", "with", "for", "into", "onto", "as", "than", "about"}
+    | {"and", "or", "but", "then", "so", "also", "too"}
+    | {"i", "we", "you", "it", "he", "she", "they", "me", "us", "him", "her", "them", "there", "here", "which", "who"}
+    | {"is", "are", "am", "be", "been", "being", "was", "were", "do", "does", "did", "have", "has", "had"}
+    | {"will", "would", "shall", "should", "can", "could", "may", "might", "must", "let"}
+)
+_WORD = re.compile(r"\w+(?:['\u2019.,\-]\w+)*\s?[%\u00b0]?")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Piece:
+    """A stretch of the request whose words became one kind of thing.
+
+    Attributes:
+        role: ``condition``, ``limit``, ``end``, ``action``, ``place``, ``order`` (and number); ``no_part`` for what the
+            planner knows to have none; ``nothing`` for what is missing; ``between`` for words and signs that only
+            stand between others.
+    """
+
+    text: str
+    role: Role
+
+
+def account(task: Task) -> tuple[Piece, ...]:
+    """The request in pieces, in order; put together they are the request."""
+    request = task.command.request
+    roles: list[Role] = ["between"] * len(request)
+    for start, end, role in _words(task):
+        roles[start:end] = [role] * (end - start)
+    _bridge(roles, request)
+    pieces: list[Piece] = []
+    at = 0
+    for role, run in groupby(roles):
+        length = len(list(run))
+        pieces.append(Piece(text=request[at : at + length], role=role))
+        at += length
+    return tuple(pieces)
+
+
+def has_ranges(task: Task) -> bool:
+    """Whether a Task says of any words what became of them."""
+    return any(True for _ in _ranges(task))
+
+
+def _words(task: Task) -> Iterator[tuple[int, int, Role]]:
+    """Every word of the request that says something alone, with its role: that of the shortest range around it."""
+    ranges = sorted(_ranges(task), key=lambda found: (found[0][1] - found[0][0], ROLES.index(found[1])))
+    for word in _WORD.finditer(task.command.request):
+        start, end = word.start(), word.start() + len(word.group().rstrip())
+        if word.group().strip().lower() not in _BETWEEN:
+            holding = (role for (first, last), role in ranges if first <= start and end <= last)
+            yield start, end, next(holding, "nothing")
+
+
+def _ranges(task: Task) -> Iterator[tuple[Span, Role]]:
+    """Every range of a Task with what it became."""
+    for node in walk(task.composition.plan):
+        yield from ((span, _OF_NODE[type(node)]) for span in node.said)
+        if isinstance(node, Act):
+            yield from ((span, "place") for span in node.at_said)
+    for budget in task.constraints.budgets:
+        yield from ((span, "limit") for span in budget.said)
+    yield from ((span, "limit") for span in task.constraints.reserve_said)
+    yield from ((span, "end") for span in task.composition.nominal_said)
+    yield from ((span, "no_part") for span in task.command.no_part)
+
+
+def _bridge(roles: list[Role], request: str) -> None:
+    """What stands between two words of one role belongs to them unless a sign parts them. ``roles`` changes."""
+    at = 0
+    for role, run in groupby(list(roles)):
+        start, at = at, at + len(list(run))
+        parted = re.search(r"[^\w\s]", request[start:at])
+        if role == "between" and not parted and start > 0 and at < len(roles) and roles[start - 1] == roles[at]:
+            roles[start:at] = [roles[at]] * (at - start)
