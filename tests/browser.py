@@ -12,7 +12,7 @@ from fastapi import FastAPI
 
 from fieldhand.api.app import create_app
 from fieldhand.api.work import Limits
-from fieldhand.planning.planner import Outcome, Planned, Planner
+from fieldhand.planning.planner import Answer, Outcome, Planned, Planner
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.geojson import load_demo
@@ -54,7 +54,7 @@ class Says:
 
     outcome: Callable[[str, Site, RobotProfile], Outcome]
 
-    def plan(self, request: str, site: Site, robot: RobotProfile) -> Outcome:
+    def plan(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...] = ()) -> Outcome:
         return self.outcome(request, site, robot)
 
 

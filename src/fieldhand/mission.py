@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldhand.errors import InputError, RequestError, TaskError
-from fieldhand.planning.planner import Outcome, Planner
+from fieldhand.planning.planner import Answer, Outcome, Planner
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.authorization import AuthorizedTask
@@ -103,8 +103,14 @@ def transcript_path(environ: Mapping[str, str]) -> Path:
     return Path(state) / "fieldhand" / "transcripts.jsonl"
 
 
-def plan(request: str, site: Site, robot: RobotProfile, planner: Planner) -> Outcome:
+def plan(request: str, site: Site, robot: RobotProfile, planner: Planner, answers: tuple[Answer, ...] = ()) -> Outcome:
     """Turn a request into a Task, a question, or a refusal.
+
+    Args:
+        request: What was asked, word for word.
+        site, robot: Where and with what.
+        planner: Who plans.
+        answers: What was answered to earlier questions about this request.
 
     Raises:
         RequestError: The request is empty or too long.
@@ -112,7 +118,7 @@ def plan(request: str, site: Site, robot: RobotProfile, planner: Planner) -> Out
     """
     if not request.strip():
         raise RequestError("the request is empty", advice="say what the robot should do, and at which trees")
-    return planner.plan(request, site, robot)
+    return planner.plan(request, site, robot, answers)
 
 
 def read_task(path: Path, robot: RobotProfile) -> tuple[Task, bytes]:

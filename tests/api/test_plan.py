@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from browser import Says, browser, corner_xml, task_of
+from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Planned, Reason, Refused
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.geojson import load_demo
@@ -81,6 +82,24 @@ def test_a_question_is_passed_on_with_its_choices() -> None:
     answer = browser(asks).post("/api/plan", {"request": "the end"}).json()
     assert answer["outcome"] == "clarify"
     assert (answer["question"], answer["choices"]) == ("Which end?", ["the north end", "the south end"])
+
+
+def test_an_answer_to_a_question_leads_to_the_plan() -> None:
+    web = browser(EnglishPlanner())
+    body = {"request": "take a picture of row 3"}
+    asked = web.post("/api/plan", body).json()
+    answer = {"question": asked["question"], "answer": asked["choices"][1]}
+    planned = web.post("/api/plan", {**body, "answers": [answer]}).json()
+    assert planned["outcome"] == "planned"
+    assert any(answer["answer"] in text for text in planned["read_back"]["assumptions"])
+    assert web.post("/api/plan", {**body, "answers": [{"question": "?"}]}).status_code == 422
+
+
+def test_the_request_comes_in_pieces_with_what_became_of_each() -> None:
+    request = "Please take a picture of tree 4."
+    words = browser(EnglishPlanner()).post("/api/plan", {"request": request}).json()["words"]
+    assert "".join(piece["text"] for piece in words) == request
+    assert {(piece["role"], piece["text"]) for piece in words} >= {("no_part", "Please"), ("place", "tree 4")}
 
 
 def test_a_refusal_says_which_words_and_does_not_read_them_as_markup() -> None:

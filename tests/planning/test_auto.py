@@ -9,7 +9,7 @@ import pytest
 
 from fieldhand.errors import ModelError, RequestError
 from fieldhand.planning.auto import AutoPlanner
-from fieldhand.planning.planner import Clarify, Outcome, Planned, Reason, Refused
+from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Reason, Refused
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.build import make_task
@@ -26,7 +26,7 @@ class Fixed:
     outcome: Outcome | Exception
     asked: list[str] = field(default_factory=list)
 
-    def plan(self, request: str, site: Site, robot: RobotProfile) -> Outcome:
+    def plan(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...] = ()) -> Outcome:
         self.asked.append(request)
         if isinstance(self.outcome, Exception):
             raise self.outcome

@@ -22,6 +22,7 @@ def unplanned_answer(outcome: Clarify | Refused) -> dict[str, Any]:
                 "planner": outcome.planner,
                 "question": outcome.question,
                 "choices": list(outcome.choices),
+                "free": outcome.free,
             }
         case Refused():
             reasons = [{"what": r.what, "said": [list(s) for s in r.said], "advice": r.advice} for r in outcome.reasons]

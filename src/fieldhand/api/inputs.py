@@ -14,6 +14,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints, model_validator
 
 from fieldhand.errors import ProfileError, SiteError
+from fieldhand.planning.planner import Answer
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
@@ -72,10 +73,21 @@ class SiteBody(Body):
     site: SiteChoice
 
 
+class AnswerBody(Body):
+    """What was answered to a question about the request."""
+
+    question: Words
+    answer: Words
+
+
+Answers = Annotated[list[AnswerBody], Field(max_length=20)]
+
+
 class PlanBody(OnGround):
-    """A request to plan."""
+    """A request to plan, with what was answered to earlier questions about it."""
 
     request: Words
+    answers: Answers = []
     planner: Literal["auto", "english", "llm"] = "auto"
 
 
@@ -90,6 +102,7 @@ class RunBody(OnGround):
 
     xml: Xml | None = None
     request: Words | None = None
+    answers: Answers = []
     planner: Literal["auto", "english", "llm"] = "auto"
     approved_by: Name
     seed: Annotated[int, Field(ge=0, lt=2**32)] | None = None
@@ -110,6 +123,11 @@ class Ground:
 
     site: Site
     robot: RobotProfile
+
+
+def answers_of(body: PlanBody | RunBody) -> tuple[Answer, ...]:
+    """The answers that came with a request."""
+    return tuple(Answer(question=given.question, answer=given.answer) for given in body.answers)
 
 
 def open_ground(body: OnGround) -> Ground:

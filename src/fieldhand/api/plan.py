@@ -9,7 +9,7 @@ from fastapi import APIRouter
 
 from fieldhand import mission
 from fieldhand.api.answers import review_answer, unplanned_answer
-from fieldhand.api.inputs import PlanBody, open_ground
+from fieldhand.api.inputs import PlanBody, answers_of, open_ground
 from fieldhand.api.work import Workers
 from fieldhand.planning.planner import Planned, Planner
 
@@ -33,7 +33,7 @@ def _plan(body: PlanBody, planners: Planners) -> dict[str, Any]:
     from fieldhand.task.codec import encode
 
     ground = open_ground(body)
-    outcome = mission.plan(body.request, ground.site, ground.robot, planners(body.planner))
+    outcome = mission.plan(body.request, ground.site, ground.robot, planners(body.planner), answers_of(body))
     if not isinstance(outcome, Planned):
         return unplanned_answer(outcome)
     document = encode(outcome.task)

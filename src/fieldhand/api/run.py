@@ -13,7 +13,7 @@ from fastapi import APIRouter
 
 from fieldhand import mission
 from fieldhand.api.answers import unplanned_answer
-from fieldhand.api.inputs import Ground, RunBody, open_ground, open_task
+from fieldhand.api.inputs import Ground, RunBody, answers_of, open_ground, open_task
 from fieldhand.api.maps import driven_map
 from fieldhand.api.plan import Planners
 from fieldhand.api.work import Limits, Workers
@@ -42,7 +42,7 @@ def _run(body: RunBody, planners: Planners, limits: Limits) -> dict[str, Any]:
     ground = open_ground(body)
     world = World() if body.world is None else parse_world(body.world, source="world")
     if body.request is not None:
-        outcome = mission.plan(body.request, ground.site, ground.robot, planners(body.planner))
+        outcome = mission.plan(body.request, ground.site, ground.robot, planners(body.planner), answers_of(body))
         if not isinstance(outcome, Planned):
             return unplanned_answer(outcome)
         task = outcome.task

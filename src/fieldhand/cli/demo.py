@@ -26,12 +26,13 @@ def demo(
     import shutil
 
     from fieldhand.cli import show
+    from fieldhand.cli.asking import Replies, plan_or_read
     from fieldhand.cli.flight import Orders, fly
-    from fieldhand.cli.inputs import open_ground, plan_or_read
+    from fieldhand.cli.inputs import open_ground
     from fieldhand.execution.world import World
 
     ground = open_ground("demo", "husky")
-    task, document, planner = plan_or_read(REQUEST, ground, "english", None)
+    task, document, planner = plan_or_read(REQUEST, ground, "english", None, Replies())
     orders = Orders(ask=False, by="demo", world=World(), seed=seed, folder=output)
     status = fly(ground, task, document, orders, planner=planner)
     show.heading("Try next")

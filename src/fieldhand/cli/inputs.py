@@ -1,18 +1,15 @@
-"""What every command does first: open the site and the robot, and plan or read the Task."""
+"""What every command does first: open the site and the robot."""
 
 from __future__ import annotations
 
-import os
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from fieldhand.cli.show import fail_outcome, note
+from fieldhand.cli.show import note
 from fieldhand.errors import OutputError
-from fieldhand.planning.planner import Planned
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
-from fieldhand.task.frames import Task
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,24 +34,6 @@ def open_ground(site: str, robot: str, *, lenient: bool = False) -> Ground:
         for said in opened.notes:
             note(said)
     return Ground(site=opened, robot=load_robot(robot))
-
-
-def plan_or_read(words: str, ground: Ground, planner: str, transcript: Path | None) -> tuple[Task, bytes | None, str]:
-    """The Task of a request, or of a Task document if ``words`` is a file that ends in ``.xml``; and who planned it.
-
-    Ends the program with status 2 where the planner has a question or refuses.
-    """
-    from fieldhand import mission
-
-    if words.lower().endswith(".xml") and "\n" not in words:
-        task, document = mission.read_task(Path(words), ground.robot)
-        return task, document, "file"
-    outcome = mission.plan(words, ground.site, ground.robot, mission.make_planner(planner, os.environ, transcript))
-    if not isinstance(outcome, Planned):
-        fail_outcome(words, outcome)
-    for warning in outcome.warnings:
-        note(warning)
-    return outcome.task, None, outcome.planner
 
 
 def write_file(path: Path, data: bytes) -> None:

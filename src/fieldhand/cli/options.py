@@ -26,6 +26,13 @@ TranscriptOption = Annotated[
         help="Where to keep what was said to a language model and its answers; else in the user's state folder.",
     ),
 ]
+AnswerOption = Annotated[
+    list[str] | None,
+    typer.Option("--answer", help="Answer to a question of the planner: a choice or its number; again for the next."),
+]
+AssumeOption = Annotated[
+    bool, typer.Option("--assume", help="Take the first choice of each question, and say so in the plan.")
+]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object instead of text.")]
 PictureOption = Annotated[Path | None, typer.Option("--picture", help="Draw a map to this PNG file.")]
 SeedOption = Annotated[int, typer.Option("--seed", min=0, help="Same seed, same mission.")]

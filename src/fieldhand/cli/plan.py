@@ -8,6 +8,8 @@ from typing import Annotated
 import typer
 
 from fieldhand.cli.options import (
+    AnswerOption,
+    AssumeOption,
     JsonOption,
     LenientOption,
     PictureOption,
@@ -25,6 +27,8 @@ def plan(
     planner: PlannerOption = "auto",
     output: Annotated[Path | None, typer.Option("-o", "--output", help="Where to write the Task (XML).")] = None,
     picture: PictureOption = None,
+    answer: AnswerOption = None,
+    assume: AssumeOption = False,
     transcript: TranscriptOption = None,
     lenient: LenientOption = False,
     json: JsonOption = False,
@@ -34,13 +38,15 @@ def plan(
 
     from fieldhand import mission
     from fieldhand.cli import show
+    from fieldhand.cli.asking import Replies, plan_and_ask
     from fieldhand.cli.inputs import open_ground, write_file
     from fieldhand.planning.planner import Planned
     from fieldhand.task.codec import encode
 
     ground = open_ground(site, robot, lenient=lenient)
     chosen = mission.make_planner(planner, os.environ, transcript)
-    outcome = mission.plan(request, ground.site, ground.robot, chosen)
+    replies = Replies(given=tuple(answer or ()), assume=assume, ask=not json)
+    request, outcome = plan_and_ask(request, ground, chosen, replies)
     if not isinstance(outcome, Planned):
         if json:
             show.print_json(show.outcome_record(outcome))

@@ -7,7 +7,16 @@ from typing import Annotated
 
 import typer
 
-from fieldhand.cli.options import JsonOption, LenientOption, PlannerOption, RobotOption, SiteOption, TranscriptOption
+from fieldhand.cli.options import (
+    AnswerOption,
+    AssumeOption,
+    JsonOption,
+    LenientOption,
+    PlannerOption,
+    RobotOption,
+    SiteOption,
+    TranscriptOption,
+)
 
 
 def run(
@@ -26,21 +35,25 @@ def run(
     ] = "max",
     yes: Annotated[bool, typer.Option("--yes", "-y", help="Approve without asking.")] = False,
     by: Annotated[str | None, typer.Option("--by", help="Who approves; else the user who is logged in.")] = None,
+    answer: AnswerOption = None,
+    assume: AssumeOption = False,
     transcript: TranscriptOption = None,
     lenient: LenientOption = False,
     json: JsonOption = False,
 ) -> None:
     """Plan, approve and carry out a mission in simulation, then judge it."""
     from fieldhand import mission
+    from fieldhand.cli.asking import Replies, plan_or_read
     from fieldhand.cli.flight import Orders, fly, parse_speed
-    from fieldhand.cli.inputs import open_ground, plan_or_read
+    from fieldhand.cli.inputs import open_ground
     from fieldhand.execution.world import World, load_world
 
     pace = parse_speed(speed)
     ground = open_ground(site, robot, lenient=lenient)
     given = World() if world is None else load_world(world)
     mission.check_world(given, ground.site, ground.robot)
-    task, document, planned_by = plan_or_read(request, ground, planner, transcript)
+    replies = Replies(given=tuple(answer or ()), assume=assume, ask=not json)
+    task, document, planned_by = plan_or_read(request, ground, planner, transcript, replies)
     orders = Orders(
         ask=not yes,
         by=by,

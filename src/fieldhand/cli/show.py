@@ -69,7 +69,7 @@ def fail_outcome(request: str, outcome: Clarify | Refused) -> NoReturn:
         err.print(Text("A question first: ", style="bold") + Text(outcome.question))
         for number, choice in enumerate(outcome.choices, start=1):
             err.print(Text(f"  {number}. {choice}"))
-        err.print("Say it in the request, and plan again.")
+        err.print("Say it in the request and plan again, or give --answer.")
         raise SystemExit(2)
     spans = [span for reason in outcome.reasons for span in reason.said]
     if spans:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.errors import ModelError
-from fieldhand.planning.planner import Clarify, Outcome, Planned, Planner, Refused
+from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Planner, Refused
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
@@ -27,20 +27,28 @@ class AutoPlanner:
         self._english = english
         self._llm = llm
 
-    def plan(self, request: str, site: Site, robot: RobotProfile) -> Outcome:
-        understood = self._english.plan(request, site, robot)
+    def plan(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...] = ()) -> Outcome:
+        understood = self._english.plan(request, site, robot, answers)
         match understood:
             case Planned() | Clarify():
                 return understood
             case Refused():
                 if self._llm is None:
                     return _advise(understood)
-                return self._ask_model(self._llm, understood, request, site, robot)
+                return self._ask_model(self._llm, understood, request, site, robot, answers)
 
-    def _ask_model(self, llm: Planner, refused: Refused, request: str, site: Site, robot: RobotProfile) -> Outcome:
+    def _ask_model(
+        self,
+        llm: Planner,
+        refused: Refused,
+        request: str,
+        site: Site,
+        robot: RobotProfile,
+        answers: tuple[Answer, ...],
+    ) -> Outcome:
         why = _summary(refused)
         try:
-            answered = llm.plan(request, site, robot)
+            answered = llm.plan(request, site, robot, answers)
         except ModelError as error:
             raise ModelError(
                 f"{error.what} (a language model was asked because the built-in planner did not understand: {why})",

@@ -26,11 +26,35 @@ class Planned:
 
 @dataclass(frozen=True, kw_only=True)
 class Clarify:
-    """The request can mean two things here: one question, with the answers to choose from (none: any words)."""
+    """The request can mean two things here: one question, with the answers to choose from.
+
+    Attributes:
+        free: Other words than a choice can be an answer; else they are a request of their own.
+    """
 
     question: str
     choices: tuple[str, ...] = ()
     planner: str = ""
+    free: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Answer:
+    """What was answered to the question of a planner.
+
+    Attributes:
+        answer: One of the choices, or other words where the question takes them.
+        assumed: Nobody was asked: the first choice was taken.
+    """
+
+    question: str
+    answer: str
+    assumed: bool = False
+
+    def __str__(self) -> str:
+        """A sentence for the assumptions of a Task."""
+        how = "Taken without asking" if self.assumed else "Answered"
+        return f'Asked: "{self.question}" {how}: "{self.answer}".'
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,8 +80,14 @@ Outcome = Planned | Clarify | Refused
 class Planner(Protocol):
     """Turns words into a Task, or says why not. Names places; never computes coordinates."""
 
-    def plan(self, request: str, site: Site, robot: RobotProfile) -> Outcome:
+    def plan(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...] = ()) -> Outcome:
         """Plan one request.
+
+        Args:
+            request: What was asked, word for word.
+            site, robot: Where and with what.
+            answers: What was answered to earlier questions about this request, in their order. They stand among the
+                assumptions of the Task; its request stays as it was typed.
 
         Raises:
             RequestError: The request is empty or too long.

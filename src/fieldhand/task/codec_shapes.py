@@ -45,6 +45,10 @@ class TaskComposition:
     exits: Exits = Exits()
 
 
+#: The attribute with which a draft quotes words of the request, and the ranges that it stands for in each element; in
+#: any node and in a budget ``said``.
+QUOTES = "words"
+QUOTED = {"command": "no-part", "exits": "nominal-said", "constraints": "reserve-said"}
 #: Field names that are not element names already.
 _NAMES: dict[tuple[type, str], str] = {(Task, "composition"): "task-composition", (Command, "variables"): "state"}
 _CLASS_NAMES: dict[type, str] = {FaultedExit: "faulted"}

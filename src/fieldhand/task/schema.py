@@ -83,8 +83,8 @@ def vocabulary(capabilities: Capabilities, *, draft: bool = False) -> Vocabulary
     made = Vocabulary()
     for shape in schema.shapes:
         inside = made.children.setdefault(shape.element, [])
-        made.attributes["", shape.element] = [name for a in shape.attributes for name in _names(a)]
-        made.kinds.update({(shape.element, a.name): a.kind for a in shape.attributes if a.kind != "value"})
+        made.attributes["", shape.element] = [name for a in schema.attributes(shape) for name in _names(a)]
+        made.kinds.update({(shape.element, a.name): a.kind for a in schema.attributes(shape) if a.kind != "value"})
         for head in schema.heads(shape):
             inside.append(head)
             made.attributes[shape.element, head] = _head_attributes(shape, head, capabilities)

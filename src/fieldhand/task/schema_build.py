@@ -13,6 +13,7 @@ from fieldhand.task.codec_shapes import (
     DRAFT_DEFAULTS,
     FAMILIES,
     NAMESPACE,
+    QUOTES,
     Attribute,
     Child,
     Shape,
@@ -120,8 +121,14 @@ class SchemaBuilder:
             content = _xs(made, "all")
             for child in shape.children:
                 self.child(content, shape, child)
-        for attribute in shape.attributes:
+        for attribute in self.attributes(shape):
             self.attribute(made, shape.cls, attribute)
+
+    def attributes(self, shape: Shape) -> tuple[Attribute, ...]:
+        """The attributes of an element. A draft quotes words of the request where a Task holds ranges of it."""
+        quotes = Attribute(field=QUOTES, name=QUOTES, kind="text", default="")
+        quotable = self.draft and any(a.kind == "spans" for a in shape.attributes)
+        return (*shape.attributes, quotes) if quotable else shape.attributes
 
     def head_content(self, made: _Element, shape: Shape) -> None:
         """One action or quantity; what stands beside it (``at``) may come before or after."""

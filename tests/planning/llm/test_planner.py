@@ -8,14 +8,17 @@ from pathlib import Path
 
 import pytest
 
+from fieldhand.approval.account import unaccounted
 from fieldhand.errors import ModelError, OutputError, RequestError
 from fieldhand.planning.llm.planner import LONGEST_REQUEST, LlmPlanner
+from fieldhand.planning.llm.replay import replay
 from fieldhand.planning.llm.scripted import ScriptedAnswer, ScriptedEndpoint
 from fieldhand.planning.llm.transcript import read_transcript
-from fieldhand.planning.planner import Clarify, Outcome, Planned, Refused
+from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Refused
 from fieldhand.robot.loader import load_robot
 from fieldhand.task.build import FAULTED_EXITS
 from fieldhand.task.codec import decode, encode
+from fieldhand.task.plan import Act, walk
 from fieldhand.task.selectors import Corners
 from site_grids import grid
 
@@ -67,9 +70,61 @@ def test_a_good_answer_becomes_a_whole_task(wrap: str) -> None:
     assert decode(encode(task)) == task
 
 
+QUOTED = GOOD.replace("<command>", '<command words="please">').replace("<for-each", '<for-each words="the  Corners"')
+QUOTED = QUOTED.replace('<act reading="r">', '<act words="Take a picture | at">').replace(
+    "<exits", '<exits words="come home"'
+)
+QUOTED = QUOTED.replace("<budget", '<budget words="at most half"')
+
+
+def test_quoted_words_are_found_in_the_request_whatever_their_case_and_white_space() -> None:
+    request = "Please take a picture at the\n corners at most half the battery, then come home."
+    planned = ask(QUOTED, request=request)
+    assert isinstance(planned, Planned)
+    task = planned.task
+    each, act = walk(task.composition.plan)
+    spans = (each.said, act.said, task.command.no_part, task.composition.nominal_said, task.constraints.budgets[0].said)
+    assert [[request[start:end] for start, end in said] for said in spans] == [
+        ["the\n corners"],
+        ["take a picture", "at"],
+        ["Please"],
+        ["come home"],
+        ["at most half"],
+    ]
+    assert [problem.what for problem in unaccounted(task)] == ["nothing in the plan comes from 'battery'"]
+
+
+def test_words_that_stand_twice_are_found_in_their_order() -> None:
+    each = '<act words="picture"><take_thermal_picture/><at><first/></at></act>'
+    twice = GOOD[: GOOD.index("<plan>")] + f"<plan><sequence>{each * 3}</sequence></plan></task-composition></task>"
+    planned = ask(twice, request="A picture, then a picture.")
+    assert isinstance(planned, Planned)
+    said = [node.said for node in walk(planned.task.composition.plan) if isinstance(node, Act)]
+    assert said == [((2, 9),), ((18, 25),), ((18, 25),)]
+
+
+def test_words_that_the_request_does_not_say_go_back_to_the_model() -> None:
+    with ScriptedEndpoint([GOOD.replace("<for-each", '<for-each words="every vine"'), GOOD]) as endpoint:
+        assert isinstance(LlmPlanner(endpoint.settings()).plan(REQUEST, SITE, HUSKY), Planned)
+        assert "[words] line 8 <for-each>: the request does not say 'every vine'" in endpoint.requests[1].text
+
+
+def test_an_answer_follows_its_question_and_stands_among_the_assumptions(tmp_path: Path) -> None:
+    given = Answer(question="Which corner?", answer="the <northern> one")
+    path = tmp_path / "said.jsonl"
+    with ScriptedEndpoint([GOOD]) as endpoint:
+        planned = LlmPlanner(endpoint.settings(), path).plan(REQUEST, SITE, HUSKY, (given,))
+        asked = endpoint.requests[0].text
+    assert isinstance(planned, Planned)
+    assert asked.index(REQUEST) < asked.index("Which corner?") < asked.index("the <northern> one")
+    assert str(given) in planned.task.command.assumptions
+    (session,) = read_transcript(path)
+    assert replay(session, SITE, HUSKY) == planned
+
+
 def test_a_question_becomes_a_clarification() -> None:
     outcome = ask("<question>Which corner?<choice>north</choice><choice>south</choice></question>")
-    assert outcome == Clarify(question="Which corner?", choices=("north", "south"), planner="llm:scripted")
+    assert outcome == Clarify(question="Which corner?", choices=("north", "south"), planner="llm:scripted", free=True)
 
 
 def test_a_refusal_becomes_a_refusal() -> None:

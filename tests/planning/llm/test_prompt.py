@@ -120,7 +120,7 @@ def test_every_example_is_a_good_answer_for_the_robot_that_it_names(request_: st
         return
     assert isinstance(found, TaskAnswer)
     capabilities = capabilities_of(load_robot(ROBOT))
-    draft = read_draft(found.document, capabilities)
+    draft = read_draft(found.document, capabilities, request_)
     assert isinstance(draft, Draft), draft
     assert review(draft, grid(6, 8), capabilities) == ()
     assert request_ in instructions()

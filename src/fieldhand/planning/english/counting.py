@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from fieldhand.planning.english.asking import each_or_in_all, every_or_how_many
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.syntax import Object, Part
@@ -54,7 +55,7 @@ def counted(found: Found, part: Part, wanted: Wanted) -> Found:
     if found.optional or counts_each(found, part):
         return found
     if found.at_most is not None:
-        return found if count in (None, 1) else _either(count, found.at_most)
+        return found if count in (None, 1) else _either(part, count, found.at_most)
     if found.region:
         return _in_area(found, part, count, plural)
     if not found.many or count is None or count == 1:
@@ -64,20 +65,22 @@ def counted(found: Found, part: Part, wanted: Wanted) -> Found:
     if len(numbers) > 1 or (len(wanted) > 1 and any(n != count for _, n in wanted)):
         raise Question(f"'{text_of(part.terms)}': how many at each of the places?", (f"{count} at each", "1 at each"))
     if found.counted is not None:
-        return found if count == found.counted else _either(count, found.counted)
+        return found if count == found.counted else _either(part, count, found.counted)
     selector = found.selector
     if isinstance(selector, s.Nearest):
         return replace(found, selector=replace(selector, count=count), counted=count)
     if isinstance(selector, s.Corners | s.Union):
         size = len(selector.which) if isinstance(selector, s.Corners) else len(selector.parts)
-        return found if size == count else _either(count, size)
+        return found if size == count else _either(part, count, size)
     return Found(selector=s.Take(count=count, of=selector), many=True, counted=count)
 
 
-def _either(count: int | None, size: int) -> Found:
-    raise Question(
+def _either(part: Part, count: int, size: int) -> Found:
+    raise each_or_in_all(
+        part,
         f"{count} captures at {size} places: {count} at each of them, or {count} in all?",
         (f"{count} at each of them", f"{count} in all"),
+        count,
     )
 
 
@@ -89,7 +92,7 @@ def _in_rows(found: Found, part: Part, count: int | None, plural: bool) -> Found
         return found
     of_it = part.relation is None or part.relation.kind == "OF"
     if count is None and (whole or of_it or not _says_one(part)):
-        raise Question(f"'{text}': at every tree, or at how many?", ("at every tree", "at 4 trees"))
+        raise every_or_how_many(part)
     number = count or 1
     if found.one_by_one:
         parts: tuple[s.Selector, ...] = tuple(s.Take(count=number, of=row) for row in found.one_by_one)
@@ -97,7 +100,8 @@ def _in_rows(found: Found, part: Part, count: int | None, plural: bool) -> Found
     if counts_each(found, part) and not isinstance(found.selector, s.Successive):
         raise Question(f"'{text}': {number} at each tree, or {number} in each row?", (f"{number} in each row",))
     if count is None and _are_several(found.selector):
-        raise Question(f"'{text}': one in each of them, or one in all?", ("one in each of them", "one in all"))
+        asked = f"'{text}': one in each of them, or one in all?"
+        raise each_or_in_all(part, asked, ("one in each of them", "one in all"), 1)
     return Found(selector=s.Take(count=number, of=found.selector), many=number > 1, counted=number)
 
 
@@ -115,10 +119,10 @@ def _in_area(found: Found, part: Part, count: int | None, plural: bool) -> Found
     """Captures in an area: at one tree of it, at as many as there are captures, or at every tree."""
     if count is None and plural:
         if found.selector == s.Trees():
-            raise Question(f"'{text_of(part.terms)}': at every tree, or at how many?", ("at every tree", "at 4 trees"))
+            raise every_or_how_many(part)
         return found
     of_it = part.relation is None or part.relation.kind == "OF"
     if count is None and (found.selector == s.Trees() or of_it):  # "a picture of the northern half"
-        raise Question(f"'{text_of(part.terms)}': at every tree, or at how many?", ("at every tree", "at 4 trees"))
+        raise every_or_how_many(part)
     number = count or 1
     return Found(selector=s.Take(count=number, of=found.selector), many=number > 1, counted=number)

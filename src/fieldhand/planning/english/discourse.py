@@ -17,6 +17,7 @@ from dataclasses import replace
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english import repeating
 from fieldhand.planning.english.areas import is_open, with_areas
+from fieldhand.planning.english.asking import every_or_how_many
 from fieldhand.planning.english.counting import Wanted, counts_each
 from fieldhand.planning.english.faults import Question, spans_of, text_of, unclear
 from fieldhand.planning.english.found import Found
@@ -194,8 +195,7 @@ class Discourse(Leaving):
         if part.places is not None and part.relation is not None and find(part.places, self._site).region:
             last = [step for step, _ in d.walk(self.told.root) if isinstance(step, d.Capture)]
             if self._loop is not None or not (last and isinstance(last[-1].at, s.Take)):  # "... and of row 4"
-                choices = ("at every tree", "at 4 trees")
-                raise Question(f"'{text_of(part.terms)}': at every tree, or at how many?", choices)
+                raise every_or_how_many(part)
         self._act(part, self._objects)
 
     def _act(self, part: Part, wanted: Wanted) -> None:
@@ -245,7 +245,10 @@ class Discourse(Leaving):
         place = self._rows_gone_to or (self._area_gone_to if whole else "")
         if place and said and found is not None and not found.here:
             raise Question(
-                f"'{text_of(part.terms)}': of {place}, or of the whole site?", (f"of {place}", "of the whole site")
+                f"'{text_of(part.terms)}': of {place}, or of the whole site?",
+                (f"of {place}", "of the whole site"),
+                terms=part.places.terms if part.places is not None else (),
+                words=(f"{text_of(part.places.terms)} of {place}", "") if part.places is not None else ("", ""),
             )
         return found
 
@@ -266,6 +269,7 @@ class Discourse(Leaving):
         raise Question(
             f"'{text_of(part.terms)}': {again} in all, or {again} more?",
             (f"{times} times in all", f"{times} more times"),
+            terms=[t for t in part.tails if t.kind == "COUNT"],
         )
 
     def _distinct(self, part: Part) -> None:
@@ -321,7 +325,8 @@ class Discourse(Leaving):
         )
         if not new:
             if times is None:
-                raise Question(f"'{text_of(part.terms)}': where?", ("at another tree", "at the same place"))
+                raise Question(f"'{text_of(part.terms)}': where?", ("at another tree", "at the same place"),
+                               terms=part.terms, words=(f"{text_of(part.terms)} at another tree", ""))  # fmt: skip
             times = self._further(part, times)
             body = d.Block()
             repeating.append(made, body)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 
 from fieldhand.planning.english.tokens import Term
@@ -24,17 +25,30 @@ class Question(Exception):
 
     Attributes:
         choices: Answers to choose from; none if any words would do.
+        said: Range of the request in whose place an answer's words are read.
+        words: For each choice, these words; empty for one that only the person can put into words.
     """
 
-    def __init__(self, question: str, choices: tuple[str, ...] = ()) -> None:
+    def __init__(
+        self, question: str, choices: tuple[str, ...] = (), *, terms: Iterable[Term] = (), words: tuple[str, ...] = ()
+    ) -> None:
         self.question = question
         self.choices = choices
+        spans = [t.span for t in terms if t.end > t.start]
+        self.said = (min(s for s, _ in spans), max(e for _, e in spans)) if spans else (0, 0)
+        self.words = words or (choices if spans else tuple("" for _ in choices))
         super().__init__(question)
+
+    def words_of(self, answer: str) -> str | None:
+        """The words of the choice that an answer names; None if it names none."""
+        named = [w for c, w in zip(self.choices, self.words, strict=True) if c.lower() == answer.strip().lower()]
+        return named[0] if named else None
 
 
 def text_of(terms: Iterable[Term]) -> str:
     """Terms as they stand in the request."""
-    return " ".join(t.text for t in sorted(terms, key=lambda t: (t.start, t.end)) if t.text)
+    text = " ".join(t.text for t in sorted(terms, key=lambda t: (t.start, t.end)) if t.text)
+    return re.sub(r"(?<=\w) ([-\u2013]) (?=\w)", r"\1", text)  # a space before a dash would make it a comma
 
 
 def spans_of(terms: Iterable[Term]) -> tuple[Span, ...]:

@@ -101,6 +101,8 @@ class Hand:
         raise Question(
             f"'{text_of(part.terms)}': at each of the places before it, or only at the last one?",
             ("at each of them", "only at the last one"),
+            terms=part.terms,
+            words=(f"{text_of(part.terms)} at each of them", ""),
         )
 
     def _gather(self, part: Part) -> None:
@@ -218,6 +220,7 @@ class Hand:
             raise Question(
                 f"'{text_of(part.terms)}': the tree that is {number} trees along, or {number} trees there?",
                 (f"the tree {step.text}", f"{number} trees"),
+                terms=(step,),
             )
         if not any(starts_here(part_) for part_ in s.walk(found.selector)):
             return
@@ -240,8 +243,11 @@ class Hand:
             return tuple((action, None) for action, _ in self._objects)
         if len(self._robot.actions) == 1:
             return ((self._robot.actions[0].name, None),)
+        names = tuple(a.words[0] for a in self._robot.actions if a.words)
+        words = tuple(f"take a {name} of" if part.relation is None else f"take a {name}" for name in names)
+        terms = () if verb is None or part.places is None or part.tails else (verb,)
         raise Question(
-            f"'{text_of(part.terms)}': what should be taken?", tuple(a.words[0] for a in self._robot.actions if a.words)
+            f"'{text_of(part.terms)}': what should be taken?", names, terms=terms, words=words if terms else ()
         )
 
     def _action(self, noun: Term, part: Part) -> str:
@@ -251,9 +257,8 @@ class Hand:
                 return measuring[0].name
             if self._objects:
                 return self._objects[-1][0]
-            raise Question(
-                f"'{text_of(part.terms)}': a reading of what?", tuple(a.words[0] for a in measuring if a.words)
-            )
+            names = tuple(a.words[0] for a in measuring if a.words)
+            raise Question(f"'{text_of(part.terms)}': a reading of what?", names, terms=(noun,))
         naming: Naming = noun.value
         if not naming.actions:
             raise unclear(part.terms, f"{self._robot.name} has no action for '{noun.text}'")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from fieldhand.planning.english.asking import how_many
 from fieldhand.planning.english.attributes import filtered
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.bare import named_trees
@@ -18,6 +19,7 @@ from fieldhand.site.model import Site
 from fieldhand.task import selectors as s
 
 _AMBIGUOUS_ENDS = ("the northern one", "the southern one", "both")
+_ENDS_IN_WORDS = ("the northern end", "the southern end", "both ends")
 
 
 def named_in_rows(bag: Bag, group: Group, site: Site) -> Found:
@@ -105,6 +107,8 @@ def _by_id(bag: Bag, of: s.Selector, selector: s.Selector, site: Site) -> bool:
         raise Question(
             f"'{text_of(bag.phrase.terms)}': by the number in the row, or by the tree's id?",
             (f"the {_nth(int(first))} tree of the row, and so on", f"the tree with id {first}"),
+            terms=bag.phrase.terms,
+            words=(f"the {_nth(int(first))} tree", f"the tree with id {first}") if len(bag.ids) == 1 else ("", ""),
         )
     return not by_place and by_id == set(bag.ids)
 
@@ -141,7 +145,7 @@ def ranked_in_rows(bag: Bag, of: s.Selector, group: Group, site: Site) -> Found:
     if bag.count is not None and number > 1:
         raise bag.fault("a rank and several trees at once", "say which one, or how many: 'trees 4 to 6 of row 2'")
     if tree.plural and bag.count is None and number == 1:
-        raise Question(f"'{text_of(bag.phrase.terms)}': how many?", ("2", "3", "4"))
+        raise how_many(bag.phrase)
     if group.along and rank is not None and isinstance(group.rows, s.RowOf) and start == From():
         text = text_of(bag.phrase.terms)
         raise Question(
@@ -184,7 +188,8 @@ def ends_of_rows(bag: Bag, group: Group, site: Site) -> Found:
         bag.any = False
         return Found(selector=first, many=several, each=each, assumed=group.assumed)
     if bag.any or bag.article in ("a", "an"):
-        raise Question(f"'{text_of(bag.phrase.terms)}': which of the two ends?", _AMBIGUOUS_ENDS)
+        raise Question(f"'{text_of(bag.phrase.terms)}': which of the two ends?", _AMBIGUOUS_ENDS,
+                       terms=bag.phrase.terms, words=_ENDS_IN_WORDS)  # fmt: skip
     if plural or bag.each:
         return Found(selector=s.Union(parts=(first, last)), many=True, each=each, assumed=group.assumed)
     said_as = f"'{text_of(bag.phrase.terms)}' is the one where the count along the row ends."

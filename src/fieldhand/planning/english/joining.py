@@ -20,7 +20,8 @@ def check_of_row(places: Places, found: list[Found]) -> None:
     bare = [c for c in places.chains if len(c.phrases) == 1 and bag_of(c.phrases[0]).has("ORD", "LAST")]
     if bare and any(isinstance(part, s.InRow) for f in found for part in s.walk(f.selector)):
         text = text_of(bare[0].terms)
-        raise Question(f"'{text}': of the row, or of the whole site?", (f"{text} of the row", f"{text} of the site"))
+        raise Question(f"'{text}': of the row, or of the whole site?", (f"{text} of the row", f"{text} of the site"),
+                       terms=bare[0].terms)  # fmt: skip
 
 
 def check_comma(places: Places, found: list[Found]) -> None:
@@ -29,12 +30,12 @@ def check_comma(places: Places, found: list[Found]) -> None:
         parts = [text_of(chain.terms).replace(" ,", ",") for chain in places.chains]
         asked = f"'{', '.join(parts)}': one and the same trees, or each of them?"
         if len(found) != 2 or not any(f.region for f in found):
-            raise Question(asked, (f"{', '.join(parts[:-1])} and also {parts[-1]}",))
+            raise Question(asked, (f"{', '.join(parts[:-1])} and also {parts[-1]}",), terms=places.terms)
         area = 0 if found[0].region else 1
         inner, outer = parts[1 - area], parts[area]
         joins = "of" if found[area].rows else "in"
         also = f"{parts[0]} and also {parts[1]}" + (" of the orchard" if not found[1].region else "")
-        raise Question(asked, (f"{inner} {joins} {outer}", also))
+        raise Question(asked, (f"{inner} {joins} {outer}", also), terms=places.terms)
 
 
 def from_each_other(found: list[Found]) -> list[Found]:

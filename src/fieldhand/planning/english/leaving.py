@@ -39,7 +39,8 @@ class Leaving(Motion):
             raise Question(f"'{said}': is that said of '{first}' or of '{last}'?", (first, last))
         if ahead and ahead[0].kind == "more_places" and all(t.kind == "NUM" for t in ahead[0].terms):
             number = text_of(ahead[0].terms)
-            raise Question(f"'{number}': tree {number}, or {number} of what was said before?", (f"tree {number}",))
+            raise Question(f"'{number}': tree {number}, or {number} of what was said before?", (f"tree {number}",),
+                           terms=ahead[0].terms)  # fmt: skip
         self._allowances += 1
         self._choice = None  # an "otherwise" behind it does not answer an earlier "if"
         self._allowing = part

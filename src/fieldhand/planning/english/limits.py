@@ -33,6 +33,10 @@ class Limit:
     keep: bool = False
     said: Span = (0, 0)
 
+    def as_said(self, said: Span) -> Limit:
+        """The same, said elsewhere."""
+        return replace(self, said=said)
+
 
 _LESS = r"(?:<CMP\.(?:lt|le)>|<UPTO>)"
 _OF_WHAT = r"(?:(?:<AT>|<OF>)?(?:<DET>)?(?:<BATTERY>|<LIMIT>))*"

@@ -31,6 +31,8 @@ def stops_of(found: Found | None, part: Part, wanted: Wanted, site: Site) -> Fou
         raise Question(
             f"'{text_of(part.terms)}': {count} stops, or {count} at every stop?",
             (f"{count} stops {apart:g} m apart", f"{count} at every stop"),
+            terms=(spacing,),
+            words=(f"{apart:g} m apart", ""),
         )
     if count == 1:
         raise unclear(part.terms, "one stop has no distance to another", "say how many, or leave the distance out")

@@ -6,9 +6,10 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from fieldhand.errors import PlaceError, TaskError
+from fieldhand.planning.english.asking import how_many, which_of
 from fieldhand.planning.english.attributes import attribute_of, filtered
 from fieldhand.planning.english.bag import Bag
-from fieldhand.planning.english.faults import Question, text_of
+from fieldhand.planning.english.faults import text_of
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.inrow import ends_of_rows, every_nth, next_in_row, opposite, ranked_in_rows, stepped
 from fieldhand.planning.english.onebyone import distributed
@@ -173,7 +174,7 @@ def _points(bag: Bag, group: Group) -> Found | None:
     if bag.each or bag.as_many or bag.up_to or bag.more or bag.another:
         raise bag.fault("how many points are meant?", "say 'at 4 points in the zone', for example")
     if place is not None and place.plural and bag.count is None:
-        raise Question(f"'{text_of(bag.phrase.terms)}': how many points?", ("3", "4", "5"))
+        raise how_many(bag.phrase, ("3", "4", "5"), asked=f"'{text_of(bag.phrase.terms)}': how many points?")
     bag.any = False
     count = bag.count or 1
     return Found(selector=s.PointsIn(zone=zone.zone, count=count), many=count > 1, counted=count)
@@ -198,7 +199,7 @@ def _ranked(bag: Bag, of: s.Selector, plural: bool, pick: Callable[[int, s.Selec
             raise bag.fault("a rank and several trees at once", "say which one, or how many")
         return Found(selector=pick(1, s.Excluding(places=pick(rank.value - 1, of), of=of)), counted=1)
     if plural:
-        raise Question(f"'{text_of(bag.phrase.terms)}': how many?", ("2", "3", "4"))
+        raise how_many(bag.phrase)
     number = bag.count or 1
     return Found(selector=pick(number, of), many=number > 1, counted=number, each=bag.each)
 
@@ -212,7 +213,7 @@ def _first_or_last(bag: Bag, of: s.Selector, site: Site) -> Found:
         advice = "name the tree by its id, or by a side: 'the second northernmost tree'"
         raise bag.fault(f"'{rank.text}' could be counted in several ways", advice)
     if bag.plural and bag.count is None:
-        raise Question(f"'{text_of(bag.phrase.terms)}': how many?", ("2", "3", "4"))
+        raise how_many(bag.phrase)
     if number == 1:
         return Found(selector=s.First(of=of) if last is None else s.Last(of=of), counted=1)
     marker: s.MarkerName = "start" if last is None else "end"
@@ -241,9 +242,9 @@ def _some_of(bag: Bag, of: s.Selector, *, plural: bool, site: Site, single: bool
     if single and count in (None, 1):
         return Found(selector=of)
     if bag.any and plural and count is None:
-        raise Question(f"'{text}': how many of them?", ("2", "4", "all of them"))
+        raise how_many(bag.phrase, ("2", "4"), asked=f"'{text}': how many of them?", of_all=True)
     if bag.article == "some" and plural and count is None:
-        raise Question(f"'{text}': how many?", ("2", "4", "all of them"))
+        raise how_many(bag.phrase, ("2", "4"), of_all=True)
     bare = of == s.Trees()
     if bare and bag.definite and count is None and not bag.each:
         if not plural:
@@ -267,8 +268,8 @@ def _every(bag: Bag, of: s.Selector, plural: bool, site: Site) -> Found:
     if claimed is not None and there is not None and there != claimed:
         what = f"'{text_of(bag.phrase.terms)}': there are {there} such trees"
         if there < claimed:
-            raise Question(f"{what}, not {claimed}", (f"all {there} of them",) if there else ())
-        raise Question(f"{what}; which are meant?", (f"all {there} of them", f"any {claimed} of them"))
+            raise which_of(bag.phrase, f"{what}, not {claimed}", there=there, claimed=None)
+        raise which_of(bag.phrase, f"{what}; which are meant?", there=there, claimed=claimed)
     if claimed == 1:
         return Found(selector=s.Take(count=1, of=of))
     if claimed is not None and there is None and not bag.each:

@@ -72,7 +72,7 @@ def find(places: Places, site: Site) -> Found:
     """
     if any(join.value == "or" for join in places.joins):
         choices = tuple(text_of(chain.terms) for chain in places.chains)
-        raise Question(f"'{text_of(places.terms)}': which of them?", choices)
+        raise Question(f"'{text_of(places.terms)}': which of them?", choices, terms=places.terms)
     found: list[Found] = []
     places = one_each(places)
     for chain, excepted in _chains(places):

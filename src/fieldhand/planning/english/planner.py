@@ -17,13 +17,14 @@ from fieldhand.planning.english.leaving import place_unsure
 from fieldhand.planning.english.lexicon import Lexicon, lexicon_for
 from fieldhand.planning.english.limits import Limit
 from fieldhand.planning.english.remarks import without_remarks
+from fieldhand.planning.english.rewording import Worded, as_typed
 from fieldhand.planning.english.spelling import respelt
 from fieldhand.planning.english.syntax import NotParsed, parse
 from fieldhand.planning.english.tokens import Term, Word, words_of
 from fieldhand.planning.english.told import Told, settle
 from fieldhand.planning.english.wording import reworded
 from fieldhand.planning.foreseen import foreseeable
-from fieldhand.planning.planner import Clarify, Outcome, Planned, Reason, Refused
+from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Reason, Refused
 from fieldhand.robot.capabilities import measures_of
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context
@@ -52,30 +53,62 @@ class EnglishPlanner:
     Every word of a request is used, is known to mean nothing to a plan, or is reported: nothing is dropped in silence.
     """
 
-    def plan(self, request: str, site: Site, robot: RobotProfile) -> Outcome:
-        """Plan a request.
+    def plan(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...] = ()) -> Outcome:
+        """Plan a request. Each answer is read in place of the words that its question was about.
 
         Raises:
             RequestError: The request is empty, too long, or holds characters that no document can hold.
         """
         _check_text(request)
-        lexicon = lexicon_for(robot, site)
-        words, notes = respelt(reworded(words_of(request)), lexicon)
-        terms, aside, remarks = without_remarks(lexicon.terms(words), request)
-        try:
-            asked = without_filler(terms, request)
-            unknown = _unknown(asked.terms, lexicon)
-            if unknown:
-                return Refused(reasons=unknown, planner=NAME)
-            arranged = arrange(asked)
-            arranged = replace(arranged, filler=(*arranged.filler, *aside), remarks=tuple(remarks), notes=tuple(notes))
-            _all_accounted(words, arranged)
-            told = _told(arranged, request, robot, site)
-            return _planned(request, told, site, robot)
-        except Unclear as unclear:
-            return Refused(reasons=(unclear.reason,), planner=NAME)
-        except Question as question:
-            return Clarify(question=question.question, choices=question.choices, planner=NAME)
+        worded = Worded.typed(request)
+        taken: tuple[Answer, ...] = ()
+        while True:
+            try:
+                return _read(request, worded, taken, site, robot)
+            except Unclear as unclear:
+                return _refused(worded, (unclear.reason,))
+            except Question as question:
+                given = next((a for a in answers if a.question == question.question and a not in taken), None)
+                if given is None:
+                    return Clarify(question=question.question, choices=question.choices, planner=NAME)
+                words = question.words_of(given.answer)
+                if not words:
+                    return _refused(worded, (_unanswered(question, given, known=words is not None),))
+                worded, taken = worded.with_words(question.said, words), (*taken, given)
+
+
+def _read(request: str, worded: Worded, taken: tuple[Answer, ...], site: Site, robot: RobotProfile) -> Outcome:
+    """Plan a request with the words of the answers that were taken.
+
+    Raises:
+        Unclear, Question: As the words are, they mean nothing here, or several things.
+    """
+    lexicon = lexicon_for(robot, site)
+    words, notes = respelt(reworded(words_of(worded.text)), lexicon)
+    terms, aside, remarks = without_remarks(lexicon.terms(words), worded.text)
+    asked = without_filler(terms, worded.text)
+    unknown = _unknown(asked.terms, lexicon)
+    if unknown:
+        return _refused(worded, unknown)
+    arranged = arrange(asked)
+    arranged = replace(arranged, filler=(*arranged.filler, *aside), remarks=tuple(remarks), notes=tuple(notes))
+    _all_accounted(words, arranged)
+    told = _told(arranged, worded.text, robot, site)
+    told.assumptions += [str(answer) for answer in taken]
+    as_typed(told, worded)
+    return _planned(request, told, site, robot)
+
+
+def _refused(worded: Worded, reasons: tuple[Reason, ...]) -> Refused:
+    return Refused(reasons=tuple(replace(r, said=worded.spans(r.said)) for r in reasons), planner=NAME)
+
+
+def _unanswered(question: Question, given: Answer, *, known: bool) -> Reason:
+    """Why an answer does not help: it is none of the choices, or nobody knows where its words would stand."""
+    if known:
+        return Reason(what=f"'{given.answer}' has to be said in the request", advice="say it there, and plan again")
+    choices = ", ".join(f"'{choice}'" for choice in question.choices) or "say it in the request, and plan again"
+    return Reason(what=f"'{given.answer}' does not answer '{question.question}'", advice=f"choose: {choices}")
 
 
 def _check_text(request: str) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from fieldhand.planning.english.asking import how_many
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question
 from fieldhand.planning.english.found import Found
@@ -40,13 +41,15 @@ def corners(bag: Bag, of: s.Selector) -> Found:
         return Found(selector=s.Take(count=bag.count, of=everything), many=bag.count > 1, counted=bag.count)
     if plural or bag.count == len(names):
         if bag.any:
-            raise Question("how many of the corners?", ("1", "2", "all 4"))
+            corners = ("a corner", "2 corners", "all 4 corners")
+            raise Question("how many of the corners?", ("1", "2", "all 4"), terms=bag.phrase.terms, words=corners)
         return Found(selector=everything, many=True, each=bag.each, counted=bag.count)
     if bag.take("NEAREST") is not None:
         return Found(selector=s.Nearest(to=s.Here(), of=everything))
     if bag.any or bag.article in ("a", "an", "some"):
         return Found(selector=s.Take(count=1, of=everything))
-    raise Question("which corner?", _CORNER_WORDS)
+    words = tuple(f"{word} corner" for word in _CORNER_WORDS)
+    raise Question("which corner?", _CORNER_WORDS, terms=() if corner is None else (corner,), words=words)
 
 
 def _which(bag: Bag) -> tuple[s.CornerName, ...]:
@@ -73,7 +76,7 @@ def middle(bag: Bag, of: s.Selector) -> Found:
     bag.take("SIDE")
     bag.any = False
     if tree is not None and tree.plural and bag.count is None:
-        raise Question("how many trees in the middle?", ("2", "3", "4"))
+        raise how_many(bag.phrase, asked="how many trees in the middle?")
     if bag.another or bag.take("OTHER") is not None:
         of = s.Other(of=of)
     count = bag.count or 1

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from fieldhand.planning.english.asking import how_many
 from fieldhand.planning.english.attributes import filtered
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question, text_of
@@ -106,6 +107,7 @@ def some_block(bag: Bag, group: Group, site: Site) -> Found:
         raise Question(
             f"'{text_of(bag.phrase.terms)}': which {'blocks' if plural else 'block'}?",
             tuple(f"block {name}" for name in names[:6]),
+            terms=bag.phrase.terms,
         )
     bag.take("PLOT")
     bag.finish()
@@ -208,7 +210,8 @@ def _described(bag: Bag, group: Group, size: int | None, site: Site) -> Found:
         rows = s.Rows(of=of)
         there = len(one_by_one(rows, site))
         if bag.count is not None and bag.count != there:
-            raise Question(f"'{text_of(bag.phrase.terms)}': there are {there} rows, not {bag.count}", ("all of them",))
+            raise Question(f"'{text_of(bag.phrase.terms)}': there are {there} rows, not {bag.count}", ("all of them",),
+                           terms=bag.phrase.terms, words=("all rows",))  # fmt: skip
         return _area(rows, bag, site, several=True)
     same = bag.take("SAME") is not None
     if (bag.definite or same or bag.article in ("its", "their")) and not plural and bag.count in (None, 1):
@@ -216,7 +219,7 @@ def _described(bag: Bag, group: Group, size: int | None, site: Site) -> Found:
         return Found(selector=s.RowOf(origin=origin, of=of), many=True, region=True, rows=True)
     some = tuple(f"row {row.name}" for row in site.planting.rows[:3])
     raise Question(f"'{text_of(bag.phrase.terms)}': which row?" if not plural else
-                   f"'{text_of(bag.phrase.terms)}': which rows?", some)  # fmt: skip
+                   f"'{text_of(bag.phrase.terms)}': which rows?", some, terms=bag.phrase.terms)  # fmt: skip
 
 
 def _check_numbers(bag: Bag, of: s.Selector, site: Site) -> None:
@@ -259,7 +262,7 @@ def _ranked(bag: Bag, start: From, of: s.Selector, site: Site) -> Found | None:
     if count > 1 and number > 1:
         raise bag.fault("a rank and several rows at once", "say which one, or how many")
     if bag.plural and bag.count is None:
-        raise Question(f"'{text_of(bag.phrase.terms)}': how many?", ("2", "3", "4"))
+        raise how_many(bag.phrase)
     first, end = (number, number + count - 1)
     if last is not None or behind is not None or start.far:
         first, end = -end, -first
@@ -282,7 +285,7 @@ def _middle(bag: Bag, of: s.Selector, site: Site) -> Found:
     if len(rows) % 2 == 0 or bag.plural or bag.count not in (None, 1):
         half = len(rows) // 2
         choices = tuple(f"row {row.name}" for row in rows[half - 1 : half + 1])
-        raise Question(f"'{text_of(bag.phrase.terms)}': there are {len(rows)} rows", choices)
+        raise Question(f"'{text_of(bag.phrase.terms)}': there are {len(rows)} rows", choices, terms=bag.phrase.terms)
     number = rows[len(rows) // 2].name
     return _area(s.Rows(first=number, last=number, of=of), bag, site, several=False)
 
@@ -305,7 +308,7 @@ def _in_one_block(bag: Bag, called: str, name: str, of: s.Selector, site: Site) 
         blocks = exact
     if len(blocks) > 1:
         choices = tuple(f"{called} of block {block.name}" for block in blocks[:6])
-        raise Question(f"'{text_of(bag.phrase.terms)}': of which block?", choices)
+        raise Question(f"'{text_of(bag.phrase.terms)}': of which block?", choices, terms=bag.phrase.terms)
 
 
 def _area(selector: s.Selector, bag: Bag, site: Site, *, several: bool) -> Found:

@@ -198,7 +198,12 @@ def _tree_of_row(group: list[Term], _before: Term | None) -> list[Term]:
     row, *_, tree = group
     if len(group) > 2:
         said = text_of(group)
-        raise Question(f"'{said}': {tree.text} of {row.text}, or both?", (f"{tree.text} of {row.text}", "both"))
+        raise Question(
+            f"'{said}': {tree.text} of {row.text}, or both?",
+            (f"{tree.text} of {row.text}", "both"),
+            terms=group,
+            words=(f"{tree.text} of {row.text}", f"{tree.text} and {row.text}"),
+        )
     return [tree, silent("OF", tree.end), row]
 
 

@@ -260,5 +260,5 @@ def _level(word: Term, quantity: str, robot: RobotProfile) -> c.Condition:
     level = name if name in levels else word.value
     if level not in levels:
         what = f"what is a {level} {quantity.replace('_', ' ')}? {robot.name} gives no such word for it"
-        raise Question(f"{what}; say a threshold in {robot.quantity[quantity].unit}", tuple(levels))
+        raise Question(f"{what}; say a threshold in {robot.quantity[quantity].unit}", tuple(levels), terms=(word,))
     return c.Level(reading="", quantity="", level=level)

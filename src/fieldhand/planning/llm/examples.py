@@ -16,14 +16,14 @@ _NEIGHBOURS = f"""\
   <task-composition>
     <plan>
       <sequence>
-        <act label="corner"><sample_leaf/><at><corners which="sw"/></at></act>
-        <for-each>
+        <act label="corner" words="Sample a leaf"><sample_leaf/><at><corners which="sw"/></at></act>
+        <for-each words="each of the two trees">
           <select><nearest count="2" adjacent="true"><to><bound label="corner"/></to></nearest></select>
-          <body><act><take_picture/></act></body>
+          <body><act words="photograph"><take_picture/></act></body>
         </for-each>
       </sequence>
     </plan>
-    <exits nominal="return_to_start"/>
+    <exits nominal="return_to_start" words="come back to the start"/>
   </task-composition>
 </task>"""
 

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import asdict
 from datetime import datetime
 from pathlib import Path
 
 from fieldhand.errors import ModelError, RequestError
 from fieldhand.planning.llm.answer import QuestionAnswer, RefusalAnswer, TaskAnswer, Unusable, read_answer
 from fieldhand.planning.llm.chat import Chat, Message, Reply
-from fieldhand.planning.llm.prompt import opening, repair
+from fieldhand.planning.llm.prompt import answered, opening, repair
 from fieldhand.planning.llm.review import Problem, read_draft, review
 from fieldhand.planning.llm.settings import LlmSettings
 from fieldhand.planning.llm.transcript import TranscriptWriter, wall_clock
 from fieldhand.planning.llm.transport import ModelChat
-from fieldhand.planning.planner import Clarify, Outcome, Planned, Reason, Refused
+from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Reason, Refused
 from fieldhand.robot.capabilities import capabilities_of, measures_of
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -58,8 +59,8 @@ class LlmPlanner:
         self._transcript_path = transcript
         self._note = note
 
-    def plan(self, request: str, site: Site, robot: RobotProfile) -> Outcome:
-        """Plan one request.
+    def plan(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...] = ()) -> Outcome:
+        """Plan one request. Answers go back to the model as what followed its questions.
 
         Raises:
             RequestError: The request is empty or too long.
@@ -76,23 +77,24 @@ class LlmPlanner:
             site={"name": site.name, "sha256": site.sha256},
             robot={"name": robot.name, "sha256": robot.sha256},
             note=self._note,
+            **({"answers": [asdict(answer) for answer in answers]} if answers else {}),
         )
         try:
-            outcome = self._converse(request, site, robot)
+            outcome = self._converse(request, site, robot, answers)
         except ModelError as error:
             self._transcript.end("failed", self._settings.redact(str(error)))
             raise
         self._transcript.end(type(outcome).__name__.lower())
         return outcome
 
-    def _converse(self, request: str, site: Site, robot: RobotProfile) -> Outcome:
+    def _converse(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...]) -> Outcome:
         """Ask until an answer can be used, at most ``repairs`` times more than once."""
-        talk: list[Message] = [*opening(request, site, robot)]
+        talk: list[Message] = [*opening(request, site, robot), *answered(answers)]
         new: Sequence[Message] = talk
         problems: tuple[Problem, ...] = ()
         for tries_left in range(self._settings.repairs, -1, -1):
             reply = self._chat.ask(talk)
-            outcome = self._understand(reply, request, site, robot)
+            outcome = self._understand(reply, request, site, robot, answers)
             problems = outcome if isinstance(outcome, tuple) else ()
             said = [str(problem) for problem in problems[:MOST_PROBLEMS]]
             self._transcript.exchange(list(new), reply, said)
@@ -104,7 +106,9 @@ class LlmPlanner:
                 talk += [Message(role="assistant", text=reply.text.strip() or "(nothing)"), *new]
         raise self._unusable(problems)
 
-    def _understand(self, reply: Reply, request: str, site: Site, robot: RobotProfile) -> Outcome | tuple[Problem, ...]:
+    def _understand(
+        self, reply: Reply, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...]
+    ) -> Outcome | tuple[Problem, ...]:
         """What a reply comes to: an outcome, or why it cannot be used."""
         name = self._settings.name
         answer = read_answer(reply)
@@ -112,16 +116,16 @@ class LlmPlanner:
             case Unusable():
                 return (Problem(kind="answer", message=answer.reason),)
             case QuestionAnswer():
-                return Clarify(question=answer.question, choices=answer.choices, planner=name)
+                return Clarify(question=answer.question, choices=answer.choices, planner=name, free=True)
             case RefusalAnswer():
                 return Refused(reasons=(Reason(what=answer.reason),), planner=name)
             case TaskAnswer():
                 capabilities = capabilities_of(robot)
-                draft = read_draft(answer.document, capabilities)
+                draft = read_draft(answer.document, capabilities, request)
                 if isinstance(draft, tuple):
                     return draft
                 problems = review(draft, site, capabilities)
-                return problems or _planned(draft, request, site, robot, name)
+                return problems or _planned(draft, request, site, robot, name, answers)
 
     def _unusable(self, problems: Sequence[Problem]) -> ModelError:
         """The clear failure at the end of the last try, with the last problems."""
@@ -155,7 +159,9 @@ def _check(request: str) -> None:
         raise RequestError(what, advice="leave it out")
 
 
-def _planned(draft: Draft, request: str, site: Site, robot: RobotProfile, name: str) -> Planned:
+def _planned(
+    draft: Draft, request: str, site: Site, robot: RobotProfile, name: str, answers: tuple[Answer, ...]
+) -> Planned:
     task = make_task(
         request=request,
         plan=draft.plan,
@@ -167,6 +173,8 @@ def _planned(draft: Draft, request: str, site: Site, robot: RobotProfile, name: 
         constraints=draft.constraints,
         nominal=draft.nominal,
         faulted=draft.faulted or FAULTED_EXITS,
-        assumptions=draft.assumptions,
+        assumptions=(*map(str, answers), *draft.assumptions),
+        nominal_said=draft.nominal_said,
+        no_part=draft.no_part,
     )
     return Planned(task=task, planner=name)

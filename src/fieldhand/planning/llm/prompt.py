@@ -18,13 +18,14 @@ from fieldhand.planning.llm.chat import Message
 from fieldhand.planning.llm.examples import EXAMPLES
 from fieldhand.planning.llm.examples import ROBOT as EXAMPLE_ROBOT
 from fieldhand.planning.llm.language import describe_language
+from fieldhand.planning.planner import Answer
 from fieldhand.robot.model import Action, Parameter, Quantity, RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.codec_shapes import NAMESPACE
 
 #: Most characters of the summary of a robot, of the summary of a site, and of one line of either.
 MOST_DATA = 4_000
-MOST_OF_SITE = 1_600
+MOST_OF_SITE = 1_200
 LONGEST_LINE = 400
 #: Words that are shown for one action or quantity.
 SAID_WORDS = 6
@@ -57,6 +58,13 @@ def opening(request: str, site: Site, robot: RobotProfile) -> tuple[Message, Mes
         ]
     )
     return Message(role="system", text=instructions()), Message(role="user", text=asked)
+
+
+def answered(answers: Sequence[Answer]) -> Iterable[Message]:
+    """What the model asked, and what the operator answered."""
+    for given in answers:
+        yield Message(role="assistant", text=f"<question>{escape(given.question)}</question>")
+        yield Message(role="user", text=f"The operator answers: {given.answer}")
 
 
 def repair(problems: Sequence[str], tries_left: int) -> Message:

@@ -14,7 +14,7 @@ from fieldhand.planning.llm.planner import LlmPlanner
 from fieldhand.planning.llm.scripted import ScriptedAnswer, ScriptedEndpoint
 from fieldhand.planning.llm.settings import LlmSettings
 from fieldhand.planning.llm.transcript import Session
-from fieldhand.planning.planner import Outcome
+from fieldhand.planning.planner import Answer, Outcome
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
@@ -57,8 +57,9 @@ def replay(session: Session, site: Site, robot: RobotProfile) -> Outcome:
         model = str(session.about.get("planner", "llm:recorded")).removeprefix("llm:")
         # One answer was given to each question; a question past the record is a failure, not a fault that may pass.
         settings = replace(endpoint.settings(model=model), resends=0, repairs=max(0, len(session.exchanges) - 1))
-        outcome = LlmPlanner(settings).plan(session.request, site, robot)
-        if not endpoint.requests[0].text.endswith(session.request):
+        answers = tuple(Answer(**given) for given in session.about.get("answers", ()))
+        outcome = LlmPlanner(settings).plan(session.request, site, robot, answers)
+        if session.request not in endpoint.requests[0].text:
             raise ModelError("the request was not asked word for word", where="replay")
         if endpoint.unused:
             raise ModelError(

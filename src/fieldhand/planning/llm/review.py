@@ -10,10 +10,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import TYPE_CHECKING, Literal, get_args
 
 from fieldhand.errors import PlaceError, TaskError
 from fieldhand.planning.foreseen import foreseeable
+from fieldhand.planning.llm.quotes import place_quotes
 from fieldhand.site.context import Context
 from fieldhand.site.kinds import phrase
 from fieldhand.site.model import Place, Site
@@ -29,7 +30,10 @@ from fieldhand.task.references import references
 from fieldhand.task.schema import validate
 from fieldhand.task.selectors import Bound, InRow, RowOf, Selector
 
-Kind = Literal["answer", "schema", "reference", "site"]
+if TYPE_CHECKING:
+    from lxml.etree import _Element
+
+Kind = Literal["answer", "schema", "words", "reference", "site"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,7 +41,8 @@ class Problem:
     """Why an answer cannot be used.
 
     Attributes:
-        kind: ``answer``: no document could be read; ``schema``: not valid; ``reference``: a name that nothing binds;
+        kind: ``answer``: no document could be read; ``schema``: not valid; ``words``: quoted words that are not in
+            the request; ``reference``: a name that nothing binds;
             ``site``: this site does not have it.
         where: Line and element; empty where it is about no place of the document.
     """
@@ -50,11 +55,12 @@ class Problem:
         return f"[{self.kind}] " + (f"{self.where}: " if self.where else "") + self.message
 
 
-def read_draft(document: str, capabilities: Capabilities) -> Draft | tuple[Problem, ...]:
+def read_draft(document: str, capabilities: Capabilities, request: str = "") -> Draft | tuple[Problem, ...]:
     """The draft that a document holds, or each problem of its form.
 
     The ids of the nodes say where in the document they stand (``line 12 <act>``), for the messages that follow;
-    ``task.build.make_task`` gives them their own. Ids and spans that the model wrote do not count.
+    ``task.build.make_task`` gives them their own. Ids and ranges that the model wrote do not count: it quotes the words
+    of the request, and where they stand is found here.
     """
     data = _with_namespace(document).encode()
     invalid = validate(data, capabilities, draft=True)
@@ -63,8 +69,12 @@ def read_draft(document: str, capabilities: Capabilities) -> Draft | tuple[Probl
             Problem(kind="schema", message=p.message, where=f"line {p.line}" + (f" <{p.element}>" if p.element else ""))
             for p in invalid
         )
+    root = parse_xml(data)
+    unsaid = place_quotes(root, request)
+    if unsaid:
+        return tuple(Problem(kind="words", message=message, where=where) for where, message in unsaid)
     try:
-        return decode_draft(_with_lines(data))
+        return decode_draft(_with_lines(root))
     except TaskError as error:
         return (Problem(kind="schema", message=_said(error), where=error.where),)
 
@@ -84,18 +94,16 @@ def _with_namespace(document: str) -> str:
     return re.sub(r"^<task\b", f'<task xmlns="{NAMESPACE}"', document, count=1)
 
 
-def _with_lines(data: bytes) -> bytes:
-    """The document with the place of each node as its id, each once, and without spans."""
+def _with_lines(root: _Element) -> bytes:
+    """The document with the place of each node as its id, each once."""
     from lxml import etree
 
-    root = parse_xml(data)
     nodes = {f"{{{NAMESPACE}}}{element_name(cls)}" for cls in get_args(Node)}
     used: dict[str, int] = {}
     for element in root.iter(*nodes):
         name = f"line {line_of(element)} <{etree.QName(element).localname}>"
         used[name] = used.get(name, 0) + 1
         element.set("id", name if used[name] == 1 else f"{name} no. {used[name]}")
-        element.attrib.pop("said", "")
     encoded: bytes = etree.tostring(root, encoding="UTF-8")
     return encoded
 

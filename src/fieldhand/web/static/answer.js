@@ -7,9 +7,9 @@ const MANY = 8; // more stops of one line than this are counted
 
 export const title = (answer) => TITLES[answer.outcome];
 
-// The answer as elements. `map` lights up stops.
-export function render(answer, request, map) {
-  if (answer.outcome === "clarify") return question(answer);
+// The answer as elements. `map` lights up stops; `reply` takes the answer to a question.
+export function render(answer, request, map, reply) {
+  if (answer.outcome === "clarify") return question(answer, reply);
   if (answer.outcome === "refused") return refusal(answer, request);
   const parts = [...words(answer), ...problems(answer), ...answer.warnings.map((w) => notice("warning", sentence(w)))];
   if (answer.read_back) parts.push(steps(answer, map), ...rest(answer.read_back), totals(answer.read_back.totals));
@@ -26,11 +26,16 @@ function words({ words: pieces }) {
   return [el("blockquote", { class: "said" }, shown), el("ul", { class: "word-legend", "aria-label": "What the words became" }, legend)];
 }
 
-// Which words of the request a choice would replace only the person knows, so the choices are shown, not inserted.
-function question(answer) {
-  const choices = answer.choices.map((choice) => el("li", {}, choice));
-  const advice = "Say it in the request, and plan again.";
-  return [el("p", { class: "question" }, answer.question), el("ul", { class: "choices" }, choices), el("p", { class: "hint" }, advice)];
+// The choices are buttons: a click plans again with the answer. Other words go into the request, or, where the planner
+// takes them as an answer, into a field of their own.
+function question({ question: asked, choices, free }, reply) {
+  const choice = (text) => el("li", {}, el("button", { type: "button", class: "example", onclick: () => reply(asked, text) }, text));
+  const parts = [el("p", { class: "question" }, asked), el("ol", { class: "choices" }, choices.map(choice))];
+  if (!free) return [...parts, el("p", { class: "hint" }, "Or say it in the request, and plan again.")];
+  const words = el("input", { id: "other-words", maxlength: 2000, required: true });
+  const send = (event) => (event.preventDefault(), reply(asked, words.value));
+  const label = el("label", { for: "other-words" }, "In other words");
+  return [...parts, el("form", { class: "field", onsubmit: send }, label, words, el("button", { type: "submit", class: "example" }, "Answer"))];
 }
 
 function refusal(answer, request) {

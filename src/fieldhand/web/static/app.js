@@ -25,6 +25,7 @@ const map = new FieldMap();
 let robots = [];
 let uploaded = null; // {name, text} of the user's own site
 let plan = null; // {answer, site, robot}: what approval is about
+let answers = []; // to the questions that were asked about this request
 let flight = null;
 let calling = null;
 
@@ -34,7 +35,7 @@ async function begin() {
   $("examples").append(...EXAMPLES.map((text) => el("button", { type: "button", class: "example", onclick: () => take(text) }, text)));
   $("legend").append(...LEGEND.map(([kind, words]) => el("li", {}, el("span", { class: `key ${kind}` }), words)));
   $("by").value = localStorage.getItem("fieldhand.by") ?? "";
-  $("plan-form").addEventListener("submit", (event) => submit(event, planRequest));
+  $("plan-form").addEventListener("submit", (event) => submit(event, () => ((answers = []), planRequest())));
   $("approve-form").addEventListener("submit", (event) => submit(event, simulate));
   $("request").addEventListener("keydown", (event) => {
     if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) $("plan-form").requestSubmit();
@@ -106,6 +107,7 @@ function siteWords({ name, trees, attributes }) {
 
 // What stands below belongs to other words: it goes, so that nothing else than what is read is approved.
 function outdate() {
+  answers = [];
   plan = null;
   flight?.pause();
   map.clearPlan();
@@ -118,9 +120,12 @@ async function planRequest() {
     $("plan-notice").replaceChildren(notice("error", "Choose the GeoJSON file of your site first."));
     return;
   }
+  const given = answers;
   outdate();
+  answers = given;
   await during($("plan-button"), $("plan-notice"), async (signal) => {
-    const answer = await post("/api/plan", { request, site, robot, planner: $("planner").value }, signal);
+    const body = { request, site, robot, planner: $("planner").value, answers };
+    const answer = await post("/api/plan", body, signal);
     // Words that were changed meanwhile have another plan.
     if ($("request").value !== request || chosenSite() !== site || $("robot").value !== robot) return;
     if (answer.outcome === "planned") {
@@ -133,11 +138,16 @@ async function planRequest() {
 
 function showAnswer(answer, request) {
   $("answer-title").textContent = answerTitle(answer);
-  $("answer-body").replaceChildren(...renderAnswer(answer, request, map));
+  $("answer-body").replaceChildren(...renderAnswer(answer, request, map, reply));
   $("answer").hidden = false;
   $("approve").hidden = !(answer.outcome === "planned" && answer.approvable);
   $("answer").focus({ preventScroll: true });
   $("answer").scrollIntoView({ block: "nearest", behavior: "smooth" });
+}
+
+function reply(question, answer) {
+  answers = [...answers, { question, answer }];
+  planRequest();
 }
 
 async function simulate() {

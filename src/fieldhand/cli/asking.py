@@ -1,0 +1,121 @@
+"""Planning with questions: each is answered by what was given for it, by its first choice, or by the person there."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from rich.text import Text
+
+from fieldhand import mission
+from fieldhand.cli.inputs import Ground, may_ask
+from fieldhand.cli.show import err, fail_outcome, note
+from fieldhand.errors import RequestError
+from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Planner
+from fieldhand.task.frames import Task
+
+#: A planner that has asked so often about one request goes round in circles.
+MOST_QUESTIONS = 12
+
+
+@dataclass(frozen=True, kw_only=True)
+class Replies:
+    """How questions are answered.
+
+    Attributes:
+        given: Answers in the order in which they are used.
+        assume: Take the first choice where no answer is given, and say so among the assumptions.
+        ask: Ask the person at the terminal where there is one.
+    """
+
+    given: tuple[str, ...] = ()
+    assume: bool = False
+    ask: bool = True
+
+
+def plan_and_ask(request: str, ground: Ground, planner: Planner, replies: Replies) -> tuple[str, Outcome]:
+    """Plan a request, one question after the other.
+
+    Returns:
+        The request that was planned in the end (another one where a question was answered by one) and its outcome; a
+        question, where nobody answers it.
+
+    Raises:
+        RequestError: An answer is none, or there was no end of questions.
+    """
+    given = list(replies.given)
+    answers: tuple[Answer, ...] = ()
+    for _ in range(MOST_QUESTIONS + 1):
+        outcome = mission.plan(request, ground.site, ground.robot, planner, answers)
+        if not isinstance(outcome, Clarify):
+            for left in given:
+                note(f"the answer '{left}' was not needed")
+            return request, outcome
+        assumed = False
+        if given:
+            said = given.pop(0)
+        elif replies.assume and outcome.choices:
+            said, assumed = outcome.choices[0], True
+        elif replies.ask and may_ask():
+            said = _asked(outcome, sys.stdin.readline)
+        else:
+            return request, outcome
+        choice = _choice(said, outcome)
+        if choice is not None or outcome.free:
+            answers = (*answers, Answer(question=outcome.question, answer=choice or said, assumed=assumed))
+        elif replies.given:
+            raise RequestError(
+                f"'{said}' does not answer '{outcome.question}'",
+                where="--answer",
+                advice=f"give one of: {'; '.join(outcome.choices)}" if outcome.choices else "say it in the request",
+            )
+        else:
+            request, answers = said, ()
+    raise RequestError(f"no plan after {MOST_QUESTIONS} questions", advice="say the request in other words")
+
+
+def plan_or_read(
+    words: str, ground: Ground, planner: str, transcript: Path | None, replies: Replies
+) -> tuple[Task, bytes | None, str]:
+    """The Task of a request, or of a Task document if ``words`` is a file that ends in ``.xml``; and who planned it.
+
+    Ends the program with status 2 where the planner refuses, or has a question that nobody answers.
+    """
+    if words.lower().endswith(".xml") and "\n" not in words:
+        task, document = mission.read_task(Path(words), ground.robot)
+        return task, document, "file"
+    words, outcome = plan_and_ask(words, ground, mission.make_planner(planner, os.environ, transcript), replies)
+    if not isinstance(outcome, Planned):
+        fail_outcome(words, outcome)
+    for warning in outcome.warnings:
+        note(warning)
+    return outcome.task, None, outcome.planner
+
+
+def _asked(asked: Clarify, read: Callable[[], str]) -> str:
+    """One question at the terminal, and what was typed."""
+    err.print(Text("A question first: ", style="bold") + Text(asked.question))
+    for number, choice in enumerate(asked.choices, start=1):
+        err.print(Text(f"  {number}. {choice}"))
+    other = "other words" if asked.free else "the whole request in other words"
+    numbers = f"1 to {len(asked.choices)}, or " if len(asked.choices) > 1 else "1, or " if asked.choices else ""
+    err.print(Text(f"{numbers}{other}: "), end="")
+    try:
+        said = read().strip()
+    except KeyboardInterrupt:
+        said = ""
+    if not said:
+        raise RequestError("no answer was given, nothing was planned", advice="answer, or say it in the request")
+    return said
+
+
+def _choice(said: str, asked: Clarify) -> str | None:
+    """The choice that a number or its own words name. Words come first: a choice may be a number itself."""
+    named = [choice for choice in asked.choices if choice.lower() == said.strip().lower()]
+    if named:
+        return named[0]
+    number = int(said) if said.strip().isdecimal() else 0
+    return asked.choices[number - 1] if 0 < number <= len(asked.choices) else None

@@ -1,0 +1,129 @@
+"""Questions at the command line: answered by option, by the first choice, or by the person at the terminal."""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import pytest
+
+from command import fieldhand
+from fieldhand.cli import asking, show
+from fieldhand.cli.asking import MOST_QUESTIONS, Replies, plan_and_ask
+from fieldhand.cli.inputs import Ground
+from fieldhand.errors import RequestError
+from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned
+from fieldhand.robot.loader import load_robot
+from fieldhand.site.geojson import open_site
+from fieldhand.site.model import Site
+from fieldhand.task.build import make_task
+from fieldhand.task.plan import Stop
+
+GROUND = Ground(site=open_site("demo"), robot=load_robot("husky"))
+PLANNED = Planned(task=make_task(request="go", plan=Stop(id=""), measures={}), planner="asks")
+
+
+@dataclass
+class Asks:
+    """A planner that asks some questions, one after the other, and then has a plan."""
+
+    questions: tuple[Clarify, ...]
+    requests: list[str] = field(default_factory=list)
+    answers: tuple[Answer, ...] = ()
+
+    def plan(self, request: str, site: Site, robot: object, answers: tuple[Answer, ...] = ()) -> Outcome:
+        self.requests.append(request)
+        self.answers = answers
+        return self.questions[len(answers)] if len(answers) < len(self.questions) else PLANNED
+
+
+TWO = (Clarify(question="Which end?", choices=("north", "south")), Clarify(question="How many?", choices=("4", "2")))
+
+
+@pytest.fixture
+def typed(monkeypatch: pytest.MonkeyPatch) -> Callable[[str], None]:
+    """A person at a terminal, who types this."""
+
+    def types(text: str) -> None:
+        monkeypatch.setattr(asking, "may_ask", lambda: True)
+        monkeypatch.setattr("sys.stdin", io.StringIO(text))
+
+    return types
+
+
+def test_one_question_after_the_other_is_answered_by_number_or_words(
+    typed: Callable[[str], None], capsys: pytest.CaptureFixture[str]
+) -> None:
+    typed("2\n4\n")
+    planner = Asks(TWO)
+    assert plan_and_ask("go", GROUND, planner, Replies()) == ("go", PLANNED)
+    assert planner.answers == (
+        Answer(question="Which end?", answer="south"),
+        Answer(question="How many?", answer="4"),
+    )
+
+
+@pytest.mark.parametrize("text", ["", "\n", "  \n"])
+def test_no_answer_ends_it_with_a_message(typed: Callable[[str], None], text: str) -> None:
+    typed(text)
+    with pytest.raises(RequestError, match="no answer was given, nothing was planned"):
+        plan_and_ask("go", GROUND, Asks(TWO), Replies())
+
+
+def test_other_words_are_another_request_or_an_answer_as_the_planner_says(typed: Callable[[str], None]) -> None:
+    typed("go there\nsouth\n4\n")
+    planner = Asks(TWO)
+    assert plan_and_ask("go", GROUND, planner, Replies())[0] == "go there"
+    typed("the one by the pond\n")
+    free = Asks((Clarify(question="Which end?", choices=("north",), free=True),))
+    assert plan_and_ask("go", GROUND, free, Replies())[0] == "go"
+    assert free.answers == (Answer(question="Which end?", answer="the one by the pond"),)
+
+
+def test_given_answers_come_first_and_the_rest_is_assumed_and_said() -> None:
+    planner = Asks(TWO)
+    plan_and_ask("go", GROUND, planner, Replies(given=("SOUTH",), assume=True))
+    assert planner.answers == (
+        Answer(question="Which end?", answer="south"),
+        Answer(question="How many?", answer="4", assumed=True),
+    )
+
+
+def test_a_planner_that_never_stops_asking_is_stopped() -> None:
+    with pytest.raises(RequestError, match=f"no plan after {MOST_QUESTIONS} questions"):
+        plan_and_ask("go", GROUND, Asks(TWO[:1] * 100), Replies(assume=True))
+
+
+def test_the_commands_take_answers_and_without_them_end_with_the_question() -> None:
+    words = ("plan", "take a picture of row 3", "--site", "demo", "--planner", "english")
+    asked = fieldhand(*words)
+    assert (asked.status, "2. at 4 trees" in asked.err) == (2, True)
+    done = fieldhand(*words, "--answer", "2", "--json")
+    assert done.status == 0
+    assert any('Answered: "at 4 trees".' in line for line in json.loads(done.out)["read_back"])
+    wrong = fieldhand(*words, "--answer", "perhaps")
+    assert wrong.status == 2
+    assert wrong.err.count("\n") == 1
+    assert "--answer: 'perhaps' does not answer" in wrong.err
+
+
+def test_the_words_of_a_request_are_shown_with_and_without_colour(monkeypatch: pytest.MonkeyPatch) -> None:
+    from rich.console import Console
+
+    from fieldhand.planning.english.planner import EnglishPlanner
+
+    planned = EnglishPlanner().plan("Please take a picture of tree 4.", GROUND.site, GROUND.robot)
+    assert isinstance(planned, Planned)
+    shown = {}
+    for system in ("standard", None):
+        page = io.StringIO()
+        monkeypatch.setattr(
+            show, "out", Console(file=page, force_terminal=system is not None, color_system=system, width=200)
+        )
+        show.show_request(planned.task)
+        shown[system] = page.getvalue()
+    assert "\x1b[1;34mtake a picture\x1b[0m" in shown["standard"]
+    assert "\x1b" not in shown[None]
+    assert "(no part in the plan: Please; action: take a picture; place: tree 4)" in shown[None]
