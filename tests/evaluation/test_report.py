@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import math
+from dataclasses import replace
 
 import pytest
 from hypothesis import given, settings
@@ -104,6 +105,14 @@ def test_the_report_says_what_was_asked_what_came_of_it_and_what_it_took(tmp_pat
     assert "simulated with seed 4" in text
     assert r"Approved by Ada \| Co" in text
     assert files.picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_report_says_what_became_of_the_words_where_the_task_says_it(tmp_path):
+    told = replace(TASK, composition=replace(TASK.composition, nominal_said=((0, 2),)))
+    text = written(tmp_path, log(), task=told).markdown.read_text(encoding="utf-8")
+    assert "- end: Do\n" in text
+    assert "- not in the plan: b; b\n" in text
+    assert "by what became of them" not in written(tmp_path, log()).markdown.read_text(encoding="utf-8")
 
 
 def test_a_log_that_was_cut_off_is_reported_as_such(tmp_path):
