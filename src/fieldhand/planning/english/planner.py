@@ -84,8 +84,10 @@ def _read(request: str, worded: Worded, taken: tuple[Answer, ...], site: Site, r
         Unclear, Question: As the words are, they mean nothing here, or several things.
     """
     lexicon = lexicon_for(robot, site)
-    words, notes = respelt(reworded(words_of(worded.text)), lexicon)
+    said = words_of(worded.text)
+    words, notes = respelt(reworded(said), lexicon)
     terms, aside, remarks = without_remarks(lexicon.terms(words), worded.text)
+    aside = [*aside, *_turned(said, words)]
     asked = without_filler(terms, worded.text)
     unknown = _unknown(asked.terms, lexicon)
     if unknown:
@@ -97,6 +99,12 @@ def _read(request: str, worded: Worded, taken: tuple[Answer, ...], site: Site, r
     told.assumptions += [str(answer) for answer in taken]
     as_typed(told, worded)
     return _planned(request, told, site, robot)
+
+
+def _turned(said: Sequence[Word], words: Sequence[Word]) -> list[p.Span]:
+    """The words that a turn of phrase has in excess: none of the words that it was put into stands for them."""
+    kept = [(w.start, w.end) for w in words]
+    return [(w.start, w.end) for w in said if not any(start <= w.start and w.end <= end for start, end in kept)]
 
 
 def _refused(worded: Worded, reasons: tuple[Reason, ...]) -> Refused:
