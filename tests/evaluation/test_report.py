@@ -108,10 +108,10 @@ def test_the_report_says_what_was_asked_what_came_of_it_and_what_it_took(tmp_pat
 
 
 def test_the_report_says_what_became_of_the_words_where_the_task_says_it(tmp_path):
-    told = replace(TASK, composition=replace(TASK.composition, nominal_said=((0, 2),)))
+    told = replace(TASK, composition=replace(TASK.composition, nominal_said=((6, 7),)))
     text = written(tmp_path, log(), task=told).markdown.read_text(encoding="utf-8")
-    assert "- end: Do\n" in text
-    assert "- not in the plan: b; b\n" in text
+    assert "- end: b\n" in text
+    assert "- not in the plan: b\n" in text
     assert "by what became of them" not in written(tmp_path, log()).markdown.read_text(encoding="utf-8")
 
 
