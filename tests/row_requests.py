@@ -953,7 +953,7 @@ ASKED = [
     ("husky", "take a picture of every tree in two rows", "'two rows': which rows?"),
     ("husky", "take a picture of trees in row 3 or row 4", "'trees in row 3 or row 4': which of them?"),
     ("husky", "take a picture of row 3, tree 5", "'row 3 , tree 5': tree 5 of row 3, or both?"),
-    ("husky", "take a picture of rows 2-4", "'take a picture of rows 2 - 4': at every tree, or at how many?"),
+    ("husky", "take a picture of rows 2-4", "'take a picture of rows 2-4': at every tree, or at how many?"),
     ("husky", "take a picture of each tree in row 3, then in row 5", "'in row 5': at every tree, or at how many?"),
     (
         "husky",
