@@ -1,0 +1,271 @@
+"""Numbers of a request: what each counts or measures, as far as the words right around it say so."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import zip_longest
+from typing import Literal
+
+from fieldhand.planning.facts import words as w
+from fieldhand.planning.facts.words import Token
+
+AmountKind = Literal[
+    "id", "row", "name", "rows", "trees", "captures", "corners", "times", "length", "time", "attribute", "percent",
+    "temperature", "unit", "ordinal", "plain",
+]  # fmt: skip
+
+#: Words that may stand between the numbers of a list of names ("trees 4, 9 and 12").
+_JOINS = frozenset({",", "and", "or", "&", "to", "-", "\u2013", "through", "thru", "then", "#"})
+_RANGES = frozenset({"to", "-", "\u2013", "through", "thru"})
+_NUMBERED = frozenset({"#", "number", "no", "nr", "id", "ids", "numbers"})
+#: More digits than these are no amount of anything on a farm.
+_LONGEST = 15
+#: How far before a number the word stands that compares with it.
+_COMPARED = 5
+
+
+@dataclass(frozen=True, kw_only=True)
+class Amount:
+    """A number of the request.
+
+    Attributes:
+        values: What it may be in the unit that plans use (metres, seconds, degC, percent, a plain number).
+        said: The words, for messages.
+        actions: Of captures: the actions that the noun may mean.
+        unit: Of a ``unit``: which.
+        index: Which token it is.
+        compared: ``below`` or ``above`` where it is a threshold, ``between`` for the end of a range, else empty.
+        through: Of an ``id`` or ``row``: the last number of the range that it begins, else 0.
+    """
+
+    kind: AmountKind
+    values: tuple[float, ...]
+    said: str
+    index: int
+    sentence: int
+    actions: frozenset[str] = frozenset()
+    unit: str = ""
+    compared: str = ""
+    through: int = 0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Noun:
+    """What a robot's words at a token may mean: a phrase of so many tokens, and the actions that it may stand for."""
+
+    length: int
+    actions: frozenset[str]
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Number:
+    value: float
+    start: int
+    end: int
+    ordinal: bool = False
+
+
+def amounts(said: Sequence[Token], nouns: dict[int, Noun], units: frozenset[str]) -> tuple[Amount, ...]:
+    """Every number of a request.
+
+    Args:
+        said: The request.
+        nouns: By token, the words of the robot that begin there.
+        units: Of the quantities that the robot measures, in lower case.
+    """
+    found: list[Amount] = []
+    for number in _numbers(said):
+        amount = _amount(said, number, nouns, units)
+        before = found[-1] if found else None
+        if amount.kind == "plain" and before is not None and _listed(said, before, number):
+            amount = replace(amount, kind=before.kind)
+            if any(said[k].text in _RANGES for k in range(before.index + 1, number.start)) and len(amount.values) == 1:
+                found[-1] = replace(before, through=int(amount.values[0]))
+        found.append(amount)
+    return tuple(_shared_units(found, said))
+
+
+def numbers_of(amount: Amount) -> set[int]:
+    """The whole numbers that an amount stands for, all of a range."""
+    found = {int(v) for v in amount.values if float(v).is_integer()}
+    return found | set(range(int(amount.values[0]), min(amount.through, int(amount.values[0]) + 10_000) + 1))
+
+
+def _numbers(said: Sequence[Token]) -> Iterator[_Number]:
+    """Numbers in digits and in words; "one" alone is a pronoun as often as a number and says nothing."""
+    k = 0
+    while k < len(said):
+        text = said[k].text
+        if w.is_number(text) and len(text) <= _LONGEST:
+            rank = k + 1 < len(said) and said[k + 1].joined and said[k + 1].text in ("st", "nd", "rd", "th")
+            yield _Number(value=float(text.replace(",", "")), start=k, end=k + 1 + rank, ordinal=rank)
+            k += 1 + rank
+        elif text in w.ORDINALS:
+            yield _Number(value=float(w.ORDINALS[text]), start=k, end=k + 1, ordinal=True)
+            k += 1
+        elif text in w.NUMBERS or text in ("hundred", "thousand"):
+            value, end = _spelt(said, k)
+            yield _Number(value=value, start=k, end=end)
+            k = end
+        else:
+            k += 1
+
+
+def _spelt(said: Sequence[Token], start: int) -> tuple[float, int]:
+    """A number in words and where it ends: "twenty five", "two hundred and fifty"."""
+    total, k = 0.0, start
+    while k < len(said):
+        text = said[k].text
+        if text in w.NUMBERS and (k == start or w.NUMBERS[text] < _room(said[k - 1].text)):
+            total += w.NUMBERS[text]
+        elif text in ("hundred", "thousand") and total < 1e9:
+            total = max(total, 1.0) * (100.0 if text == "hundred" else 1000.0)
+        elif not (text in ("and", "-") and k + 1 < len(said) and said[k + 1].text in w.NUMBERS and _open(said, k)):
+            break
+        k += 1
+    return total, k
+
+
+def _room(before: str) -> float:
+    """How large a number word may be behind another one and belong to it."""
+    if before in ("hundred", "thousand", "and"):
+        return 100.0
+    return 10.0 if before == "-" or w.NUMBERS.get(before, 0.0) >= 20.0 else 0.0
+
+
+def _open(said: Sequence[Token], k: int) -> bool:
+    """Whether a number goes on behind a joining word: "hundred and fifty", "twenty-five", but not "two and three"."""
+    before = said[k - 1].text
+    if said[k].text == "-":
+        return w.NUMBERS.get(before, 0.0) >= 20.0 and w.NUMBERS[said[k + 1].text] < 10.0
+    return before in ("hundred", "thousand")
+
+
+def _amount(said: Sequence[Token], number: _Number, nouns: dict[int, Noun], units: frozenset[str]) -> Amount:
+    value, k = number.value, number.end
+    after = said[k].text if k < len(said) else ""
+    words = " ".join(t.text for t in said[number.start : min(k + 1, len(said))])
+    made = Amount(
+        kind="ordinal" if number.ordinal else "plain",
+        values=(value,),
+        said=words,
+        index=number.start,
+        sentence=said[number.start].sentence,
+        compared=_compared(said, number.start),
+    )
+    if number.ordinal:
+        return made
+    if after in w.LENGTHS:
+        return replace(made, kind="length", values=(value * w.LENGTHS[after],))
+    if after in w.TIMES:
+        return replace(made, kind="time", values=(value * w.TIMES[after],))
+    if after in w.PERCENT or (said[k : k + 2] and [t.text for t in said[k : k + 2]] == ["per", "cent"]):
+        return replace(made, kind="percent")
+    if after in w.DEGREES and _degrees(said, k):
+        return replace(made, kind="temperature", values=_celsius(value, said, k))
+    if after in units:
+        return replace(made, kind="unit", unit=after)
+    if after in w.AGES:
+        return replace(made, kind="attribute")
+    if after in ("times", "x"):
+        return replace(made, kind="times")
+    if after in w.ROWS:
+        return replace(made, kind="rows")
+    name = _name(said[max(0, number.start - 2) : number.start])
+    if name == "row" or (name and after not in w.TREES):
+        return replace(made, kind=name)
+    counted = _counted(said, k, nouns)
+    return made if counted is None else replace(made, kind=counted[0], actions=counted[1])
+
+
+def _name(before: Sequence[Token]) -> AmountKind | None:
+    """What a number is the name of, by the words right before it: "tree 7", "row #3"."""
+    texts = [token.text for token in before]
+    numbered = bool(texts) and texts[-1] in _NUMBERED
+    head = "" if not texts else texts[0] if numbered and len(texts) > 1 else texts[-1]
+    if head in w.ROWS:
+        return "row"
+    if head in ("block", "blocks", "plot", "parcel", "zone", "section"):
+        return "name"
+    if head in ("tree", "trees", "vine", "vines", "plant", "plants") or texts[-1:] == ["#"]:
+        return "id"
+    return None
+
+
+def _degrees(said: Sequence[Token], k: int) -> bool:
+    """Whether a degree sign or letter is a temperature: "90 F", "33c", but not "3 c ..." of anything else."""
+    text = said[k].text
+    return text not in ("c", "f") or k + 1 >= len(said) or not said[k + 1].joined or not said[k + 1].text.isalpha()
+
+
+def _celsius(value: float, said: Sequence[Token], k: int) -> tuple[float, ...]:
+    """A temperature in degC; both readings of it where the scale is not said."""
+    scale = next((t.text[0] for t in said[k : k + 4] if t.text in w.DEGREES and t.text[0] in "cf"), "")
+    fahrenheit = (value - 32.0) / 1.8
+    return (value,) if scale == "c" else (fahrenheit,) if scale == "f" else (value, fahrenheit)
+
+
+def _counted(said: Sequence[Token], k: int, nouns: dict[int, Noun]) -> tuple[AmountKind, frozenset[str]] | None:
+    """What a number counts: the noun at the end of the phrase that it begins."""
+    for at in range(k, min(k + 6, len(said))):
+        text = said[at].text
+        if at in nouns and nouns[at].actions:
+            return "captures", nouns[at].actions
+        if text in w.CORNERS:
+            return "corners", frozenset()
+        if text in w.TREES:
+            return "trees", frozenset()
+        if text in w.ROWS:
+            return None
+        if text in w.ENDS_PHRASE or w.is_number(text) or text in w.NUMBERS:
+            return None
+    return None
+
+
+def _compared(said: Sequence[Token], index: int) -> str:
+    """The comparison that a number is the threshold of."""
+    for k in range(index - 1, max(-1, index - 1 - _COMPARED), -1):
+        text = said[k].text
+        if text == "between" or (text == "from" and k + 2 < len(said) and said[k + 2].text == "to"):
+            return "between"
+        if text in w.BELOW or text in w.ABOVE:
+            side = "below" if text in w.BELOW else "above"
+            negated = any(t.text in w.NEGATIONS for t in said[max(0, k - 3) : k])
+            return "between" if negated else side
+        if text in (".", ";", ",", "if", "then"):
+            break
+    return ""
+
+
+def _listed(said: Sequence[Token], before: Amount, number: _Number) -> bool:
+    """Whether a bare number goes on with a list of names: "trees 4, 9 and 12"."""
+    if before.kind not in ("id", "row", "name") or number.ordinal:
+        return False
+    between = [t.text for t in said[before.index + 1 : number.start]]
+    return 0 < len(between) <= 2 and all(text in _JOINS for text in between)
+
+
+def _shared_units(found: Sequence[Amount], said: Sequence[Token]) -> Iterator[Amount]:
+    """ "Between 380 and 420 ppm": the first number has the unit of the second."""
+    for amount, following in zip_longest(found, found[1:]):
+        joined = following is not None and [t.text for t in said[amount.index + 1 : following.index]] in (
+            ["and"], ["to"], ["-"], ["or"]
+        )  # fmt: skip
+        if not joined or following is None or amount.kind != "plain" or following.kind in ("ordinal", "plain"):
+            yield amount
+            continue
+        if following.kind == "temperature" and len(following.values) == 1:
+            fahrenheit = abs(following.values[0] - _first(following.said)) > 1e-9
+            values = tuple((v - 32.0) / 1.8 if fahrenheit else v for v in amount.values)
+        else:
+            values = amount.values
+        if following.kind in ("temperature", "unit", "percent"):
+            yield replace(amount, kind=following.kind, unit=following.unit, values=values)
+        else:
+            yield amount
+
+
+def _first(text: str) -> float:
+    head = text.split()[0].replace(",", "")
+    return float(head) if w.is_number(head) else w.NUMBERS.get(head, 0.0)

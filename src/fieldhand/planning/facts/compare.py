@@ -1,0 +1,167 @@
+"""Where a plan and its request contradict each other for certain.
+
+Each function takes what was stated and what is planned and yields contradictions of one kind. Two questions are asked
+of each fact: is what the request states in the plan, and does what the plan holds come from the request?
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import accumulate
+
+from fieldhand.errors import PlaceError
+from fieldhand.planning.facts import words as w
+from fieldhand.planning.facts.amounts import Amount, numbers_of
+from fieldhand.planning.facts.limits import limits
+from fieldhand.planning.facts.mismatch import Mismatch
+from fieldhand.planning.facts.places import named_places
+from fieldhand.planning.facts.planned import Captures, Number, Planned, planned
+from fieldhand.planning.facts.stated import Stated, hints, stated
+from fieldhand.planning.facts.thresholds import thresholds
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.task.frames import Task
+from fieldhand.task.words import listed, say_name
+
+#: Numbers that count nothing, and those that count no captures.
+_NAMES = frozenset({"id", "row", "name", "length", "time", "percent", "temperature", "unit", "attribute"})
+_PLACES = _NAMES | {"trees", "corners", "rows", "ordinal"}
+
+
+def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[Mismatch, ...]:
+    """Every certain contradiction between a plan and the request that it was made from, each once.
+
+    A request that states no such fact has none, and a plan without any may still be wrong.
+    """
+    said, plan = stated(task.command.request, robot, site), planned(task)
+    found = [
+        *_sensors(said, plan, robot),
+        *_counts(said, plan, site),
+        *thresholds(said, plan, robot),
+        *limits(said, plan),
+        *named_places(said, plan, site),
+    ]
+    return tuple(dict.fromkeys(found))
+
+
+def _sensors(said: Stated, plan: Planned, robot: RobotProfile) -> Iterator[Mismatch]:
+    """Every action that is said is done, and nothing that nobody spoke of."""
+    spoken: set[str] = set()
+    told: set[frozenset[str]] = set()
+    for k, noun in said.nouns.items():
+        spoken |= noun.actions
+        if noun.actions & plan.actions or said.negated(k) or noun.actions in told:
+            continue
+        told.add(noun.actions)
+        words = " ".join(t.text for t in said.said[k : k + noun.length])
+        able = listed([say_name(name) for name in sorted(noun.actions)], "or")
+        yield Mismatch(kind="sensor", message=f"the request says '{words}', and nothing in the plan does that ({able})")
+    if not spoken or said.unknown:
+        return
+    stems = {w.singular(word) for word in said.words}
+    for one in plan.captures:
+        if one.action in spoken or one.action not in robot.action or hints(robot.action[one.action], robot) & stems:
+            continue
+        yield Mismatch(
+            kind="sensor", message=f"the plan does '{say_name(one.action)}', of which the request says nothing",
+            node=one.node,
+        )  # fmt: skip
+
+
+def _counts(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
+    """A stated number of captures, trees or corners is somewhere in the plan, and no other number is."""
+    for amount in said.amounts:
+        n = int(amount.values[0]) if float(amount.values[0]).is_integer() else 0
+        if amount.kind not in ("captures", "trees", "corners") or n < 2 or said.negated(amount.index):
+            continue
+        if amount.compared or n in _explained(plan, amount) or _as_large(plan, n, site):
+            continue
+        yield Mismatch(
+            kind="count", message=f"the request says '{_phrase(said, amount)}', and nothing in the plan is {n}"
+        )
+    for number in plan.numbers:
+        if number.kind != "count" or int(number.value) in _allowed(said, number) or _by_itself(said, number.what):
+            continue
+        message = f"the plan holds the number {number.value:g} ({number.what}), which the request does not say"
+        yield Mismatch(kind="count", message=message, node=number.node)
+
+
+def _phrase(said: Stated, amount: Amount) -> str:
+    """The number with the words behind it, up to what it counts."""
+    end = amount.index + 1
+    for k in range(amount.index + 1, min(amount.index + 6, len(said.said))):
+        text = said.said[k].text
+        if text in w.ENDS_PHRASE:
+            break
+        end = k + (said.nouns[k].length if k in said.nouns else 1)
+        if k in said.nouns or text in w.TREES | w.CORNERS:
+            break
+    return " ".join(t.text for t in said.said[amount.index : end])
+
+
+def _explained(plan: Planned, amount: Amount) -> set[int]:
+    """Every number of things that the plan can be said to take or to visit."""
+    acts = [one for one in plan.captures if not amount.actions or one.action in amount.actions]
+    found = {n for one in acts for n in (one.each, *one.around)}
+    for one in acts:
+        found |= {n for n in (one.places.high, one.total.high, one.places.low, one.total.low) if n is not None}
+    found |= _sums(acts)
+    if amount.kind != "captures":
+        found |= {int(number.value) for number in plan.numbers if number.kind == "count"}
+        found |= {len(group) for group in (plan.trees, set(plan.trees), plan.captures)}
+        found |= {len(x.which) for _, x in plan.selectors if hasattr(x, "which")}
+        found |= {len(x.parts) for _, x in plan.selectors if hasattr(x, "parts")}
+        found |= {getattr(x, "count", 0) for _, x in plan.selectors}
+    return found
+
+
+def _sums(acts: list[Captures]) -> set[int]:
+    """What acts that follow each other take together."""
+    found: set[int] = {len(acts)}
+    for start in range(len(acts)):
+        highs = [one.total.high for one in acts[start:]]
+        found.update(accumulate(h for h in highs if h is not None))
+    return found
+
+
+def _as_large(plan: Planned, n: int, site: Site) -> bool:
+    """Whether a selector comes out at so many places wherever the robot is ("all 18 yellow trees")."""
+    from fieldhand.site.context import Context
+    from fieldhand.site.places import resolve
+    from fieldhand.task.selectors import is_relative
+
+    for _, selector in plan.selectors:
+        if is_relative(selector):
+            continue
+        try:
+            if len(resolve(selector, site, Context(here=site.start))) == n:
+                return True
+        except PlaceError:
+            continue
+    return False
+
+
+def _allowed(said: Stated, number: Number) -> set[int]:
+    """Whole numbers that may stand where a number of the plan stands, by what the request says.
+
+    What only names a tree or a row, or has a unit, is no number of captures.
+    """
+    captures = number.what == "captures at a place"
+    others = _PLACES if captures else _NAMES if number.what.endswith(" count") else frozenset()
+    stated = {n for a in said.amounts if a.kind not in others for n in numbers_of(a)}
+    stated |= {n for word, n in w.MULTIPLES.items() if word in said.words}
+    found = set(stated)
+    if not captures:
+        found |= {n + 1 for n in stated} | {n - 1 for n in stated}
+    if said.words & {"another", "again", "second", "repeat", "same", "more", "also", "other", "alternate"}:
+        found |= {2}
+    if said.words & {"odd", "even", "next", "adjacent", "side"}:
+        found |= {2}
+    if said.words & {"total", "altogether", "overall"} or {"in", "all"} <= said.words:
+        found |= {a * b for a in stated for b in stated} | {a // b for a in stated for b in stated if b and a % b == 0}
+    return found
+
+
+def _by_itself(said: Stated, what: str) -> bool:
+    """Whether a number needs no words: one of several that were left open, or a row that is one of all."""
+    return said.vague or (what.startswith(("rows ", "inrow ")) and bool(said.words & {"each", "every", "all", "per"}))

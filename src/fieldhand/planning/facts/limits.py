@@ -1,0 +1,136 @@
+"""Limits and distances: each budget, reserve and distance that the request states is in the plan, and no other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from fieldhand.planning.facts.amounts import Amount
+from fieldhand.planning.facts.mismatch import Mismatch
+from fieldhand.planning.facts.planned import Planned
+from fieldhand.planning.facts.stated import Stated
+from fieldhand.planning.facts.words import words_in
+from fieldhand.task.frames import BudgetKind
+
+_KINDS: dict[BudgetKind, tuple[str, str]] = {
+    "distance_m": ("length", "m"), "duration_s": ("time", "s"), "energy_percent": ("percent", "%"),
+}  # fmt: skip
+#: Words for what is left of the robot's energy.
+BATTERY = frozenset({"battery", "charge", "energy", "power", "capacity"})
+_KEEPS = frozenset(
+    {"keep", "keeping", "reserve", "left", "leave", "leaving", "remain", "remains", "remaining", "before"}
+)
+_USES = frozenset({"use", "uses", "using", "used", "spend", "spending", "within", "consume", "more", "most", "up"})
+#: Words that stand by a limit on driving or on time, in the few words before it.
+_LIMITS = words_in("""
+    within in under most more less than maximum max limit limited only up exceed exceeding longer have spend
+    spending budget of further over use using takes take
+    """)
+#: A rounded conversion is the same amount.
+_CLOSE = 0.02
+_PARTS = {"half": 0.5, "quarter": 0.25, "third": 1 / 3}
+
+
+def limits(said: Stated, plan: Planned) -> Iterator[Mismatch]:
+    """Contradictions in budgets, reserve and distances."""
+    for amount in said.amounts:
+        if amount.kind == "percent":
+            yield from _battery(said, plan, amount)
+        elif amount.kind in ("time", "length"):
+            yield from _dropped(said, plan, amount)
+    yield from _invented(said, plan)
+    if said.as_many and not any(getattr(node, "optional", False) for node in plan.nodes):
+        yield Mismatch(
+            kind="limit", message="the request asks for as many as possible, and no visit of the plan is optional"
+        )
+
+
+def _battery(said: Stated, plan: Planned, amount: Amount) -> Iterator[Mismatch]:
+    """A part of the battery that may be used is a budget, one that must be left is a reserve."""
+    sentence = {t.text for t in said.said if t.sentence == amount.sentence}
+    if not sentence & BATTERY or said.conditional(amount.sentence):
+        return
+    percent = amount.values[0]
+    reserve = plan.task.constraints.reserve_percent
+    budgets = [b.limit for b in plan.task.constraints.budgets if b.kind == "energy_percent"]
+    used = [*budgets, *([100.0 - reserve] if reserve is not None else [])]
+    left = [*([reserve] if reserve is not None else []), *(100.0 - b for b in budgets)]
+    keeps, uses = bool(sentence & _KEEPS), bool(sentence & _USES)
+    ways = [*(left if keeps or not uses else []), *(used if uses or not keeps else [])]
+    if not any(abs(percent - x) < 0.5 for x in ways):
+        yield Mismatch(
+            kind="limit", message=f"the request limits the battery by '{amount.said}', and the plan does not do so"
+        )
+
+
+def _dropped(said: Stated, plan: Planned, amount: Amount) -> Iterator[Mismatch]:
+    """A distance or a time that is stated stands somewhere in the plan."""
+    value = amount.values[0]
+    limit: BudgetKind = "distance_m" if amount.kind == "length" else "duration_s"
+    have = [b.limit for b in plan.task.constraints.budgets if b.kind == limit]
+    have += [x for test in plan.tests for x in test.values]
+    if amount.kind == "length":
+        have += [number.value for number in plan.numbers if number.kind == "length"]
+        have += _parameters(plan)
+    if any(_close(value, x) for x in have):
+        return
+    before = {t.text for t in said.said[max(0, amount.index - 6) : amount.index]}
+    after = {t.text for t in said.said[amount.index : amount.index + 4]}
+    if amount.kind == "length" or before & _LIMITS:
+        if amount.kind == "length" and not (before & _LIMITS or after & {"apart", "intervals", "interval", "spacing"}):
+            return
+        yield Mismatch(kind="limit", message=f"the request says '{amount.said}', which the plan does not hold")
+
+
+def _parameters(plan: Planned) -> list[float]:
+    """Numbers that actions are told, as metres where they are centimetres."""
+    told = [
+        value for node in plan.nodes for _, value in getattr(node, "parameters", ()) if isinstance(value, float | int)
+    ]
+    return [x for value in told for x in (float(value), float(value) / 100.0)]
+
+
+def _invented(said: Stated, plan: Planned) -> Iterator[Mismatch]:
+    """A limit or a distance of the plan is stated."""
+    for budget in plan.task.constraints.budgets:
+        kind, unit = _KINDS[budget.kind]
+        if not any(_close(budget.limit, x) for x in _stated(said, kind)):
+            yield Mismatch(
+                kind="limit",
+                message=f"the plan has a budget of {budget.limit:g} {unit}, which the request does not say",
+            )
+    reserve = plan.task.constraints.reserve_percent
+    if reserve is not None and not any(abs(reserve - x) < 0.5 for x in _stated(said, "percent")):
+        yield Mismatch(
+            kind="limit", message=f"the plan keeps {reserve:g} % of the battery, which the request does not say"
+        )
+    speed = plan.task.constraints.speed_m_s
+    if speed is not None and not said.amounts:
+        yield Mismatch(kind="limit", message=f"the plan drives at {speed:g} m/s, which the request does not say")
+    for number in plan.numbers:
+        if number.kind == "length" and not any(_close(number.value, x) for x in _stated(said, "length")):
+            yield Mismatch(
+                kind="distance",
+                message=f"the plan holds {number.value:g} m ({number.what}), which the request does not say",
+                node=number.node,
+            )
+
+
+def _stated(said: Stated, kind: str) -> list[float]:
+    """Every amount of a kind that is stated; a number without a unit may be of any."""
+    found = [x for a in said.amounts if a.kind == kind for x in a.values]
+    plain = [x for a in said.amounts if a.kind in ("plain", "times") for x in a.values]
+    if kind == "percent":
+        found += [100.0 - x for x in found] + [100.0 * part for word, part in _PARTS.items() if word in said.words]
+        return found + plain + [100.0 - x for x in plain]
+    if kind == "time":
+        units = [(u, s) for u, s in (("hour", 3600.0), ("minute", 60.0)) if {u, f"{u}s"} & said.words]
+        found += [part * s for _, s in units for part in (1.0, *_PARTS.values(), 1.5, 0.75)]
+        found += [sum(found[:2])] if len(found) > 1 else []
+        return found + [x * s for x in plain for s in (1.0, 60.0, 3600.0)]
+    units = [(u, s) for u, s in (("kilometre", 1000.0), ("kilometer", 1000.0), ("km", 1000.0), ("mile", 1609.344))]
+    found += [part * s for u, s in units if {u, f"{u}s"} & said.words for part in (1.0, *_PARTS.values())]
+    return found + [x * s for x in plain for s in (1.0, 0.3048)]
+
+
+def _close(a: float, b: float) -> bool:
+    return abs(a - b) <= max(0.01, _CLOSE * abs(a))

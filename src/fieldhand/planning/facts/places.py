@@ -1,0 +1,214 @@
+"""Names of places: trees, rows, markers, zones, sides, what the trees are, in which order, and where the robot ends."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from fieldhand.planning.facts import words as w
+from fieldhand.planning.facts.amounts import Amount
+from fieldhand.planning.facts.mismatch import Mismatch
+from fieldhand.planning.facts.planned import Planned
+from fieldhand.planning.facts.stated import Stated
+from fieldhand.site.model import Site
+from fieldhand.task import plan as p
+from fieldhand.task import selectors as s
+from fieldhand.task.build import FAULTED_EXITS
+
+_CHARGER = frozenset({"charger", "dock"})
+#: Selectors that stand for a side without naming it: rows and trees in them count from one.
+_UNNAMED = (s.Rows, s.InRow, s.RowOf, s.AlongRow, s.Across, s.EveryNth, s.Successive, s.Nth)
+#: Words of a request that says what is to be done when something goes wrong.
+_OF_FAULTS = w.words_in("fail fails failed fault error abort aborted wrong stuck problem battery charge budget low")
+_NUMBER = re.compile("-?[0-9]{1,9}")
+#: Rows that are not called by a number each.
+_SOME_ROWS = re.compile(
+    r"\b(?:each|every|all|per|other|last|final|next|odd|even|alternate|middle|cent(?:er|re|ral)|\w+most|by)"
+    r"(?: \w+){0,3} rows?\b"
+)
+
+
+def named_places(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
+    """Contradictions in what places are called."""
+    yield from _trees(said, plan)
+    yield from _rows(said, plan)
+    yield from _areas(said, plan)
+    yield from _sides(said, plan)
+    yield from _attributes(said, plan)
+    yield from _ends(said, plan, site)
+    yield from _faults(said, plan, site)
+    yield from _order(said, plan)
+
+
+def _trees(said: Stated, plan: Planned) -> Iterator[Mismatch]:
+    """Each tree that is called by a number is in the plan, and no other."""
+    named = {_digits(tree) for _, tree in plan.trees}
+    spans = [(abs(x.first), abs(x.last)) for _, x in plan.having(s.InRow) if isinstance(x, s.InRow)]
+    counted = {int(n.value) for n in plan.numbers if n.kind == "count"} | {
+        abs(x.nth) for _, x in plan.having(s.Nth) if isinstance(x, s.Nth)
+    }
+    for amount in said.amounts:
+        n = int(amount.values[0])
+        if amount.kind != "id" or str(n) in named or n in counted or any(a <= n <= b for a, b in map(sorted, spans)):
+            continue
+        yield Mismatch(kind="place", message=f"the request names tree {n}, and the plan does not")
+    spoken = said.text.replace(" ", "")
+    numbers = {str(n) for n in said.whole_numbers}
+    for node, tree in plan.trees:
+        spelt = "".join(ch for ch in tree.lower() if ch.isalnum())
+        if _digits(tree) in numbers or tree.lower() in spoken or spelt in "".join(c for c in spoken if c.isalnum()):
+            continue
+        yield Mismatch(kind="place", message=f"the plan names tree {tree[:40]!r}, and the request does not", node=node)
+
+
+def _digits(name: str) -> str:
+    """The number at the end of a name, without leading zeros: of "T042" it is "42"."""
+    head = name.rstrip("0123456789")
+    return name[len(head) :].lstrip("0")
+
+
+def _rows(said: Stated, plan: Planned) -> Iterator[Mismatch]:
+    """Each row that is called by a number is in the plan, and no other."""
+    rows = [(node, x) for node, x in plan.having(s.Rows) if isinstance(x, s.Rows)]
+    if not all(_NUMBER.fullmatch(name) for _, row in rows for name in (row.first, row.last)):
+        return
+    for amount in said.amounts:
+        if not _is_row(said, amount) or _of_named_tree(said, plan, amount):
+            continue
+        if not any(_holds(row, amount) for _, row in rows):
+            message = f"the request names row {amount.values[0]:g}, and the plan does not"
+            yield Mismatch(kind="place", message=message)
+    if said.unknown or _SOME_ROWS.search(said.text):
+        return
+    for node, row in rows:
+        for name in dict.fromkeys((row.first, row.last)):
+            if int(name) > 1 and int(name) not in said.whole_numbers:
+                yield Mismatch(kind="place", message=f"the plan names row {name}, and the request does not", node=node)
+
+
+def _is_row(said: Stated, amount: Amount) -> bool:
+    """Whether a number calls a row: "row 3", "the third row", but not "every third row"."""
+    if amount.kind != "ordinal":
+        return amount.kind == "row"
+    after = [t.text for t in said.said[amount.index + 1 : amount.index + 3]]
+    before = [t.text for t in said.said[max(0, amount.index - 2) : amount.index]]
+    return "row" in (after[:1] or [""]) and not {"every", "each"} & set(before)
+
+
+def _of_named_tree(said: Stated, plan: Planned, amount: Amount) -> bool:
+    """Whether a row only says where a tree stands that the plan names by its id: "tree 25 of row 2"."""
+    named = {_digits(tree) for _, tree in plan.trees}
+    return any(
+        a.kind == "id" and 0 < amount.index - a.index <= 8 and str(int(a.values[0])) in named for a in said.amounts
+    )
+
+
+def _holds(row: s.Rows, amount: Amount) -> bool:
+    first, last = int(row.first), int(row.last)
+    return first < 0 or last < 0 or min(first, last) <= amount.values[0] <= max(first, last)
+
+
+def _areas(said: Stated, plan: Planned) -> Iterator[Mismatch]:
+    """Each zone or block that is called by its name is in the plan; a zone of the plan is called by some word of it."""
+    held = {" ".join(t.text for t in _tokens(name)) for _, name in plan.areas}
+    rows = {t for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) for t in (x.first.lower(), x.last.lower())}
+    for name in sorted(said.zones - held - rows):
+        if not any(name in other for other in held):
+            yield Mismatch(kind="place", message=f"the request names '{name}', and the plan does not")
+    for node, name in plan.areas:
+        words = {t.text for t in _tokens(name)}
+        if said.unknown or words & said.words or name.isdecimal() or said.words & {"each", "every", "all", "both"}:
+            continue
+        yield Mismatch(kind="place", message=f"the plan names {name[:40]!r}, and the request does not", node=node)
+    if said.words & _CHARGER and "charger" not in plan.markers and not said.words & {"recharge", "recharging"}:
+        yield Mismatch(kind="place", message="the request names the charger, and the plan does not")
+
+
+def _tokens(name: str) -> tuple[w.Token, ...]:
+    return w.tokens(name.replace("_", " "))
+
+
+def _sides(said: Stated, plan: Planned) -> Iterator[Mismatch]:
+    """Each side of the compass that is said is in the plan, and no other."""
+    by_name = {word for name in said.zones for word in name.split()} | set(said.attributes)
+    spoken = {side for side in said.sides if not any(side in name for name in by_name)}
+    corners = {letter for _, x in plan.having(s.Corners) if isinstance(x, s.Corners) for c in x.which for letter in c}
+    orders = {x.by for _, x in plan.having(s.Ordered) if isinstance(x, s.Ordered)}
+    counted = {getattr(x, "counted_from", "") for _, x in plan.selectors}
+    held = (
+        set(plan.sides) | counted | {side for side in spoken if side[0] in corners or any(side in by for by in orders)}
+    )
+    if not any(isinstance(x, _UNNAMED) for _, x in plan.selectors):
+        for side in sorted(spoken - held):
+            yield Mismatch(kind="side", message=f"the request says '{side}', and no place of the plan is there")
+    if said.unknown or said.words & w.VAGUE_SIDES:
+        return
+    for side, node in plan.sides.items():
+        if side not in said.sides:
+            yield Mismatch(
+                kind="side", message=f"the plan goes to the {side}, of which the request says nothing", node=node
+            )
+    for by in sorted(orders):
+        if "_to_" in by and not any(side in by for side in said.sides):
+            yield Mismatch(
+                kind="order", message=f"the plan goes {by.replace('_', ' ')}, and the request does not say so"
+            )
+
+
+def _attributes(said: Stated, plan: Planned) -> Iterator[Mismatch]:
+    """What the site records and the request names is asked for in the plan, and nothing else is."""
+    held = {" ".join(t.text for t in _tokens(str(value))) for _, _, value in plan.values}
+    for word in said.attributes:
+        if not any(word in other or other in word for other in held):
+            yield Mismatch(kind="attribute", message=f"the request says '{word}', and the plan does not ask for that")
+    if said.unknown:
+        return
+    for node, attribute, value in plan.values:
+        words = {t.text for t in _tokens(str(value))}
+        if isinstance(value, str) and not words & said.words:
+            yield Mismatch(
+                kind="attribute",
+                message=f"the plan asks for {attribute} {value[:40]!r}, of which the request says nothing",
+                node=node,
+            )
+
+
+def _ends(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
+    """A return that is asked for is the exit of the plan, or a drive in it."""
+    if not said.returns or said.returns not in site.markers:
+        return
+    wanted = f"return_to_{said.returns}"
+    driven = any(
+        isinstance(n, p.GoTo) and isinstance(n.place, s.Marker) and n.place.name == said.returns for n in plan.nodes
+    )
+    if plan.task.composition.nominal != wanted and not driven:
+        yield Mismatch(kind="return", message=f"the request ends at the {said.returns}, and the plan does not")
+
+
+def _faults(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
+    """What is done about a fault is what every mission does, or where this one ends, unless that is asked for."""
+    if said.unknown or said.words & _OF_FAULTS or not site.markers:
+        return
+    usual = {e.fault: e.then for e in FAULTED_EXITS}
+    for chosen in plan.task.composition.faulted:
+        if chosen.then not in (usual[chosen.fault], plan.task.composition.nominal):
+            what = f"{chosen.fault} is answered by {chosen.then}".replace("_", " ")
+            message = f"the plan changes what is done about a fault ({what}), unasked"
+            yield Mismatch(kind="return", message=message)
+
+
+def _order(said: Stated, plan: Planned) -> Iterator[Mismatch]:
+    """Trees that are to be visited "in that order" are."""
+    if not any(phrase in said.text for phrase in ("in that order", "in this order", "in the given order")):
+        return
+    numbers = [str(int(a.values[0])) for a in said.amounts if a.kind == "id" and not a.through]
+    named = [_digits(tree) for _, tree in plan.trees]
+    if len(set(numbers)) == len(numbers) > 1 and sorted(named) == sorted(numbers) and named != numbers:
+        yield Mismatch(
+            kind="order", message=f"the request gives the order {', '.join(numbers)}, the plan {', '.join(named)}"
+        )
+    free = [n for n in plan.nodes if isinstance(n, p.AnyOrder) or (isinstance(n, p.ForEach) and n.order == "best")]
+    given = any(isinstance(n, p.ForEach) and n.order == "given" for n in plan.nodes)
+    given = given or any(isinstance(n, p.Sequence) and len(n.steps) > 1 for n in plan.nodes)
+    if free and not given:
+        yield Mismatch(kind="order", message="the request fixes an order, and the plan leaves it open", node=free[0].id)

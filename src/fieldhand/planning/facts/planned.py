@@ -1,0 +1,268 @@
+"""The facts of a plan that can be counted: captures and places, tests, limits, names, sides, where it ends.
+
+From the Task alone. Where the plan leaves a number to the site, to a reading or to the budget, there is a range.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
+from typing import Literal
+
+from fieldhand.planning.facts.selected import ONE, Range, counts, places, sides
+from fieldhand.task import conditions as c
+from fieldhand.task import plan as p
+from fieldhand.task import selectors as s
+from fieldhand.task.frames import Task
+from fieldhand.task.selectors import Selector, Side, Value
+
+
+@dataclass(frozen=True, kw_only=True)
+class Captures:
+    """What one act of the plan takes.
+
+    Attributes:
+        each: At one place.
+        places: Distinct places that its for-eaches lead to.
+        total: In the whole mission, if it is reached.
+        bound: It stands under a condition, in a try, or may be left out.
+        around: Numbers that stand in the selectors and nodes around it.
+    """
+
+    node: str
+    action: str
+    each: int
+    places: Range
+    total: Range
+    bound: bool
+    around: frozenset[int]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tested:
+    """A threshold that the plan tests: a reading's, or an attribute's where ``quantity`` is empty.
+
+    Attributes:
+        levels: The word, where it is tested by one.
+        plainly: It leads to a ``then`` without an ``otherwise``, and neither negation nor a stop turns it around.
+        then, otherwise: Actions that it leads to where it holds and where not, "stop" among them; both empty where it
+            ends a repetition or a negation turns it around.
+    """
+
+    node: str
+    quantity: str
+    attribute: str
+    test: s.Test | Literal["between", "level"]
+    values: tuple[float, ...]
+    unit: str = ""
+    level: str = ""
+    plainly: bool = False
+    then: frozenset[str] = frozenset()
+    otherwise: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Number:
+    """A whole number or a distance that stands in a selector or a node, other than the one that holds by itself."""
+
+    node: str
+    what: str
+    value: float
+    kind: Literal["count", "length"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Planned:
+    """What a Task holds. ``nodes`` are its plan nodes in their order, ``selectors`` every part of theirs."""
+
+    task: Task
+    nodes: tuple[p.Node, ...]
+    selectors: tuple[tuple[str, Selector], ...]
+    captures: tuple[Captures, ...]
+    tests: tuple[Tested, ...]
+    numbers: tuple[Number, ...]
+
+    def having(self, *classes: type) -> Iterator[tuple[str, Selector]]:
+        """The selectors of some classes, each with its node."""
+        return ((node, x) for node, x in self.selectors if isinstance(x, classes))
+
+    @cached_property
+    def actions(self) -> frozenset[str]:
+        """Actions that the plan holds."""
+        return frozenset(one.action for one in self.captures)
+
+    @cached_property
+    def trees(self) -> tuple[tuple[str, str], ...]:
+        """Ids of trees that are named, each with its node."""
+        return tuple((node, x.tree) for node, x in self.selectors if isinstance(x, s.TreeIs))
+
+    @cached_property
+    def markers(self) -> frozenset[str]:
+        """Markers that are named."""
+        return frozenset(x.name for _, x in self.selectors if isinstance(x, s.Marker))
+
+    @cached_property
+    def areas(self) -> tuple[tuple[str, str], ...]:
+        """Zones and blocks that are named, each with its node."""
+        named = ((node, getattr(x, "zone", "") or getattr(x, "block", "")) for node, x in self.selectors)
+        return tuple((node, name) for node, name in named if name)
+
+    @cached_property
+    def sides(self) -> dict[Side, str]:
+        """Sides of the compass that selectors name, each with a node; all four corners together name none."""
+        found: dict[Side, str] = {}
+        for node, x in self.selectors:
+            for side in sides(x):
+                found.setdefault(side, node)
+        return found
+
+    @cached_property
+    def values(self) -> tuple[tuple[str, str, Value], ...]:
+        """Node, attribute and value of each test of what the site records."""
+        kept = [(node, x.attribute, x.value) for node, x in self.selectors if isinstance(x, s.Where)]
+        for node in self.nodes:
+            condition = p.condition_of(node)
+            for part in c.walk(condition) if condition is not None else ():
+                kept.extend([(node.id, part.attribute, part.value)] if isinstance(part, c.TreeHas) else [])
+        return tuple(kept)
+
+
+def planned(task: Task) -> Planned:
+    """The facts of a Task."""
+    root = task.composition.plan
+    nodes = tuple(p.walk(root))
+    selectors = tuple((n.id, x) for n in nodes if (top := p.selector_of(n)) is not None for x in s.walk(top))
+    return Planned(
+        task=task,
+        nodes=nodes,
+        selectors=selectors,
+        captures=tuple(_captures(root, _Around())),
+        tests=tuple(_tests(nodes, selectors)),
+        numbers=tuple(_numbers(nodes, selectors)),
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Around:
+    """What stands around a node: distinct places, rounds, numbers, and whether it depends on anything."""
+
+    places: Range = ONE
+    rounds: Range = ONE
+    numbers: frozenset[int] = frozenset()
+    bound: bool = False
+
+
+def _captures(node: p.Node, around: _Around) -> Iterator[Captures]:
+    """The acts inside a node."""
+    match node:
+        case p.Act():
+            own = {node.count, *(counts(node.at) if node.at is not None else ())}
+            yield Captures(
+                node=node.id,
+                action=node.action,
+                each=node.count,
+                places=around.places,
+                total=around.places.times(around.rounds).times(Range(low=node.count, high=node.count)),
+                bound=around.bound,
+                around=around.numbers | own,
+            )
+        case p.ForEach():
+            yield from _captures(node.body, _visited(node, around))
+        case p.Repeat():
+            times = Range(low=1 if node.until is not None else node.times, high=node.times)
+            bound = around.bound or node.until is not None
+            inside = replace(
+                around, rounds=around.rounds.times(times), bound=bound, numbers=around.numbers | {node.times}
+            )
+            yield from _captures(node.body, inside)
+        case p.If() | p.Try() | p.Optional():
+            for child in p.children(node):
+                yield from _captures(child, replace(around, bound=True))
+        case _:
+            for child in p.children(node):
+                yield from _captures(child, around)
+
+
+def _visited(node: p.ForEach, around: _Around) -> _Around:
+    """What stands around the body of a for-each."""
+    inside = places(node.select)
+    most = frozenset({node.at_most} if node.at_most is not None else ())
+    if node.at_most is not None:
+        high = node.at_most if inside.high is None else min(inside.high, node.at_most)
+        inside = Range(low=min(inside.low, high), high=high)
+    loose = node.optional or node.until is not None
+    inside = Range(low=0, high=inside.high) if loose else inside
+    return replace(
+        around,
+        places=around.places.times(inside),
+        numbers=around.numbers | most | frozenset(counts(node.select)),
+        bound=around.bound or loose,
+    )
+
+
+def _tests(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], ...]) -> Iterator[Tested]:
+    for node, x in selectors:
+        if isinstance(x, s.Where) and isinstance(x.value, float | int) and not isinstance(x.value, bool):
+            yield Tested(
+                node=node, quantity="", attribute=x.attribute, test=x.test, values=(float(x.value),), plainly=True
+            )
+    for one in nodes:
+        condition = p.condition_of(one)
+        parts = tuple(c.walk(condition)) if condition is not None else ()
+        straight = isinstance(one, p.If) and not any(isinstance(part, c.Not) for part in parts)
+        then = _done(one.then) if straight and isinstance(one, p.If) else frozenset()
+        otherwise = _done(one.otherwise) if straight and isinstance(one, p.If) and one.otherwise else frozenset()
+        plainly = isinstance(one, p.If) and straight and one.otherwise is None and "stop" not in then
+        for part in parts:
+            for tested in _tested(part, one.id):
+                yield replace(tested, plainly=plainly, then=then, otherwise=otherwise)
+
+
+def _done(node: p.Node) -> frozenset[str]:
+    """The actions inside a node, and "stop" where it ends the mission."""
+    inside = tuple(p.walk(node))
+    stops = {"stop" for one in inside if isinstance(one, p.Stop)}
+    return frozenset(stops | {one.action for one in inside if isinstance(one, p.Act)})
+
+
+def _tested(part: c.Condition, node: str) -> Iterator[Tested]:
+    match part:
+        case c.Compare():
+            yield Tested(
+                node=node, quantity=part.quantity, attribute="", test=part.test, values=(part.value,), unit=part.unit,
+            )  # fmt: skip
+        case c.Between():
+            yield Tested(
+                node=node, quantity=part.quantity, attribute="", test="between", values=(part.low, part.high),
+                unit=part.unit,
+            )  # fmt: skip
+        case c.Level():
+            yield Tested(
+                node=node, quantity=part.quantity, attribute="", test="level", values=(), level=part.level,
+            )  # fmt: skip
+        case c.TreeHas(value=value) if isinstance(value, float | int) and not isinstance(value, bool):
+            yield Tested(node=node, quantity="", attribute=part.attribute, test=part.test, values=(float(value),))
+        case _:
+            return
+
+
+def _numbers(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], ...]) -> Iterator[Number]:
+    """Numbers of nodes and selectors that are not those that hold by themselves."""
+    for node in nodes:
+        if isinstance(node, p.Act) and node.count > 1:
+            yield Number(node=node.id, what="captures at a place", value=node.count, kind="count")
+        if isinstance(node, p.ForEach) and node.at_most is not None:
+            yield Number(node=node.id, what="visits at most", value=node.at_most, kind="count")
+        if isinstance(node, p.Repeat) and node.until is None:
+            yield Number(node=node.id, what="rounds", value=node.times, kind="count")
+    for name, x in selectors:
+        for field in fields(x):
+            value = getattr(x, field.name)
+            if isinstance(value, bool) or value == field.default or isinstance(x, s.Where):
+                continue
+            what = f"{type(x).__name__} {field.name}".replace("_", " ").lower()
+            if isinstance(value, float):
+                yield Number(node=name, what=what, value=value, kind="length")
+            elif isinstance(value, int) and abs(value) > 1:
+                yield Number(node=name, what=what, value=abs(value), kind="count")

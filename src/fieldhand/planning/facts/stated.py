@@ -1,0 +1,258 @@
+"""The facts that a request states outright, read by words, numbers and names alone."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from fieldhand.planning.facts import words as w
+from fieldhand.planning.facts.amounts import Amount, Noun, amounts, numbers_of
+from fieldhand.planning.facts.words import Token, tokens
+from fieldhand.robot.model import Action, RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.task.selectors import Side
+
+#: Attributes of more different words than this are names of trees rather than kinds of them.
+_MOST_KINDS = 200
+_GOES_BACK = (
+    r"(?:return|returns|come back|comes back|go back|get back|drive back|head back|travel back|end up|finish up)"
+)
+_START = r"(?:start|starting point|starting position|starting place|start marker|start point|beginning|home base|home)"
+_END = r"(?:end|end point|end marker|finish marker|end position)"
+_TO = r"(?: again)? (?:to|at) (?:the |its |your )?"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stated:
+    """What a request says, with this robot's and this site's names.
+
+    Attributes:
+        nouns: By token, the robot's words that begin there.
+        zones: Names of zones and blocks of the site that are said.
+        attributes: Words that the site records of its trees, each with the token where it is said.
+        levels: Words such as "low" that are said in a condition, each with its sentence.
+    """
+
+    request: str
+    said: tuple[Token, ...]
+    nouns: dict[int, Noun]
+    amounts: tuple[Amount, ...]
+    zones: frozenset[str]
+    attributes: dict[str, int]
+    levels: frozenset[str]
+    known: frozenset[str]
+
+    @cached_property
+    def text(self) -> str:
+        """The words with one space between."""
+        return " ".join(token.text for token in self.said)
+
+    @cached_property
+    def words(self) -> frozenset[str]:
+        """Every word."""
+        return frozenset(token.text for token in self.said)
+
+    @cached_property
+    def unknown(self) -> bool:
+        """Whether there is a word that this check does not know: then what a plan adds may come from it."""
+        return any(t.text[0].isalpha() and t.text not in self.known for t in self.said)
+
+    @cached_property
+    def vague(self) -> bool:
+        """Whether "several" or the like stands there, which leaves a number to the reader."""
+        return bool(w.VAGUE.search(self.text))
+
+    @cached_property
+    def whole_numbers(self) -> frozenset[int]:
+        """Every whole number that stands there, ordinals and "twice" too, ranges with all in them."""
+        found = {n for a in self.amounts for n in numbers_of(a)}
+        return frozenset(found | {n for word, n in w.MULTIPLES.items() if word in self.words})
+
+    @cached_property
+    def sides(self) -> frozenset[Side]:
+        """Sides of the compass that are said."""
+        return frozenset(side for word in self._compass_words for side in w.COMPASS[word])
+
+    @cached_property
+    def _compass_words(self) -> tuple[str, ...]:
+        pairs = [f"{a.text}{b.text}" for a, b in zip(self.said, self.said[1:], strict=False)]
+        split = [f"{a.text}{c.text}" for a, b, c in _windows(self.said) if b.text in ("-", "\u2013")]
+        return tuple(x for x in (*(t.text for t in self.said if len(t.text) > 1), *pairs, *split) if x in w.COMPASS)
+
+    def conditional(self, sentence: int) -> bool:
+        """Whether a sentence makes something depend on something; one that only asks whether, does not."""
+        inside = [t.text for t in self.said if t.sentence == sentence]
+        asked = re.search(r"\b(?:check|see|find out|tell me|know|report|look) (?:if|whether)\b|\bwhether\b", self.text)
+        if asked and sum(t.text in w.CONDITIONAL for t in self.said) <= 1:
+            return False
+        return bool(w.CONDITIONAL.intersection(inside))
+
+    def negated(self, index: int) -> bool:
+        """Whether what stands at a token is said not to be done."""
+        before = [t for t in self.said[max(0, index - 8) : index] if t.sentence == self.said[index].sentence]
+        return any(t.text in w.NEGATIONS for t in before)
+
+    @cached_property
+    def returns(self) -> str:
+        """Where the request says to end: ``start``, ``end``, or empty."""
+        text = self.text
+        home = re.search(
+            rf"\b{_GOES_BACK}(?: \w+)?{_TO}{_START}\b(?! of| tree)|\b(?:go|come|return|drive|head) home\b", text
+        )
+        back = re.search(r"\bcome back (?:when|once|after)\b|\bcome back when\b|\breturn (?:when|once) done\b", text)
+        to_end = re.search(rf"\b{_GOES_BACK}{_TO}{_END}\b(?! of| tree)", text)
+        if bool(home or back) == bool(to_end):
+            return ""
+        return "end" if to_end else "start"
+
+    @cached_property
+    def as_many(self) -> bool:
+        """Whether as many as possible are asked for."""
+        return bool(re.search(r"\bas many (?:[\w%]+ ){0,6}?as (?:possible|(?:you|it|we|the robot) can)\b", self.text))
+
+
+def stated(request: str, robot: RobotProfile, site: Site) -> Stated:
+    """The facts of a request."""
+    said = tokens(request)
+    names = _names(site)
+    zones, covered = _said_names(said, names)
+    attributes = {
+        word: k for word, k in _phrases(said, _kinds(site)) if not covered.intersection(range(k, k + len(word.split())))
+    }
+    taken = covered | {k + j for word, k in attributes.items() for j in range(len(word.split()))}
+    nouns = {k: n for k, n in _nouns(said, robot, site).items() if k not in taken}
+    units = frozenset(q.unit.lower() for q in robot.quantities)
+    found = amounts(said, nouns, units)
+    levels = {word for q in robot.quantities for word in q.levels}
+    facts = Stated(
+        request=request,
+        said=said,
+        nouns=nouns,
+        amounts=found,
+        zones=frozenset(zones),
+        attributes=attributes,
+        levels=frozenset(),
+        known=_known(robot, site, names),
+    )
+    spoken = {
+        word for word, k in _phrases(said, levels) if facts.conditional(said[k].sentence) and not facts.negated(k)
+    }
+    return replace(facts, levels=frozenset(spoken))
+
+
+def _windows(said: Sequence[Token]) -> Iterator[tuple[Token, Token, Token]]:
+    return zip(said, said[1:], said[2:], strict=False)
+
+
+def _norm(name: str) -> str:
+    return " ".join(t.text for t in tokens(name.replace("_", " ")))
+
+
+def _names(site: Site) -> set[str]:
+    """Zones, blocks and rows that have a name of their own, as words."""
+    blocks = [b.name for b in site.planting.blocks]
+    rows = [r.name for b in site.planting.blocks for r in b.rows]
+    named = {_norm(name) for name in (*(z.name for z in site.zones if z.name), *blocks, *rows)}
+    return {name for name in named if not name.isdecimal() and len(name) > 1}
+
+
+def _kinds(site: Site) -> set[str]:
+    """Words that the site records of its trees ("yellow", "Carmel"); names of trees are none."""
+    words = {
+        _norm(value)
+        for values in site.attributes.values()
+        if len(values) <= min(_MOST_KINDS, max(2, len(site.trees) // 2))
+        for value in values
+        if isinstance(value, str)
+    }
+    kinds = {word for word in words if len(word) > 2 and not any(c.isdecimal() for c in word)}
+    return {word for word in kinds if not set(word.split()) <= w.PLAIN}
+
+
+def _said_names(said: Sequence[Token], names: set[str]) -> tuple[set[str], set[int]]:
+    """The names that are said, and the tokens that they cover. A name of plain words alone is none ("row", "end")."""
+    found: set[str] = set()
+    covered: set[int] = set()
+    for name, k in _phrases(said, names):
+        covered.update(range(k, k + len(name.split())))
+        if len(name) > 3 and (len(name.split()) > 1 or name not in w.PLAIN):
+            found.add(name)
+    return found, covered
+
+
+def _phrases(said: Sequence[Token], phrases: set[str]) -> Iterator[tuple[str, int]]:
+    """Every phrase of a set that is said, with its first token; the longest where several begin at one."""
+    longest = min(max((len(p.split()) for p in phrases), default=0), 8)
+    for k in range(len(said)):
+        for length in range(min(longest, len(said) - k), 0, -1):
+            phrase = " ".join(t.text for t in said[k : k + length])
+            if phrase in phrases:
+                yield phrase, k
+                break
+
+
+def _nouns(said: Sequence[Token], robot: RobotProfile, site: Site) -> dict[int, Noun]:
+    """Where the robot's words for what it takes are said, the longest phrase at each token."""
+    told = {_singular(word): word for a in robot.actions for word in (*a.words, *a.verbs)}
+    of_attributes = {word for name in site.attributes for word in _norm(name).split()}
+    found: dict[int, Noun] = {}
+    k = 0
+    while k < len(said):
+        for length in range(min(5, len(said) - k), 0, -1):
+            phrase = _stem(" ".join(t.text for t in said[k : k + length]))
+            if phrase in told and phrase not in of_attributes:
+                found[k] = Noun(length=length, actions=_meant(told[phrase], robot))
+                k += length - 1
+                break
+        k += 1
+    return found
+
+
+def _singular(phrase: str) -> str:
+    head, space, last = _norm(phrase).rpartition(" ")
+    return f"{head}{space}{w.singular(last)}"
+
+
+def _stem(phrase: str) -> str:
+    """A phrase as the profile writes it: singular, and a verb without its ending ("photographing")."""
+    head, space, last = phrase.rpartition(" ")
+    for ending in ("ing", "ed"):
+        if not head and last.endswith(ending) and len(last) > len(ending) + 4:
+            last = last.removesuffix(ending)
+    return f"{head}{space}{w.singular(last)}"
+
+
+def _meant(word: str, robot: RobotProfile) -> frozenset[str]:
+    """Actions that a word may mean: those that have it, and those that measure a quantity that has it."""
+    quantities = {q.name for q in robot.quantities if word in q.words}
+    return frozenset(
+        a.name for a in robot.actions if word in (*a.words, *a.verbs) or quantities.intersection(a.measures)
+    )
+
+
+def hints(action: Action, robot: RobotProfile) -> frozenset[str]:
+    """Every word that may speak of an action: of its names, verbs, description and quantities."""
+    quantities = [robot.quantity[name] for name in action.measures if name in robot.quantity]
+    phrases = [action.name, action.description, *action.words, *action.verbs, *(q.name for q in quantities)]
+    phrases += [word for q in quantities for word in q.words]
+    words = {w.singular(word) for phrase in phrases for word in _norm(phrase).split()}
+    return frozenset(words - w.PLAIN)
+
+
+def _known(robot: RobotProfile, site: Site, names: set[str]) -> frozenset[str]:
+    """Every word that this check knows."""
+    phrases = [word for a in robot.actions for word in (a.name, *a.words, *a.verbs)]
+    phrases += [word for q in robot.quantities for word in (q.name, *q.words, *q.levels)]
+    phrases += [*names, *_kinds(site), *site.attributes]
+    own = {form for phrase in phrases for word in _norm(phrase).split() for form in (word, f"{word}s", f"{word}es")}
+    own |= {f"{verb}ing" for a in robot.actions for verb in a.verbs} | {
+        f"{v}ed" for a in robot.actions for v in a.verbs
+    }
+    tables = (w.NUMBERS, w.ORDINALS, w.MULTIPLES, w.LENGTHS, w.TIMES, w.COMPASS)
+    shared = {word for table in tables for word in table}
+    return frozenset(
+        own | shared | w.PLAIN | w.AGES | w.DEGREES | w.CONDITIONAL | w.BELOW | w.ABOVE | w.NEGATIONS | w.TREES
+        | {"hundred", "thousand", "st", "nd", "rd", "th"} | {q.unit.lower() for q in robot.quantities}
+    )  # fmt: skip

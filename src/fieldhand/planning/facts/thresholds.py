@@ -1,0 +1,178 @@
+"""Thresholds and words such as "low": each that the request states is tested, the right way round, and no other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from fieldhand.planning.facts import words as w
+from fieldhand.planning.facts.amounts import Amount
+from fieldhand.planning.facts.limits import BATTERY
+from fieldhand.planning.facts.mismatch import Mismatch
+from fieldhand.planning.facts.planned import Planned, Tested
+from fieldhand.planning.facts.stated import Stated
+from fieldhand.robot.model import RobotProfile
+from fieldhand.task.words import TESTS, say_quantity
+
+#: A number of these kinds may be said in another unit of the same thing.
+_FACTORS = (1.0, 100.0, 0.01, 1e4, 1e-4, 1e3, 1e-3)
+#: Numbers of attributes in this range are years of the calendar, which follow from an age.
+_CALENDAR = (1900.0, 2100.0)
+_WAYS = {"below": ("lt", "le"), "above": ("gt", "ge")}
+
+
+def thresholds(said: Stated, plan: Planned, robot: RobotProfile) -> Iterator[Mismatch]:
+    """Contradictions in what is tested."""
+    for amount in said.amounts:
+        yield from _kept(said, plan, robot, amount)
+    for test in plan.tests:
+        if test.test != "level":
+            yield from _invented(said, robot, test)
+    yield from _levels(said, plan)
+
+
+def _kept(said: Stated, plan: Planned, robot: RobotProfile, amount: Amount) -> Iterator[Mismatch]:
+    """A threshold that is stated is tested, the right way round and on the quantity that is named."""
+    if not _certain(said, amount):
+        return
+    same = [t for t in plan.tests if any(_same(v, x) for v in amount.values for x in t.values)]
+    if not same:
+        if not _as_level(plan, robot, amount) and not (amount.kind == "attribute" and _calendar(plan)):
+            yield Mismatch(
+                kind="condition",
+                message=f"the request states the threshold '{amount.said}', which the plan never tests",
+            )
+        return
+    yield from _turned(amount, same, said)
+    yield from _other_quantity(amount, same, said, robot)
+
+
+def _certain(said: Stated, amount: Amount) -> bool:
+    """Whether a number is for certain a threshold that something is made to depend on."""
+    if amount.kind == "attribute":
+        return bool(amount.compared) and not said.negated(amount.index)
+    if not said.conditional(amount.sentence):
+        return False
+    if amount.kind == "percent":
+        return bool(amount.compared) and not {t.text for t in said.said if t.sentence == amount.sentence} & BATTERY
+    return amount.kind in ("temperature", "unit") or (amount.kind == "plain" and bool(amount.compared))
+
+
+def _calendar(plan: Planned) -> bool:
+    return any(_CALENDAR[0] <= x <= _CALENDAR[1] for t in plan.tests for x in t.values)
+
+
+def _as_level(plan: Planned, robot: RobotProfile, amount: Amount) -> bool:
+    """Whether a threshold is tested by its word ("low" is below 33)."""
+    for test in plan.tests:
+        quantity = robot.quantity.get(test.quantity)
+        level = quantity.levels.get(test.level) if quantity is not None else None
+        if level is not None and any(_same(value, level.value) for value in amount.values):
+            return True
+    return False
+
+
+def _turned(amount: Amount, same: list[Tested], said: Stated) -> Iterator[Mismatch]:
+    """ "Below" is not tested as "above" where nothing in plan or request turns it around."""
+    alike = {a.compared for a in said.amounts if any(_same(v, x) for v in a.values for x in amount.values)}
+    ways = _WAYS.get(amount.compared)
+    around = [t.text for t in said.said if t.sentence == amount.sentence]
+    if ways is None or alike != {amount.compared} or w.NEGATIONS.intersection(around) or "until" in around:
+        return
+    wanted = _wanted(said, amount)
+    for test in same:
+        if test.test not in ("lt", "le", "gt", "ge") or test.test in ways or test.attribute:
+            continue
+        if test.plainly or (wanted & test.then and not wanted & test.otherwise):
+            yield Mismatch(
+                kind="threshold",
+                message=f"the request says {amount.compared} '{amount.said}', and the plan tests "
+                f"{TESTS[test.test]} {say_quantity(test.values[0], test.unit)}",
+                node=test.node,
+            )
+
+
+def _wanted(said: Stated, amount: Amount) -> frozenset[str]:
+    """What a sentence asks for where its threshold holds, "stop" for an end of the mission."""
+    found: set[str] = set()
+    for k in range(amount.index + 1, len(said.said)):
+        token = said.said[k]
+        if token.sentence != amount.sentence or token.text in ("otherwise", "else", "if"):
+            break
+        found |= said.nouns[k].actions if k in said.nouns else set()
+        found |= {"stop"} if token.text in ("stop", "finish", "end") else set()
+    return frozenset(found)
+
+
+def _other_quantity(amount: Amount, same: list[Tested], said: Stated, robot: RobotProfile) -> Iterator[Mismatch]:
+    """The quantity that is named right before a threshold is the one that is tested."""
+    named = _quantity_before(amount, said, robot)
+    if named and all(t.quantity and t.quantity != named for t in same):
+        test = same[0]
+        message = f"the request compares the {named.replace('_', ' ')} with '{amount.said}', and the plan the "
+        yield Mismatch(kind="sensor", message=message + test.quantity.replace("_", " "), node=test.node)
+
+
+def _quantity_before(amount: Amount, said: Stated, robot: RobotProfile) -> str:
+    """The one quantity whose own words stand in the few words before a number; empty if that is open."""
+    words: list[str] = []
+    for token in reversed(said.said[max(0, amount.index - 7) : amount.index]):
+        if token.sentence != amount.sentence or token.text in ("if", "when", "where", "or", "and", ",", "unless"):
+            break
+        words.insert(0, token.text)
+    text = f" {' '.join(words)} "
+    own = {
+        q.name: [x for x in q.words if not any(x in other.words for other in robot.quantities if other is not q)]
+        for q in robot.quantities
+    }
+    found = [name for name, phrases in own.items() if any(f" {phrase} " in text for phrase in phrases)]
+    return found[0] if len(found) == 1 else ""
+
+
+def _invented(said: Stated, robot: RobotProfile, test: Tested) -> Iterator[Mismatch]:
+    """A threshold of the plan is stated, in this unit or one that it follows from."""
+    for value in test.values:
+        if test.attribute and _CALENDAR[0] <= value <= _CALENDAR[1]:
+            continue
+        if any(_follows(value, amount, test) for amount in said.amounts):
+            continue
+        quantity = robot.quantity.get(test.quantity)
+        if quantity is not None and any(_same(value, level.value) for level in quantity.levels.values()):
+            continue
+        what = test.attribute or test.quantity.replace("_", " ")
+        told = say_quantity(value, test.unit)
+        yield Mismatch(
+            kind="threshold",
+            message=f"the plan compares the {what} with {told}, which the request does not say",
+            node=test.node,
+        )
+
+
+def _follows(value: float, amount: Amount, test: Tested) -> bool:
+    if amount.kind == "unit" and test.unit and amount.unit != test.unit.lower():
+        return False
+    if amount.kind == "temperature":
+        # An attribute has no unit that could be compared; a reading has.
+        return test.unit not in ("ppm", "percent") and any(_same(value, x) for x in amount.values)
+    factors = _FACTORS if amount.kind in ("unit", "percent", "plain", "attribute", "length") else (1.0,)
+    return any(_same(value, x * factor) for x in amount.values for factor in factors)
+
+
+def _levels(said: Stated, plan: Planned) -> Iterator[Mismatch]:
+    """ "Low" is not tested as "high", nor left out, where nothing else is tested that it could stand for."""
+    tested = {t.level: t.node for t in plan.tests if t.test == "level"}
+    if said.levels and not said.unknown:
+        for word in sorted(tested.keys() - said.words):
+            message = f"the plan tests for '{word}', of which the request says nothing"
+            yield Mismatch(kind="condition", message=message, node=tested[word])
+    if tested or any(t.quantity for t in plan.tests):
+        return
+    for word in sorted(said.levels):
+        message = f"the request makes something depend on '{word}', and the plan tests no reading"
+        yield Mismatch(kind="condition", message=message)
+
+
+def _same(a: float, b: float) -> bool:
+    """Equal, but for the digits that a conversion loses."""
+    return abs(a - b) <= max(
+        1e-6, 0.002 * abs(a), 0.06 if not float(b).is_integer() or not float(a).is_integer() else 0.0
+    )

@@ -1,0 +1,178 @@
+"""The words that this check knows: numbers, units, the compass, and the plainest words of requests.
+
+A small list of its own, deliberately not the English planner's. It is for recognising a contradiction, not for
+understanding a sentence, so it may be incomplete: a word that is missing makes the check silent, never wrong.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from dataclasses import dataclass
+
+from fieldhand.task.selectors import Side
+
+
+def words_in(text: str) -> frozenset[str]:
+    """The words of a list that is written with spaces."""
+    return frozenset(text.split())
+
+
+def _in_order(text: str) -> tuple[str, ...]:
+    return tuple(text.split())
+
+
+_UNITS = _in_order("""
+    zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen
+    eighteen nineteen
+    """)
+_TENS = _in_order("twenty thirty forty fifty sixty seventy eighty ninety")
+NUMBERS = {word: float(n) for n, word in enumerate(_UNITS)} | {w: 20.0 + 10 * n for n, w in enumerate(_TENS)}
+ORDINALS = {
+    word: n
+    for n, word in enumerate(
+        _in_order("first second third fourth fifth sixth seventh eighth ninth tenth eleventh twelfth"), start=1
+    )
+}
+#: Words that stand for a number of things, without a noun of their own.
+MULTIPLES = {
+    "once": 1,
+    "twice": 2,
+    "thrice": 3,
+    "couple": 2,
+    "pair": 2,
+    "both": 2,
+    "dozen": 12,
+    "double": 2,
+    "triple": 3,
+}
+#: Where one of these is said, how many is not fixed by the request; "as many as" is said apart.
+VAGUE = re.compile(r"\b(?:few|several|some(?! other)|handful|(?<!as )many|multiple|various|plenty|lots)\b")
+
+LENGTHS = {
+    **dict.fromkeys(["m", "metre", "metres", "meter", "meters"], 1.0),
+    **dict.fromkeys(["km", "kilometre", "kilometres", "kilometer", "kilometers"], 1000.0),
+    **dict.fromkeys(["cm", "centimetre", "centimetres", "centimeter", "centimeters"], 0.01),
+    **dict.fromkeys(["ft", "foot", "feet"], 0.3048),
+    **dict.fromkeys(["yd", "yds", "yard", "yards"], 0.9144),
+    **dict.fromkeys(["mile", "miles"], 1609.344),
+}
+TIMES = {
+    **dict.fromkeys(["s", "sec", "secs", "seconds"], 1.0),
+    **dict.fromkeys(["min", "mins", "minute", "minutes"], 60.0),
+    **dict.fromkeys(["h", "hr", "hrs", "hour", "hours"], 3600.0),
+}
+AGES = words_in("""
+    year years yr yrs month months kg kilo kilos kilogram kilograms lb lbs pound pounds g t ton tons
+    """)
+DEGREES = words_in("c f celsius fahrenheit centigrade degree degrees deg °")
+PERCENT = frozenset(["%", "percent", "pct"])
+
+_COMPASS: tuple[Side, ...] = ("north", "east", "south", "west")
+#: What is said of the compass, and which sides it means; a corner means two.
+COMPASS: dict[str, frozenset[Side]] = {}
+for _side in _COMPASS:
+    for _form in ("", "s", "ern", "ernmost", "most", "erly", "ward", "wards", "bound", "erlymost"):
+        COMPASS[_side + _form] = frozenset({_side})
+_NORTH_SOUTH: tuple[Side, ...] = ("north", "south")
+_EAST_WEST: tuple[Side, ...] = ("east", "west")
+for _a in _NORTH_SOUTH:
+    for _b in _EAST_WEST:
+        _two: frozenset[Side] = frozenset({_a, _b})
+        for _form in ("", "ern", "ernmost", "erly"):
+            COMPASS[_a + _b + _form] = _two
+        COMPASS[_a[0] + _b[0]] = _two
+#: Sides of a picture or of a slope: which compass side is meant does not stand in the words.
+VAGUE_SIDES = words_in("""
+    left right top bottom upper uphill downhill front back rear sunny shady up down opposite
+    across clockwise anticlockwise counterclockwise perimeter outer outermost edges border borders corners
+    """)
+
+TREES = words_in("""
+    tree trees vine vines plant plants palm palms bush bushes spot spots place places point points stops location
+    locations site sites position positions ones them these those
+    """)
+CORNERS = frozenset({"corner", "corners"})
+ROWS = frozenset({"row", "rows"})
+#: Words that end the noun phrase that a number counts.
+ENDS_PHRASE = words_in("""
+    . , ; : ! ? ( ) and or then but if when where unless at in on to from with without while is are by per each
+    every for that which who as until within after before along except outside inside taking take takes starting
+    """)
+CONDITIONAL = words_in("if when where unless until whenever wherever otherwise provided should once while")
+BELOW = words_in("below under less lower fewer beneath colder cooler drier younger shorter smaller <")
+ABOVE = words_in("""
+    above over more greater higher exceeds exceed exceeding hotter warmer older taller larger bigger heavier >
+    """)
+NEGATIONS = words_in("""
+    not no never without don't doesn't isn't aren't nor skip avoid except excluding instead rather neither unless
+    cannot can't won't nothing none do-not besides
+    """)
+
+#: Plain words of requests, which add nothing that a plan could hold. What stands in no list is a word that the check
+#: does not know; where there is one, nothing is said to be invented.
+PLAIN = words_in("""
+    a an the this that these those it its it's he she they them their my our your i we you me us one ones any all
+    each every both either another other others different some same such own new next last final near nearby nearest
+    closest far farthest furthest away around beside between inside outside within of off on in into at to toward
+    towards from by with without up down over under along across through for as so than then there here where when
+    while if unless otherwise else and or but not no nor also too only just again more most less least few many much
+    once twice after afterwards before finally lastly first second third until till during is are be been being was
+    were am do does did done doing has have had can could will would shall should may might must let please go goes
+    going went drive drives driving head move travel visit visiting return returning come coming back get gets
+    getting take takes taking taken make measure measures measuring measured measurement measurements read reads
+    reading readings check checks checking sample samples sampling record recording collect collecting capture
+    capturing inspect inspecting survey monitor test scan probe report find finding look stop stops stopping finish
+    finished end ends ending start starts starting begin beginning complete continue proceed carry repeat repeating
+    process procedure thing steps step mission robot send tree trees vine vines plant plants orchard farm field
+    block blocks site plot grove vineyard row rows corner corners edge edges side sides half halves quarter quarters
+    part section area region zone middle centre center end ends boundary spot place point location position marker
+    home base starting charger charging station dock possible battery charge energy power budget reserve left
+    remaining remain remains keep keeping use uses using used spend time allows allow permits permit minutes minute
+    seconds second hours hour metres metre meters meter feet percent degrees degree celsius fahrenheit most least
+    low lower lowest high higher highest below above less greater value values level result it'll very still yet
+    even order given turn apart spaced distance trees' quickly carefully slowly what which whose who how whether see
+    show shows shown give send random somewhere number numbered id older younger oldest youngest old young age aged
+    years year best worst first-most
+    """)
+
+_TOKEN = re.compile(
+    r"\d+(?:,\d{3})+(?:\.\d+)?(?!\d)|\d+(?:\.\d+)?|[^\W\d_][^\W_]*(?:['\u2019][^\W\d_]+)?|[^\s]", re.UNICODE
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Token:
+    """A word, a number or a sign of the request in lower case, and which sentence it stands in."""
+
+    text: str
+    sentence: int
+    joined: bool
+
+
+def tokens(request: str) -> tuple[Token, ...]:
+    """The words, numbers and signs of a request in their order.
+
+    ``joined`` says that nothing stands between a token and the one before it, as in "33C".
+    """
+    text = unicodedata.normalize("NFKC", request).lower().replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
+    found: list[Token] = []
+    sentence, last = 0, -1
+    for match in _TOKEN.finditer(text):
+        found.append(Token(text=match.group(), sentence=sentence, joined=match.start() == last))
+        last = match.end()
+        sentence += match.group() in (".", "!", "?", ";")
+    return tuple(found)
+
+
+def is_number(text: str) -> bool:
+    """Whether a token is written in digits."""
+    return text[:1].isdecimal() and text.replace(",", "").replace(".", "", 1).isdecimal() and text.isascii()
+
+
+def singular(word: str) -> str:
+    """A noun without the ending of its plural, good enough to compare two nouns."""
+    for ending, instead in (("leaves", "leaf"), ("ies", "y"), ("sses", "ss"), ("xes", "x"), ("ches", "ch")):
+        if word.endswith(ending):
+            return word.removesuffix(ending) + instead
+    return word.removesuffix("s") if word.endswith("s") and not word.endswith(("ss", "us")) and len(word) > 3 else word
