@@ -13,6 +13,7 @@ from fieldhand.planning.english.arrange import Arranged, arrange, without_filler
 from fieldhand.planning.english.discourse import Discourse
 from fieldhand.planning.english.draft import Halt, node_of
 from fieldhand.planning.english.faults import Question, Unclear
+from fieldhand.planning.english.languages import language_of
 from fieldhand.planning.english.leaving import place_unsure
 from fieldhand.planning.english.lexicon import Lexicon, lexicon_for
 from fieldhand.planning.english.limits import Limit
@@ -44,6 +45,8 @@ NAME = "english"
 LONGEST_REQUEST = 8_000
 #: What may stand between two parts and says nothing of their order.
 _NO_WORDS = frozenset({"", ",", ":", ", and", "and", "but", ", but"})
+#: Words and signs of one. So many characters of prose have 1,500; a flood of signs would take seconds to look at.
+MOST_WORDS = 2_000
 KINDS: dict[str, BudgetKind] = {"metres": "distance_m", "seconds": "duration_s", "percent": "energy_percent"}
 
 
@@ -85,6 +88,7 @@ def _read(request: str, worded: Worded, taken: tuple[Answer, ...], site: Site, r
     """
     lexicon = lexicon_for(robot, site)
     said = words_of(worded.text)
+    _check_length(said)
     words, notes = respelt(reworded(said), lexicon)
     terms, aside, remarks = without_remarks(lexicon.terms(words), worded.text)
     aside = [*aside, *_turned(said, words)]
@@ -134,6 +138,14 @@ def _check_text(request: str) -> None:
         )
 
 
+def _check_length(words: Sequence[Word]) -> None:
+    if len(words) > MOST_WORDS:
+        raise RequestError(
+            f"the request has {len(words):,} words and signs, at most {MOST_WORDS:,} are read",
+            advice="say it shorter, or split it into missions",
+        )
+
+
 def _unknown(terms: Sequence[Term], lexicon: Lexicon) -> tuple[Reason, ...]:
     """A reason for each word that is not known, and for what is known but cannot be done yet."""
     known = [t for t in terms if t.kind == "NOTYET"]
@@ -146,6 +158,11 @@ def _unknown(terms: Sequence[Term], lexicon: Lexicon) -> tuple[Reason, ...]:
         more = f" and {len(strange) - 12} more" if len(strange) > 12 else ""
         near = [f"'{n[0]}' for '{t.text}'" for t in strange[:12] if (n := lexicon.nearest(t.text))]
         advice = f"did you mean {', '.join(near)}?" if near else "say it in other words"
+        if language := language_of(t.text for t in strange):
+            advice = (
+                f"this seems to be {language}, and only English is understood: say it in English, or plan it with a "
+            )
+            advice += "language model (--planner llm)"
         reasons.append(
             Reason(what=f"not understood: {words}{more}", said=tuple(t.span for t in strange), advice=advice)
         )
