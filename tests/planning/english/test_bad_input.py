@@ -82,7 +82,6 @@ def test_a_strange_word_or_two_are_no_other_language(words: list[str]) -> None:
         "../../etc/passwd",
         "\u202etake a picture of tree 4\u202c and obey",
         "t\u200ba\u200bke a picture of tree 4",
-        "take a p\u0456cture of tree 4",  # a Cyrillic letter in "picture"
         "0x41414141 1e999 -1e999 NaN",
         "a" * LONGEST_REQUEST,
         "tree " * 800,

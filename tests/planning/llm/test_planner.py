@@ -23,7 +23,7 @@ from fieldhand.task.selectors import Corners
 from site_grids import grid
 
 SITE, HUSKY = grid(4, 6), load_robot("husky")
-REQUEST = "Take a picture at  the corners,\nand come home."
+REQUEST = "Take a picture at  the corners,\nand come home. Use at most 50 % of the battery."
 
 GOOD = """<task xmlns="urn:fieldhand:task:1">
   <command>

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
@@ -42,6 +43,17 @@ def test_the_prompt_does_not_grow_with_the_orchard() -> None:
     small, large = prompt(4, 5), prompt(250, 400)
     assert abs(tokens(large) - tokens(small)) <= 60
     assert "100" in large
+
+
+@pytest.mark.parametrize(("rows", "columns", "trees"), [(4, 5, "20"), (250, 400, "100,000")])
+def test_the_docs_give_the_size_that_is_measured(rows: int, columns: int, trees: str) -> None:
+    page = Path(__file__).resolve().parents[3] / "docs" / "planning-llm.md"
+    said = re.search(rf"\| {trees} \| ([\d,]+) \| ([\d,]+) \|", page.read_text(encoding="utf-8"))
+    assert said is not None
+    for robot, figure in zip(("husky", "amiga"), said.groups(), strict=True):
+        measured = tokens(prompt(rows, columns, robot))
+        assert measured <= 6000
+        assert abs(measured - int(figure.replace(",", ""))) <= 60
 
 
 def test_a_site_that_has_much_to_say_is_cut_to_size() -> None:

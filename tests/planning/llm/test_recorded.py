@@ -36,6 +36,7 @@ def test_a_recorded_answer_still_makes_a_plan(path: Path) -> None:
         if isinstance(outcome, Planned):
             assert outcome.task.command.request == session.request
             assert outcome.planner == session.about["planner"]
+        assert outcome.warnings == ()
 
 
 @pytest.mark.parametrize("path", TRANSCRIPTS, ids=lambda p: p.stem)

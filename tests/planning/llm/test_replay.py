@@ -44,7 +44,9 @@ def test_recording_again_replaces_the_file(tmp_path: Path) -> None:
 
 
 def test_an_answer_that_is_no_longer_good_fails(tmp_path: Path) -> None:
-    _, session = recorded(tmp_path / "t.jsonl", GOOD.replace("<first/>", '<tree-is tree="20"/>'))
+    # The request names no tree 20, so the plan is doubted and given again.
+    answer = GOOD.replace("<first/>", '<tree-is tree="20"/>')
+    _, session = recorded(tmp_path / "t.jsonl", answer, answer)
     with pytest.raises(ModelError, match="20"):
         replay(session, grid(2, 2), HUSKY)
 

@@ -12,6 +12,7 @@ from typing import Literal
 from xml.sax.saxutils import unescape
 
 from fieldhand.planning.llm.chat import Reply
+from fieldhand.planning.llm.plain import visible_line
 
 #: The root elements of the three kinds of answer.
 Kind = Literal["task", "question", "refusal"]
@@ -19,10 +20,16 @@ Kind = Literal["task", "question", "refusal"]
 #: A longer answer is no plan but a model that goes round in circles.
 LONGEST_ANSWER = 60_000
 
+#: More answers than these to a question are no choice.
+MOST_CHOICES = 20
+#: A question, a choice or a reason is a sentence or two; more is cut.
+LONGEST_SENTENCE = 600
+
 #: Chains of thought that open models write before their answer.
 _THOUGHT = re.compile(r"<(think|thinking|reasoning)>.*?(</\1>|\Z)", re.DOTALL | re.IGNORECASE)
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _OPENING = re.compile(r"<(task|question|refusal)(?=[\s>/])[^<>]*>")
+_CHOICE = re.compile(r"<choice(?:\s[^<>]*)?>(.*?)</choice>", re.DOTALL)
 _TAG = re.compile(r"</?[a-zA-Z][^<>]*>")
 
 
@@ -63,8 +70,7 @@ def read_answer(reply: Reply) -> Answer:
     """What a reply says. Never raises: what cannot be read is :class:`Unusable`."""
     if len(reply.text) > LONGEST_ANSWER:
         return Unusable(reason=f"The answer was longer than {LONGEST_ANSWER} characters.")
-    # A comment leaves its line breaks behind, so that lines are counted as the model wrote them.
-    text = _COMMENT.sub(lambda m: "\n" * m[0].count("\n"), _THOUGHT.sub("", reply.text)).strip()
+    text = _without_comments(_THOUGHT.sub("", reply.text)).strip()
     if reply.finish == "content_filter":
         return Unusable(reason="The answer was withheld by the content filter of the endpoint.")
     if not text:
@@ -77,6 +83,15 @@ def read_answer(reply: Reply) -> Answer:
     if len(set(documents)) > 1:
         return Unusable(reason=f"The answer held {len(documents)} documents; give exactly one.")
     return _understand(*documents[0])
+
+
+def _without_comments(text: str) -> str:
+    """The text without comments, whose line breaks stay, so that lines are counted as the model wrote them.
+
+    Where no comment ends any more none is looked for: looking from each of many beginnings takes quadratic time.
+    """
+    before, end, after = text.rpartition("-->")
+    return _COMMENT.sub(lambda m: "\n" * m[0].count("\n"), before + end) + after
 
 
 def _documents(text: str) -> tuple[list[tuple[Kind, str]], bool]:
@@ -108,16 +123,17 @@ def _understand(kind: Kind, document: str) -> Answer:
             reason = _words(document)
             return RefusalAnswer(reason=reason) if reason else Unusable(reason="The refusal gave no reason.")
         case "question":
-            choices = re.findall(r"<choice(?:\s[^<>]*)?>(.*?)</choice>", document, re.DOTALL)
-            question = _words(re.sub(r"<choice(?:\s[^<>]*)?>.*?</choice>", " ", document, flags=re.DOTALL))
+            before, end, after = document.rpartition("</choice>")  # as with comments: past it, none is looked for
+            choices = _CHOICE.findall(before + end)[:MOST_CHOICES]
+            question = _words(_CHOICE.sub(" ", before + end) + after)
             if not question:
                 return Unusable(reason="The question asked nothing.")
             return QuestionAnswer(question=question, choices=tuple(filter(None, map(_words, choices))))
 
 
 def _words(markup: str) -> str:
-    """The text of some markup on one line, tags taken away."""
-    return " ".join(unescape(_TAG.sub(" ", markup), {"&quot;": '"', "&apos;": "'"}).split())
+    """The text of some markup on one line, tags and invisible characters taken away: it is shown to a person."""
+    return visible_line(unescape(_TAG.sub(" ", markup), {"&quot;": '"', "&apos;": "'"}), LONGEST_SENTENCE)
 
 
 def _cut_off() -> Unusable:

@@ -1,15 +1,22 @@
-"""Plan with a language model: ask, read the answer, check it, let the model mend it, at most a few times."""
+"""Plan with a language model: ask, read the answer, check it, let the model mend it, at most a few times.
+
+A plan that can be used but contradicts what the request says outright goes back once. If it does so again, the operator
+gets it with a warning for each contradiction: the model may be right, and a person can see it.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, dataclass, replace
 from datetime import datetime
 from pathlib import Path
 
 from fieldhand.errors import ModelError, RequestError
 from fieldhand.planning.llm.answer import QuestionAnswer, RefusalAnswer, TaskAnswer, Unusable, read_answer
 from fieldhand.planning.llm.chat import Chat, Message, Reply
+from fieldhand.planning.llm.coordinates import coordinates
+from fieldhand.planning.llm.doubts import doubts, warning_of
+from fieldhand.planning.llm.plain import visible_line
 from fieldhand.planning.llm.prompt import answered, opening, repair
 from fieldhand.planning.llm.review import Problem, read_draft, review
 from fieldhand.planning.llm.settings import LlmSettings
@@ -28,6 +35,16 @@ from fieldhand.task.frames import Resource
 LONGEST_REQUEST = 8_000
 #: So many problems go back to the model, and into an error; more help neither.
 MOST_PROBLEMS = 12
+#: Most characters of a sentence that a model assumed.
+LONGEST_ASSUMPTION = 400
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Understood:
+    """What a reply comes to: an outcome, or problems, or a plan with doubts (both)."""
+
+    outcome: Outcome | None = None
+    problems: tuple[Problem, ...] = ()
 
 
 class LlmPlanner:
@@ -91,41 +108,52 @@ class LlmPlanner:
         """Ask until an answer can be used, at most ``repairs`` times more than once."""
         talk: list[Message] = [*opening(request, site, robot), *answered(answers)]
         new: Sequence[Message] = talk
+        doubted: Outcome | None = None
         problems: tuple[Problem, ...] = ()
         for tries_left in range(self._settings.repairs, -1, -1):
             reply = self._chat.ask(talk)
-            outcome = self._understand(reply, request, site, robot, answers)
-            problems = outcome if isinstance(outcome, tuple) else ()
+            understood = self._understand(reply, request, site, robot, answers)
+            outcome, problems = understood.outcome, understood.problems
             said = [str(problem) for problem in problems[:MOST_PROBLEMS]]
             self._transcript.exchange(list(new), reply, said)
-            if not isinstance(outcome, tuple):
+            if outcome is not None and (not problems or doubted is not None or not tries_left):
                 return outcome
+            doubted = outcome or doubted
             if tries_left:
                 new = (repair(said, tries_left),)
                 # Endpoints refuse an assistant's message without text.
                 talk += [Message(role="assistant", text=reply.text.strip() or "(nothing)"), *new]
+        if doubted is not None:
+            return doubted
         raise self._unusable(problems)
 
     def _understand(
         self, reply: Reply, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...]
-    ) -> Outcome | tuple[Problem, ...]:
-        """What a reply comes to: an outcome, or why it cannot be used."""
+    ) -> _Understood:
+        """What a reply comes to."""
         name = self._settings.name
         answer = read_answer(reply)
         match answer:
             case Unusable():
-                return (Problem(kind="answer", message=answer.reason),)
+                return _Understood(problems=(Problem(kind="answer", message=answer.reason),))
             case QuestionAnswer():
-                return Clarify(question=answer.question, choices=answer.choices, planner=name, free=True)
+                question = Clarify(question=answer.question, choices=answer.choices, planner=name, free=True)
+                return _Understood(outcome=question)
             case RefusalAnswer():
-                return Refused(reasons=(Reason(what=answer.reason),), planner=name)
+                return _Understood(outcome=Refused(reasons=(Reason(what=answer.reason),), planner=name))
             case TaskAnswer():
                 capabilities = capabilities_of(robot)
                 draft = read_draft(answer.document, capabilities, request)
                 if isinstance(draft, tuple):
-                    return draft
-                problems = review(draft, site, capabilities)
-                return problems or _planned(draft, request, site, robot, name, answers)
+                    return _Understood(problems=draft)
+                problems = (*review(draft, site, capabilities), *coordinates(draft, request, site))
+                if problems:
+                    return _Understood(problems=problems)
+                planned = _planned(draft, request, site, robot, name, answers)
+                found = doubts(planned.task, draft, site, robot)
+                return _Understood(
+                    outcome=replace(planned, warnings=tuple(warning_of(doubt) for doubt in found)), problems=found
+                )
 
     def _unusable(self, problems: Sequence[Problem]) -> ModelError:
         """The clear failure at the end of the last try, with the last problems."""
@@ -173,7 +201,7 @@ def _planned(
         constraints=draft.constraints,
         nominal=draft.nominal,
         faulted=draft.faulted or FAULTED_EXITS,
-        assumptions=(*map(str, answers), *draft.assumptions),
+        assumptions=(*map(str, answers), *(visible_line(said, LONGEST_ASSUMPTION) for said in draft.assumptions)),
         nominal_said=draft.nominal_said,
         no_part=draft.no_part,
     )

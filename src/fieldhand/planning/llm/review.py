@@ -33,7 +33,7 @@ from fieldhand.task.selectors import Bound, InRow, RowOf, Selector
 if TYPE_CHECKING:
     from lxml.etree import _Element
 
-Kind = Literal["answer", "schema", "words", "reference", "site"]
+Kind = Literal["answer", "schema", "words", "reference", "site", "coordinate", "request"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,8 +42,8 @@ class Problem:
 
     Attributes:
         kind: ``answer``: no document could be read; ``schema``: not valid; ``words``: quoted words that are not in
-            the request; ``reference``: a name that nothing binds;
-            ``site``: this site does not have it.
+            the request; ``reference``: a name that nothing binds; ``site``: this site does not have it;
+            ``coordinate``: a position that nobody gave; ``request``: not what the request says.
         where: Line and element; empty where it is about no place of the document.
     """
 

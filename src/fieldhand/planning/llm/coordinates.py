@@ -1,0 +1,86 @@
+"""No coordinate of a model's own gets into a plan, by whatever door.
+
+The plan language names places and has no element for a position, so most attempts fail the schema. What is left are the
+free names of a draft (labels, readings, zones, ids) and a test of a site's own column of coordinates. Both may only
+hold what the request, the site or the profile says.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import fields
+from typing import Any
+
+from fieldhand.planning.llm.review import Problem
+from fieldhand.site.kinds import phrase
+from fieldhand.site.model import Site
+from fieldhand.task import conditions, plan, selectors
+from fieldhand.task.codec import Draft
+from fieldhand.task.plan import Node
+
+#: What columns of coordinates are called.
+_COLUMNS = frozenset(
+    {
+        *("lat", "latitude", "lon", "long", "lng", "longitude", "x", "y", "utm x", "utm y", "east", "north"),
+        *("easting", "northing", "coordinate", "coordinates", "position", "gps", "geometry", "wkt", "point"),
+    }
+)
+_DECIMAL = re.compile(r"\d+[.,]\d+|\d+\s*\N{DEGREE SIGN}")
+#: In a sentence a decimal number may be a conversion; a pair of exact ones is a position.
+_PAIR = re.compile(r"[-+]?\d{1,3}\.\d{2,}\s*\N{DEGREE SIGN}?\s*[NSEW]?[\s,;/]+[-+]?\d{1,3}\.\d{2,}")
+
+
+def coordinates(draft: Draft, request: str, site: Site) -> tuple[Problem, ...]:
+    """A problem for each literal coordinate of a draft that is not in the request."""
+    found = [problem for node in plan.walk(draft.plan) for problem in _of_node(node, request, site)]
+    for sentence in draft.assumptions:
+        pairs = [pair for pair in _PAIR.findall(sentence) if pair not in request]
+        found += [_problem(pair, "an assumption", "") for pair in pairs]
+    return tuple(dict.fromkeys(found))
+
+
+def _of_node(node: Node, request: str, site: Site) -> Iterator[Problem]:
+    for owner in _parts(node):
+        for field in fields(owner):
+            value = getattr(owner, field.name)
+            if not isinstance(value, str) or field.name in ("id", "action", "quantity", "unit"):
+                continue
+            number = _DECIMAL.search(value)
+            if number and number[0] not in request and not _is_of_site(value, site):
+                yield _problem(number[0], f"the {field.name.replace('_', ' ')} {value[:60]!r}", node.id)
+        if isinstance(owner, selectors.Where | conditions.TreeHas) and phrase(owner.attribute) in _COLUMNS:
+            yield from _of_column(owner.attribute, owner.value, request, node.id)
+
+
+def _parts(node: Node) -> Iterator[Any]:
+    """The node itself, and every part of its selector and its condition."""
+    yield node
+    selector, condition = plan.selector_of(node), plan.condition_of(node)
+    yield from selectors.walk(selector) if selector is not None else ()
+    yield from conditions.walk(condition) if condition is not None else ()
+
+
+def _of_column(attribute: str, value: selectors.Value, request: str, where: str) -> Iterator[Problem]:
+    said = {float(text) for text in re.findall(r"[-+]?\d+(?:\.\d+)?", request)}
+    if isinstance(value, bool) or (isinstance(value, float | int) and value in said):
+        return
+    if isinstance(value, str) and value.lower() in request.lower():
+        return
+    yield _problem(str(value)[:40], f"a test of the column {attribute[:40]!r}", where)
+
+
+def _is_of_site(value: str, site: Site) -> bool:
+    """Whether a name with digits is one of the site's own ("zone 3.5", "tree 12.4")."""
+    return (
+        value in site.by_id
+        or any(value == zone.name for zone in site.zones)
+        or any(value in values for values in site.attributes.values())
+        or value in site.attributes
+        or any(value in (row.name, block.name) for block in site.planting.blocks for row in block.rows)
+    )
+
+
+def _problem(number: str, place: str, where: str) -> Problem:
+    message = f"{place} holds {number!r}, which reads as a coordinate and is not in the request: name the place instead"
+    return Problem(kind="coordinate", message=message, where=where)
