@@ -81,7 +81,7 @@ def test_no_example_of_the_prompt_is_doubted() -> None:
     for request, answer in EXAMPLES:
         found = read_answer(Reply(text=answer))
         if isinstance(found, TaskAnswer):
-            draft = read_draft(found.document, capabilities_of(robot))
+            draft = read_draft(found.document, capabilities_of(robot), request)
             assert isinstance(draft, Draft)
             task = make_task(
                 request=request,
