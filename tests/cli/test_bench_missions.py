@@ -165,7 +165,7 @@ def test_a_model_that_gives_no_usable_answer_fails_that_case_alone(
     book: str, tmp_path: Path, bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     failing = ScriptedAnswer(text="not this one", status=400)
-    with ScriptedEndpoint([failing, WRONG]) as endpoint:
+    with ScriptedEndpoint([failing, WRONG, WRONG]) as endpoint:
         model(endpoint, tmp_path, monkeypatch)
         run = bench("missions", book, "--planner", "llm", "--only", "one-tree", "--only", "no-question")
     assert run.status == 1
