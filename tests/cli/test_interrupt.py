@@ -7,12 +7,25 @@ import os
 import signal
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 
-def start(tmp_path: Path, speed: int) -> subprocess.Popen[str]:
+def as_usual() -> None:
+    """Signals as a terminal hands them to a program, whatever started the tests."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
+def in_the_background() -> None:
+    """A program that a script starts in the background does not see the Ctrl-C of the script."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
+def start(tmp_path: Path, speed: int, signals: Callable[[], None] = as_usual) -> subprocess.Popen[str]:
     """A mission of many captures, so many times faster than it would be driven."""
     words = ["run", "Take a picture of every tree.", "--site", "demo", "--yes", "--speed", str(speed)]
     files = ["--out", str(tmp_path / "out"), "--events", str(tmp_path / "e.jsonl")]
@@ -22,6 +35,7 @@ def start(tmp_path: Path, speed: int) -> subprocess.Popen[str]:
         stderr=subprocess.PIPE,
         text=True,
         env=dict(os.environ),
+        preexec_fn=signals,
     )
 
 
@@ -47,6 +61,18 @@ def test_a_signal_keeps_what_was_gathered(number: signal.Signals, tmp_path: Path
     assert events[-1]["status"] == "aborted"
     assert any(e["event"] == "action" and e["status"] == "success" for e in events)
     assert (tmp_path / "out" / "report.md").exists()
+
+
+def test_a_mission_in_the_background_is_ended_by_a_kill_alone(tmp_path: Path) -> None:
+    process = start(tmp_path, 150, in_the_background)
+    until_a_capture(process)
+    process.send_signal(signal.SIGINT)
+    until_a_capture(process)
+    process.send_signal(signal.SIGTERM)
+    process.communicate(timeout=60)
+    assert process.returncode == 1
+    last = json.loads((tmp_path / "e.jsonl").read_text().splitlines()[-1])
+    assert (last["status"], "SIGTERM" in json.dumps(last)) == ("aborted", True)
 
 
 def test_a_reader_that_goes_away_ends_no_mission(tmp_path: Path) -> None:

@@ -21,8 +21,8 @@ def ctrl_c_as_request() -> Iterator[Callable[[], str | None]]:
 
     A closed terminal (SIGHUP) and a polite kill (SIGTERM) are remembered likewise, every time.
 
-    So that no event is half written and no capture is lost. Only in the main thread, and only where nobody else
-    handles Ctrl-C: elsewhere it does nothing.
+    So that no event is half written and no capture is lost. Only in the main thread, and only signals that nobody else
+    handles or ignores: a mission in the background is not ended by the Ctrl-C of another, but it is by a kill.
 
     Yields:
         A function that gives the reason once Ctrl-C was pressed, else None.
@@ -37,14 +37,10 @@ def ctrl_c_as_request() -> Iterator[Callable[[], str | None]]:
     def reason() -> str | None:
         return pressed[0] if pressed else None
 
-    ours = (
-        threading.current_thread() is threading.main_thread()
-        and signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    )
-    if not ours:
-        yield reason
-        return
-    before = {number: signal.signal(number, remember) for number in _REASONS}
+    main = threading.current_thread() is threading.main_thread()
+    usual = {signal.SIG_DFL, signal.default_int_handler}
+    ours = [number for number in _REASONS if main and signal.getsignal(number) in usual]
+    before = {number: signal.signal(number, remember) for number in ours}
     try:
         yield reason
     finally:
