@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import time
 from collections import Counter
 from collections.abc import Sequence
 from functools import cache
@@ -58,7 +57,7 @@ def test_every_case_is_as_asked_and_both_judges_agree_on_every_log(file: str) ->
         planner=EnglishPlanner(),
         model=None,
         seed=0,
-        clock=time.perf_counter,
+        clock=lambda: 0.0,
         keep=lambda case, world, lines: logs.append((case, world, tuple(lines))),
     )
     for trial in try_all(cases, on):
