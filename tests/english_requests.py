@@ -6,6 +6,91 @@ Longer than other files because it is a table.
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
+    ("husky", "Return to the start after taking a picture of tree 9.", "picture @ TreeIs(9) | return_to_start"),
+    ("husky", "Go back to the start after photographing tree 9.", "picture @ TreeIs(9) | return_to_start"),
+    ("husky", "Go back to the charger after photographing tree 9.", "picture @ TreeIs(9); go Marker(charger) | stay"),
+    ("husky", "Read co2 at tree 10, but first take a picture of tree 9.", "picture @ TreeIs(9); co2 @ TreeIs(10)"),
+    ("husky", "Photograph tree 5. Before that, measure CO2 at tree 9.", "co2 @ TreeIs(9); picture @ TreeIs(5)"),
+    ("husky", "Before going back to the start, photograph tree 4.", "picture @ TreeIs(4) | return_to_start"),
+    ("husky", "Measure CO2 at tree 4 before photographing tree 9", "co2 @ TreeIs(4); picture @ TreeIs(9)"),
+    (
+        "husky",
+        "Photograph the four corners. After photographing them, return to the start.",
+        "for Corners: [picture] | return_to_start",
+    ),
+    (
+        "husky",
+        "Keep taking co2 at different trees on the east side until you get one below 400, but give up after 8 trees.",
+        "for Other(of Half(east)) at most 8 until r1 < 400 ppm: [co2 = r1]",
+    ),
+    (
+        "husky",
+        "Photograph the trees of row 3 from north to south until one is above 38, measure CO2 there and then go back to the start.",
+        "for Ordered(north_to_south, of Rows(3, 3)) given until r1 > 38 degC: [picture = r1; if r1 > 38 degC: [co2]] | return_to_start",
+    ),
+    (
+        "husky",
+        "Photograph trees 1 to 9 one after the other till it is too hot.",
+        "for Union(TreeIs(1)+TreeIs(2)+TreeIs(3)+TreeIs(4)+TreeIs(5)+TreeIs(6)+TreeIs(7)+TreeIs(8)+TreeIs(9)) given until r1 high: [picture = r1]",
+    ),
+    (
+        "husky",
+        "Take pictures of the north-west corner tree and of the south-east corner tree. If either one is above 38, drive to the middle for an air temp reading. If neither is, photograph tree 9.",
+        "picture @ Corners(nw) = r1; picture @ Corners(se) = r2; if r1 > 38 degC or r2 > 38 degC: [go Middle; air] else [picture @ TreeIs(9)]",
+    ),
+    (
+        "husky",
+        "CO2 at trees 10, 11 and 12. If at least two of the three are low, take a picture of tree 11.",
+        "co2 @ TreeIs(10) = r1; co2 @ TreeIs(11) = r2; co2 @ TreeIs(12) = r3; if r1 low and r2 low or r1 low and r3 low or r2 low and r3 low: [picture @ TreeIs(11)]",
+    ),
+    (
+        "husky",
+        "Photograph all corner trees. If any of them is above 36, measure CO2 there.",
+        "for Corners: [picture = r1; if r1 > 36 degC: [co2]]",
+    ),
+    (
+        "husky",
+        "Measure CO2 at trees 4 and 40. If both are low, go back to the start, otherwise take a picture of tree 20.",
+        "co2 @ TreeIs(4) = r1; co2 @ TreeIs(40) = r2; if r1 low and r2 low: [go Marker(start)] else [picture @ TreeIs(20)] | return_to_start",
+    ),
+    ("husky", "measure co2 at at most 6 trees of row 2", "for Rows(2, 2) at most 6: [co2]"),
+    (
+        "husky",
+        "go to a tree in the north, and photograph a tree at least 20 m away from it",
+        "go Take(1, of Half(north)); picture @ Take(1, of Excluding(Union(Here+Within(20, Here))))",
+    ),
+    (
+        "husky",
+        "take a photo at the ne corner, then at the other three corners",
+        "picture @ Corners(ne); for Take(3, of Other(of Corners)): [picture]",
+    ),
+    (
+        "husky",
+        "do a CO2 in the north west quarter, then photograph two different trees in the north east one",
+        "co2 @ Take(1, of Quarter(nw)); for Take(2, of Other(of Quarter(ne))): [picture]",
+    ),
+    (
+        "husky",
+        "take a co2 reading in each quarter",
+        "for Union(Take(1, of Quarter(nw))+Take(1, of Quarter(ne))+Take(1, of Quarter(se))+Take(1, of Quarter(sw))): [co2]",
+    ),
+    ("husky", "co2 at four spots 20 m apart", "for Spaced(20, 4): [co2]"),
+    ("husky", "photograph all four year old trees", "for Where(age_years, eq, 4): [picture]"),
+    (
+        "husky",
+        "photograph each tree that is not on the edge of the orchard",
+        "for Excluding(Union(Edge(north)+Edge(east)+Edge(south)+Edge(west))): [picture]",
+    ),
+    (
+        "husky",
+        "Take a co2 at tree 5 and if it's over 450 a photo as well.",
+        "co2 @ TreeIs(5) = r1; if r1 > 450 ppm: [picture]",
+    ),
+    (
+        "husky",
+        "Measure CO2 at the middle tree. If it is low, photograph the three nearest trees. Otherwise photograph that tree.",
+        "co2 @ Middle = r1; if r1 low: [for Nearest(Here, 3): [picture]] else [picture]",
+    ),
     ("husky", "can u get me a co2 reading at whichever tree is furthest to the west please", "co2 @ Extreme(west)"),
     ("husky", "take a picture at tree 4 because I like it", "picture @ TreeIs(4)"),
     ("husky", "We had a leak last week. Take a picture of tree 4.", "picture @ TreeIs(4)"),
@@ -842,11 +927,6 @@ REFUSED = [
     ("husky", "Stop.", "the request asks for nothing to be done"),
     (
         "husky",
-        "Return to the start after taking a picture of tree 9.",
-        "'after' does not fit where it stands in 'Return to the start after taking a picture of tree 9'",
-    ),
-    (
-        "husky",
         "Go to trees 3, 9 and 12. Read the CO2 at each, then photograph the last one.",
         "'the last one': the first or last of which trees?",
     ),
@@ -855,17 +935,6 @@ REFUSED = [
         "Measure co2 at tree 10. When it is above 450 ppm take a picture, when it is below 400 ppm read the temperature, and otherwise go to tree 12 and take a picture.",
         "'otherwise': to which 'if' does it belong?",
     ),
-    (
-        "husky",
-        "Go back to the start after photographing tree 9.",
-        "'after' does not fit where it stands in 'Go back to the start after photographing tree 9'",
-    ),
-    (
-        "husky",
-        "Go back to the charger after photographing tree 9.",
-        "'after' does not fit where it stands in 'Go back to the charger after photographing tree 9'",
-    ),
-    ("husky", "Read co2 at tree 10, but first take a picture of tree 9.", "'but first' is not possible yet"),
     (
         "husky",
         "Read co2 at 10 trees, then pictures at 5 of them.",

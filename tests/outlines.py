@@ -35,12 +35,14 @@ def node(n: p.Node) -> str:
         case p.ForEach():
             how = (" given" if n.order == "given" else "") + (" optional" if n.optional else "")
             how += f" at most {n.at_most}" if n.at_most else ""
+            how += f" until {condition(n.until)}" if n.until else ""
             return f"for {selector(n.select)}{how}: [{node(n.body)}]"
         case p.If():
             other = "" if n.otherwise is None else f" else [{node(n.otherwise)}]"
             return f"if {condition(n.condition)}: [{node(n.then)}]{other}"
         case p.Repeat():
-            return f"{n.times} times: [{node(n.body)}]"
+            until = f" until {condition(n.until)}" if n.until else ""
+            return f"{n.times} times{until}: [{node(n.body)}]"
         case p.Try():
             return f"try [{node(n.body)}] or [{node(n.otherwise)}]"
         case p.Optional():

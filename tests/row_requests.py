@@ -6,6 +6,22 @@
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
+    ("husky", "Photograph at least 3 trees in row 2.", "for Take(3, of Rows(2, 2)): [picture]"),
+    (
+        "husky",
+        "take a picture of every fifth tree from the north in row 3",
+        "for EveryNth(5, north, of Rows(3, 3)): [picture]",
+    ),
+    (
+        "husky",
+        "take a picture of every fifth tree in row 3 starting from the south",
+        "for Ordered(south_to_north, of EveryNth(5, south, of Rows(3, 3))) given: [picture]",
+    ),
+    (
+        "husky",
+        "photograph every other tree of row 6 counted from the south",
+        "for EveryNth(2, south, of Rows(6, 6)): [picture]",
+    ),
     (
         "husky",
         "Take one picture per row.",
@@ -1024,11 +1040,6 @@ ASKED = [
     ("husky", "read CO2 at the third tree of row 2 and of row 4", "'of row 4': at every tree, or at how many?"),
     (
         "husky",
-        "take a picture of every fifth tree in row 3 starting from the south",
-        "'starting from the south': is it counted from there, or only visited from there?",
-    ),
-    (
-        "husky",
         "take a picture of row 3 starting with row 2",
         "'take a picture of row 3': at every tree, or at how many?",
     ),
@@ -1228,11 +1239,6 @@ REFUSED = [
     ("husky", "Photograph up to 5 trees in each row.", "'up to 5 trees': up to so many in each row cannot be said yet"),
     (
         "husky",
-        "Photograph at least 3 trees in row 2.",
-        "'at least 3 trees': which attribute is compared does not stand there",
-    ),
-    (
-        "husky",
         "Skip row 3 and take pictures of all other rows.",
         "'except row 3': it is not clear what that area is of",
     ),
@@ -1299,11 +1305,6 @@ REFUSED = [
     ("husky", "rows", "'rows': it does not say what to do there"),
     ("husky", "every third tree", "'every third tree': it does not say what to do there"),
     ("husky", "take a picture of tree 40 5 trees down", "'5 trees down' could not be placed in 'tree 40 5 trees down'"),
-    (
-        "husky",
-        "take a picture of every fifth tree from the north in row 3",
-        "'from the north' could not be placed in 'every fifth tree from the north'",
-    ),
     ("husky", "take a picture of the 2nd row from the 3rd", "'the 3rd': '3rd' could be counted in several ways"),
     ("husky", "take a picture of the top row", "'top' could not be placed in 'the top row'"),
     (

@@ -292,6 +292,7 @@ class EveryNth:
 
     nth: int
     start: int = 1
+    counted_from: CountedFrom = "usual"
     of: Selector = Trees()
 
 

@@ -12,8 +12,9 @@ from fieldhand.planning.english.limits import with_amounts, with_limits
 from fieldhand.planning.english.rowwords import with_row_ids, with_row_words
 from fieldhand.planning.english.separators import separated
 from fieldhand.planning.english.spacing import with_orders, with_spacing
+from fieldhand.planning.english.timing import in_time
 from fieldhand.planning.english.tokens import Term
-from fieldhand.planning.english.wordclass import classed, with_ids
+from fieldhand.planning.english.wordclass import classed, with_at_most, with_ids
 from fieldhand.task.plan import Span
 
 #: Nouns that a compass word needs behind it ("the north-east corner").
@@ -91,7 +92,7 @@ def arrange(asked: Asked) -> Arranged:
     """
     kept, filler, reasons = list(asked.terms), list(asked.filler), asked.reasons
     sentences: list[Sentence] = []
-    for group in _split(kept, filler):
+    for group in in_time(_split(kept, filler)):
         sentence, silent = _sentence(group)
         filler += silent
         if any(t.kind not in ("SEP", "JOIN") for t in sentence.terms):
@@ -170,7 +171,7 @@ def _contrasted(before: list[Term]) -> bool:
 def _sentence(terms: list[Term]) -> tuple[Sentence, list[Span]]:
     terms = with_spacing(with_amounts(with_allowances(terms)))
     terms = with_row_words(with_ids(with_row_ids(terms)))
-    terms = classed(with_orders(terms))
+    terms = with_at_most(classed(with_orders(terms)))
     terms = with_limits(terms)
     terms = _tersely(_with_heads(terms))
     terms, then, silent = separated(terms)
@@ -207,16 +208,24 @@ def _first_of_all(term: Term, among: list[Term]) -> bool:
 def _with_heads(terms: list[Term]) -> list[Term]:
     """ "The north-east, then the south-west corner": a compass word alone borrows the noun of the next."""
     found: list[Term] = []
+    headed: Term | None = None  # "one" in "the north-east one", for which its noun stands
     for index, term in enumerate(terms):
+        if term is headed:
+            continue
         found.append(term)
         after = terms[index + 1].kind if index + 1 < len(terms) else ""
-        if term.kind == "ATTRVAL" and term.plural and after not in _NEEDS_HEAD | {"ATTR", "ATTRVAL", "AND", "COMMA"}:
+        listed = after in ("AND", "COMMA") and any(t.kind in ("TREE", "ATTRVAL") for t in terms[index + 1 : index + 4])
+        if term.kind == "ATTRVAL" and term.plural and after not in _NEEDS_HEAD | {"ATTR", "ATTRVAL"} and not listed:
             found.append(replace(term, kind="TREE", text="", start=term.end, value=None))  # "6 Carmels"
         one = after == "PLACE" and terms[index + 1].text.lower() == "one"
         if term.kind != "DIR" or (after in _NEEDS_HEAD and not one):
             continue
         heads = [t for t in terms if t.kind in ("CORNER", "HALF", "QUARTER", "SIDE", "EDGE")]
+        if one:
+            heads = [t for t in heads if t.start < term.start]
         ahead = next((t for t in heads if t.start > term.start), heads[-1] if heads else None)
         if ahead is not None:
-            found.append(replace(ahead, text="", start=term.end, end=term.end, plural=False))
+            headed = terms[index + 1] if one else None
+            at = term if headed is None else headed
+            found.append(replace(ahead, text="", start=term.end, end=at.end, plural=False))
     return found

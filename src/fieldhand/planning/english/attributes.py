@@ -27,6 +27,9 @@ def filtered(bag: Bag, of: s.Selector, site: Site) -> s.Selector:
     while (zone := bag.take("ZONE")) is not None:
         of = s.InZone(zone=zone.value, of=of)
         bag.take("SIDE")
+    while bag.has("AMOUNT") and (amount := bag.words("AMOUNT")[0]).value.unit in _UNIT_HINTS:  # "four year old trees"
+        name = attribute_of(bag, "", bag.take("AMOUNT"), site)
+        of = s.Where(attribute=name, test="eq", value=amount.value.number, of=of)
     for group in bag.compared:
         of = _compared(group, bag, of, site)
     bag.compared = []

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import Question, text_of, unclear
-from fieldhand.planning.english.hand import Hand
+from fieldhand.planning.english.hand import ACTS, Hand
 from fieldhand.planning.english.places import find
+from fieldhand.planning.english.several import Share, one_after_another, share_of
 from fieldhand.planning.english.syntax import Part, parse_places
 from fieldhand.planning.english.tested import Predicate, place_in, read_condition
 from fieldhand.planning.english.tokens import Term
@@ -28,6 +29,11 @@ class Cases(Hand):
         if at is not None:
             known = [cap for cap in known if cap.at == at]
         self._check_it(terms, known, part)
+        share = share_of(terms)
+        if share is not None and not (share.loose and self._done_there()):
+            self._of_several(share, known, part, held)
+            return
+        terms = terms if share is None else share.terms
         tested = read_condition(terms, known, self._robot, self._site)
         made = [self._tested_capture(p, at, part, trailing) for p in tested.predicates]
         block = self._block_of_condition([cap for cap in made if cap is not None], part)
@@ -46,6 +52,55 @@ class Cases(Hand):
         self._choice = choice
         self._sentence_choices.append(choice)
         self._scope = choice.then
+
+    def _done_there(self) -> bool:
+        """Whether what follows in the sentence is done where the reading was taken."""
+        ahead = next((p for p in self._following if p.kind not in ("budget", "order")), None)
+        if ahead is None:
+            return False
+        places = None if ahead.places is None else self._related(ahead)
+        return ahead.kind in ACTS and (places is None or places.here)
+
+    def _of_several(self, share: Share, known: list[d.Capture], part: Part, held: list[d.Step]) -> None:
+        """ "If both are low": a condition on several readings, each of them taken by itself."""
+        captures = self._captures_of(share, known, part)
+        each = []
+        for capture in captures:
+            tested = read_condition(share.terms, [capture], self._robot, self._site)
+            each.append(tested.condition([self._bound(capture) for _ in tested.predicates]))
+        if share.least is not None and share.least > len(each):
+            raise unclear(part.terms, f"there are only {len(each)} readings", "say how many of them")
+        condition = share.of(each)
+        if part.terms[0].value == "unless":
+            condition = c.Not(condition=condition)
+        choice = d.Choice(condition=condition, then=d.Block(), said=part.said)
+        self._block_of_condition(captures, part).add(choice)
+        if held:
+            self._move(held, choice.then)
+        self._loop = None
+        self._choice, self._scope = choice, choice.then
+        self._sentence_choices.append(choice)
+
+    def _captures_of(self, share: Share, known: list[d.Capture], part: Part) -> list[d.Capture]:
+        """The captures whose readings a condition on several is about."""
+        last = read_condition(share.terms, known, self._robot, self._site).predicates[0].capture
+        if last is None:
+            raise unclear(part.terms, "nothing before it measures that", "measure first, then test")
+        for loop, holder in d.walk(self.told.root):
+            if isinstance(loop, d.Loop) and any(step is last for step in loop.body.steps):
+                at = loop.body.steps.index(last)
+                blocks = one_after_another(loop, holder, self._site, part.terms)
+                found = [[st for st in block.steps if not isinstance(st, d.Go)][at] for block in blocks]
+                captures = [st for st in found if isinstance(st, d.Capture)]
+                break
+        else:
+            block = next(b for step, b in d.walk(self.told.root) if step is last)
+            alike = [st for st in block.steps if isinstance(st, d.Capture) and st.action == last.action and st in known]
+            captures = alike if share.size is None else alike[-share.size :]
+        if len(captures) < 2 or (share.size is not None and len(captures) != share.size):
+            what = f"{len(captures)} readings of that are taken before it"
+            raise unclear(part.terms, what, "say which readings are meant")
+        return captures
 
     def _hold_at_tree(self, held: list[d.Step], choice: d.Choice, part: Part) -> None:
         """What a tree is can be asked once the robot is there: drive first, then test, then do."""
@@ -76,8 +131,27 @@ class Cases(Hand):
         inside = [cap for cap in inside if self._robot.action[cap.action].measures]
         before = [cap for cap in known if cap.reading in readings(self._choice.condition)]
         if inside and before and not any(t.kind == "CMP" and t.value[1] for t in terms):
+            if self._continues(terms, known, before):
+                return
             names = tuple(dict.fromkeys(cap.action.replace("_", " ") for cap in (*before, *inside)))
             raise Question(f"'{text_of(part.terms)}': which reading is meant?", names)
+
+    def _continues(self, terms: tuple[Term, ...], known: list[d.Capture], before: list[d.Capture]) -> bool:
+        """Whether the words tell by themselves which of two readings is meant.
+
+        "If it is low, ..., if it is high, ..." are two cases of one reading; "when that is low as well" is another.
+        What was taken inside the first case is left out of what may be meant, in the first case.
+        """
+        said = self._choice.condition if self._choice is not None else None
+        level = next((str(t.value) for t in terms if t.kind == "LEVEL"), "")
+        if not isinstance(said, c.Level) or not level or any(t.kind in ("NOT", "ISNOT") for t in terms):
+            return False
+        if level != said.level and self._choice in self._sentence_choices:
+            names = {cap.action for cap in before}
+            known[:] = [cap for cap in known if cap.action in names]
+            self.told.assumptions.append(f"'{text_of(terms)}' is another case of the reading that was tested before.")
+            return True
+        return any(t.kind == "IT" and t.text.lower() in ("that", "that one") for t in terms)
 
     def _place_tested(self, terms: tuple[Term, ...], part: Part) -> s.Selector | None:
         """The place that a condition names ("the CO2 at tree 4")."""
@@ -152,9 +226,15 @@ class Cases(Hand):
                 raise unclear(part.terms, "to which 'if' does it belong?", "say each 'if' with its 'otherwise' in turn")
         choice.said += part.said
         choice.otherwise = d.Block(parent=choice.then.parent)
+        if self._loop is not None and self._within(self._loop.body, choice.then):  # of the other case
+            around = [st for st, _ in d.walk(self.told.root) if isinstance(st, d.Loop) and self._holds(st, choice)]
+            self._loop = around[-1] if around else None
         if self._objects != self._objects_at_if:
             self._objects = ()  # "otherwise take another" may mean what either case takes
         self._scope = choice.otherwise
+
+    def _holds(self, loop: d.Loop, choice: d.Choice) -> bool:
+        return any(step is choice for step, _ in d.walk(loop.body))
 
     def _failing(self, part: Part) -> None:
         steps = list(self._last_steps)

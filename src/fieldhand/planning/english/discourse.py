@@ -24,7 +24,7 @@ from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.hand import ACTS as _ACTS
 from fieldhand.planning.english.hand import said_of_places
 from fieldhand.planning.english.leaving import Leaving
-from fieldhand.planning.english.lines import points_over, stops_of
+from fieldhand.planning.english.lines import as_stops, points_over, stops_of
 from fieldhand.planning.english.places import find
 from fieldhand.planning.english.syntax import Part
 from fieldhand.planning.english.tokens import Term
@@ -69,7 +69,7 @@ class Discourse(Leaving):
             self._sentence_choices = []
         checked: tuple[Span, ...] = ()
         for index, part in enumerate(parts):
-            following = parts[index + 1 :]
+            following = self._following = parts[index + 1 :]
             match part.kind:
                 case "act_bare" if len(part.terms) == 1 and following and following[0].kind == "question":
                     checked = part.said
@@ -81,6 +81,8 @@ class Discourse(Leaving):
                     self._condition(part, trailing=trailing)
                     if trailing and ahead not in ("", "otherwise"):
                         self._scope = outer  # "take a picture if it is low and then return": the return is for all
+                case "until":
+                    self._until(part, following)
                 case "question":
                     self._condition(part, trailing=False)
                     if self._choice is not None:
@@ -115,6 +117,7 @@ class Discourse(Leaving):
     def _read_command(self, part: Part) -> None:
         if part.kind in ("come_back", "stop"):
             self._close_allowance()  # the way home and the end are for all
+        self._after_until(part)
         if part.kind == "lead":
             self._known_before_lead = self._known()
         before = {id(step) for step, _ in d.walk(self.told.root)}
@@ -164,9 +167,9 @@ class Discourse(Leaving):
         """ "Another", "two in the western half": of what, the command before says. None if the part names trees."""
         if part.places is None or not find(part.places, self._site).object_only:
             return None
-        if any(t.kind == "THERE" for t in part.tails):
-            raise unclear(part.terms, "which of them is not clear", "say how many trees in one sentence")
         found = find(part.places, self._site)
+        if any(t.kind == "THERE" for t in part.tails) and found.counted != 1:
+            raise unclear(part.terms, "which of them is not clear", "say how many trees in one sentence")
         if len(part.places.chains) > 1:
             raise unclear(part.terms, "of what is not clear", "say each in a sentence of its own")
         if len({action for action, _ in self._objects}) > 1:
@@ -186,8 +189,13 @@ class Discourse(Leaving):
         if self._last_verb in ("go", "visit"):
             self._go(part)
             return
+        if not self._objects and self._captured_next():
+            self._go(replace(part, kind="visit"))  # "Any 6 Kerman trees, a picture of each"
+            return
         if not self._objects:
             raise unclear(part.terms, "it does not say what to do there")
+        if self._at_most_of_them(part):
+            return
         elided = None if part.relation is not None else self._elided(part)
         if elided is not None:
             self._act(elided[0], elided[1])
@@ -198,9 +206,20 @@ class Discourse(Leaving):
                 raise every_or_how_many(part)
         self._act(part, self._objects)
 
+    def _captured_next(self) -> bool:
+        """Whether what follows in the sentence is captured at the places that have just been named."""
+        ahead = next((p for p in self._following if p.kind not in ("order", "distinct", "budget")), None)
+        if ahead is None or ahead.kind not in ("more_objects", "act_on_objects"):
+            return False
+        return ahead.places is None or self._related(ahead).here
+
     def _act(self, part: Part, wanted: Wanted) -> None:
         """Captures at a place, at several, or where the robot is."""
+        part, wanted = as_stops(part, wanted)
         found = None if part.places is None else self._related(part)
+        there = any(t.kind == "THERE" for t in part.tails)
+        if there and found is not None and found.selector == s.Take(count=1, of=s.Trees()) and self._at_one_place():
+            found = replace(found, here=True)  # "go to the middle, take a picture of a tree there"
         if found is not None and not found.here and any(t.kind == "THERE" for t in part.tails):
             raise unclear(part.terms, "which of them is not clear", "name the trees, or say how many in one sentence")
         if found is not None and found.object_only and found.each:
@@ -275,6 +294,9 @@ class Discourse(Leaving):
     def _distinct(self, part: Part) -> None:
         """ "Each at a different tree": what a number of captures in an area means anyway."""
         select = self._loop.select if self._loop is not None else None
+        if self._loop is not None and self._loop.optional:
+            self._loop.said += part.said  # each tree is visited once anyway
+            return
         if not isinstance(select, s.Take | s.Top | s.Extreme | s.Nearest | s.Adjacent | s.Corners | s.Union):
             raise unclear(part.terms, "it is not clear how many trees that are", "say how many trees, and where")
         if self._loop is not None:

@@ -56,6 +56,7 @@ class Loop:
     order: Literal["best", "given"] = "best"
     optional: bool = False
     at_most: int | None = None
+    until: c.Condition | None = None
     said: tuple[Span, ...] = ()
 
 
@@ -65,6 +66,7 @@ class Times:
 
     times: int
     body: Block
+    until: c.Condition | None = None
     said: tuple[Span, ...] = ()
 
 
@@ -143,9 +145,10 @@ def copy_block(block: Block, keep: Callable[[Step], bool], renamed: dict[str, st
                 made.add(replace(step, reading=reading))
             case Loop():
                 body = copy_block(step.body, keep, renamed, fresh)
-                made.add(replace(step, body=body))
+                made.add(replace(step, body=body, until=_renamed(step.until, renamed)))
             case Times():
-                made.add(Times(times=step.times, body=copy_block(step.body, keep, renamed, fresh), said=step.said))
+                body = copy_block(step.body, keep, renamed, fresh)
+                made.add(replace(step, body=body, until=_renamed(step.until, renamed)))
             case Choice():
                 condition = rename(step.condition, renamed)
                 then = copy_block(step.then, keep, renamed, fresh)
@@ -160,6 +163,10 @@ def copy_block(block: Block, keep: Callable[[Step], bool], renamed: dict[str, st
             case Halt():
                 made.add(Halt(said=step.said))
     return made
+
+
+def _renamed(until: c.Condition | None, renamed: dict[str, str]) -> c.Condition | None:
+    return None if until is None else rename(until, renamed)
 
 
 def rename(condition: c.Condition, renamed: dict[str, str]) -> c.Condition:
@@ -204,10 +211,11 @@ def _node(step: Step) -> p.Node:
                 order=step.order,
                 optional=step.optional,
                 at_most=step.at_most,
+                until=step.until,
                 said=step.said,
             )
         case Times():
-            return p.Repeat(id="", times=step.times, body=node_of(step.body), said=step.said)
+            return p.Repeat(id="", times=step.times, body=node_of(step.body), until=step.until, said=step.said)
         case Choice():
             if not step.then.steps and step.otherwise is not None:
                 return p.If(

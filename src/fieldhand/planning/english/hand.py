@@ -11,7 +11,7 @@ from fieldhand.planning.english.faults import Question, spans_of, text_of, uncle
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.english.pick import is_spot
-from fieldhand.planning.english.places import are_several, find
+from fieldhand.planning.english.places import are_several, beyond, find
 from fieldhand.planning.english.spacing import Ranking
 from fieldhand.planning.english.syntax import Object, Part
 from fieldhand.planning.english.tokens import Term
@@ -32,9 +32,11 @@ def starts_here(selector: s.Selector) -> bool:
     return isinstance(selector, s.RowOf | s.AlongRow | s.Across) and selector.origin == s.Here()
 
 
-def _counts(selector: s.Selector) -> bool:
+def _counts(selector: s.Selector, side: str) -> bool:
     """Whether it takes every so many of a row or of the rows: where the count begins matters."""
-    return isinstance(selector, s.EveryNth) or (isinstance(selector, s.Rows) and selector.every > 1)
+    if isinstance(selector, s.EveryNth):
+        return selector.counted_from != side
+    return isinstance(selector, s.Rows) and selector.every > 1
 
 
 def said_of_places(part: Part) -> tuple[Span, ...]:
@@ -58,6 +60,8 @@ class Hand:
         self._last_verb = ""
         self._aside: list[d.Capture] = []  # held by an "if" behind them: a later "if it" does not mean them
         self._choice: d.Choice | None = None
+        self._found_one: d.Choice | None = None  # what is done where a round ends that "until" ends
+        self._following: tuple[Part, ...] = ()  # what follows in the sentence
         self._sentence_choices: list[d.Step] = []
         self._pending: Term | None = None  # an order said before the places that it is about
         self._area_gone_to = ""  # the same of another area
@@ -147,8 +151,8 @@ class Hand:
             raise unclear([term], "an order and a choice of how many do not go together", "leave one of them out")
         if isinstance(loop.select, s.Ordered):
             raise unclear([term], "two orders cannot be kept", "say one")
-        if str(by).startswith(("south_", "east_")) and any(_counts(part) for part in s.walk(loop.select)):
-            side = str(by).partition("_")[0]
+        side = str(by).partition("_")[0]
+        if side in ("south", "east") and any(_counts(part, side) for part in s.walk(loop.select)):
             choices = (f"counted from the {side}", f"visited from the {side}")
             raise Question(f"'{term.text}': is it counted from there, or only visited from there?", choices)
         attribute = ""
@@ -203,6 +207,9 @@ class Hand:
                 return Found(selector=s.Nearest(to=plain))
             case "WITHIN":
                 return Found(selector=s.Within(distance_m=relation.value, to=plain), many=True, region=True)
+            case "BEYOND":
+                away = s.Excluding(places=beyond(relation.value, plain))
+                return Found(selector=away, many=True, region=True)
             case "OUTSIDE" | "EXCEPT":
                 other = replace(plain, outside=True) if isinstance(plain, s.InZone) else s.Excluding(places=plain)
                 return Found(selector=other, many=True, region=True)
@@ -227,6 +234,11 @@ class Hand:
         if not any(isinstance(step, d.Go | d.Capture | d.Loop) for step, _ in d.walk(self.told.root)):
             asked = "which row?" if found.rows else "from which tree?"
             raise Question(f"'{text_of(part.terms)}': {asked}")
+
+    def _at_one_place(self) -> bool:
+        """Whether the last step went to one place, of which "a tree there" can be said."""
+        last = self._scope.steps[-1] if self._scope.steps else None
+        return isinstance(last, d.Go) and not isinstance(last.place, s.Marker)
 
     def _fresh(self) -> str:
         self._readings += 1

@@ -213,7 +213,11 @@ def every_nth(bag: Bag, group: Group, site: Site) -> Found:
     tested = [group_ for group_ in compared if group_[0].start > tree.start]
     area, tests = parted(group.area)
     inner = filtered(bag, area, site)
-    selector: s.Selector = s.EveryNth(nth=int(every.value), start=int(start), of=inner)
+    counted = bag.take("COUNTEDFROM")
+    side: s.CountedFrom = "usual" if counted is None else counted.value.side
+    if counted is not None and counted.value.far:
+        raise bag.fault("from which side are they counted?", "say 'from the north', for example")
+    selector: s.Selector = s.EveryNth(nth=int(every.value), start=int(start), counted_from=side, of=inner)
     for test in reversed(tests):
         selector = replace(test, of=selector)
     bag.compared = tested

@@ -8,6 +8,7 @@ STARTS = VERBS | {
     "IF",
     "WHERE",
     "UNLESS",
+    "UNTIL",
     "WHETHER",
     "IFSO",
     "FITS",
@@ -21,7 +22,8 @@ STARTS = VERBS | {
     "DISTINCT",
 }
 RELATIONS = frozenset(
-    {"OF", "AT", "FROM", "NEXTTO", "NEAR", "WITHIN", "INSIDE", "OUTSIDE", "EXCEPT", "WITH", "FOR"} | {"ALONG", "SPREAD"}
+    {"OF", "AT", "FROM", "NEXTTO", "NEAR", "WITHIN", "BEYOND", "INSIDE", "OUTSIDE", "EXCEPT", "WITH", "FOR"}
+    | {"ALONG", "SPREAD"}
 )
 QUANTITY = frozenset({"DET", "EACH", "ANY", "ANOTHER", "NUM", "MORE", "ASMANY", "UPTO"})
 #: Heads of noun phrases that are places.

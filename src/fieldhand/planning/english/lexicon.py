@@ -9,7 +9,7 @@ from functools import cache, cached_property
 from typing import Any
 
 from fieldhand.planning.english.inflection import forms_of, plural_of
-from fieldhand.planning.english.kinds import CONTINUES, TESTS
+from fieldhand.planning.english.kinds import CONTINUES, RELATIONS, TESTS
 from fieldhand.planning.english.naming import Entry, Phrase, robot_entries, site_entries, split
 from fieldhand.planning.english.tokens import Term, Word
 from fieldhand.planning.english.vocabulary import vocabulary
@@ -169,13 +169,15 @@ class Lexicon:
 
         "Of each" is no "there" in "of each of the four corner trees", nor "if it is not" an "otherwise" before "low".
         """
-        if at >= len(words) or kind not in ("THERE", "OTHERWISE", "IFSO", "ORDERED"):
+        if at >= len(words) or kind not in ("THERE", "OTHERWISE", "IFSO", "ORDERED", "DISTINCT"):
             return False
         while kind == "ORDERED" and words[at].kind == "dash" and at + 1 < len(words):
             at += 1  # "starting in the north-west corner"
         after, _ = self._match(words, at) or self._single(words[at])
         if kind == "ORDERED":
             return after.kind in _NO_ORDER
+        if kind == "DISTINCT":
+            return after.kind in RELATIONS - {"FOR"}
         return after.kind in (CONTINUES | {"THERE"} if kind == "THERE" else TESTS)
 
     def _match(self, words: list[Word], at: int, longest: int = 99) -> tuple[Term, int] | None:

@@ -142,22 +142,26 @@ def _is_compared(inside: list[Term], before: list[Term]) -> bool:
 
 
 def _within(terms: list[Term]) -> list[Term]:
-    """ "Within 20 m of", "less than 20 m from", "at most 20 m away from" as one relation."""
+    """ "Within 20 m of", "less than 20 m from" and "at least 20 m away from" as one relation each."""
     found: list[Term] = []
     at = 0
     while at < len(terms):
         group = terms[at : at + 3]
+        beyond = group[0].kind == "CMP" and group[0].value[0] in ("gt", "ge")
         close = group[0].kind in ("INSIDE", "UPTO") or (group[0].kind == "CMP" and group[0].value[0] in ("lt", "le"))
         if (
             len(group) == 3
-            and close
+            and (close or beyond)
             and group[1].kind == "AMOUNT"
             and group[1].value.unit == "metres"
-            and group[2].kind in ("OF", "FROM")
+            and (group[2].kind in ("OF", "FROM") or group[2].text.lower() in ("of it", "from it"))
         ):
             text = " ".join(t.text for t in group)
             start, end = group[0].start, group[2].end
-            found.append(Term(kind="WITHIN", text=text, start=start, end=end, value=group[1].value.number))
+            kind = "WITHIN" if close else "BEYOND"
+            found.append(Term(kind=kind, text=text, start=start, end=end, value=group[1].value.number))
+            if group[2].kind == "THERE":
+                found.append(replace(group[2], kind="IT", text="it", start=end, end=end))
             at += 3
         else:
             found.append(terms[at])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from fieldhand.planning.english.counting import Wanted
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
@@ -11,6 +13,22 @@ from fieldhand.site.model import Site
 from fieldhand.task import selectors as s
 
 _LINE = "say along which row, or in which zone: 'every 20 m along row 4'"
+
+
+def as_stops(part: Part, wanted: Wanted) -> tuple[Part, Wanted]:
+    """ "In four spots 20 m apart": so many captures, each at a stop of its own."""
+    chain = part.places.chains[0] if part.places is not None and len(part.places.chains) == 1 else None
+    if part.spacing is None or chain is None or any(number is not None for _, number in wanted):
+        return part, wanted
+    head = chain.phrases[0]
+    numbers = [int(t.value) for t in head.quantity if t.kind == "NUM"]
+    spots = [t for group in head.nominals for t in group if t.kind not in ("OTHER", "WHICH", "IS")]
+    if len(numbers) != 1 or [t.kind for t in spots] != ["PLACE"] or spots[0].text.lower() in ("ones", "one"):
+        return part, wanted
+    rest = replace(chain, phrases=chain.phrases[1:], relations=chain.relations[1:]) if chain.relations else None
+    places = None if rest is None or part.places is None else replace(part.places, chains=(rest,))
+    relation = chain.relations[0] if chain.relations else None
+    return replace(part, places=places, relation=relation), tuple((action, numbers[0]) for action, _ in wanted)
 
 
 def stops_of(found: Found | None, part: Part, wanted: Wanted, site: Site) -> Found:

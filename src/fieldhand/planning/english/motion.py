@@ -5,17 +5,17 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.planning.english import draft as d
-from fieldhand.planning.english.cases import Cases
 from fieldhand.planning.english.faults import text_of, unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.places import find
 from fieldhand.planning.english.syntax import Part
 from fieldhand.planning.english.told import Homeward
+from fieldhand.planning.english.until import Until
 from fieldhand.task import selectors as s
 from fieldhand.task.frames import Then
 
 
-class Motion(Cases):
+class Motion(Until):
     """Reads commands that move the robot."""
 
     def _go(self, part: Part) -> None:

@@ -75,6 +75,9 @@ def _corner_trees(bag: Bag, group: Group, site: Site) -> Found:
 
 def _area(bag: Bag, group: Group, site: Site) -> Found:
     """Halves, quarters, sides and edges: areas, or with "tree" in the phrase the trees in them."""
+    quarters = _each_quarter(bag, group)
+    if quarters is not None:
+        return quarters
     count, one, tree = bag.count, bag.count == 1, bag.take("TREE")
     area = group.kept(filtered(bag, region(bag, group.area), site))
     if bag.another or bag.take("OTHER") is not None:
@@ -83,6 +86,19 @@ def _area(bag: Bag, group: Group, site: Site) -> Found:
         return Found(selector=area, region=True, many=True)
     del one
     return _some_of(bag, area, plural=bool(tree and tree.plural), site=site, single=False)
+
+
+def _each_quarter(bag: Bag, group: Group) -> Found | None:
+    """ "Each of the four quarters", each of which is meant by itself; None if one of them is named."""
+    word = next(iter(bag.words("QUARTER")), None)
+    several = bag.each or bag.count == 4
+    if word is None or not several or bag.has("DIR", "MOST", "TREE") or bag.count not in (None, 1, 4) or bag.another:
+        return None
+    bag.take("QUARTER")
+    bag.take("PLOT")
+    corners: tuple[s.CornerName, ...] = ("nw", "ne", "se", "sw")
+    ones = tuple(group.kept(s.Quarter(quarter=corner, of=group.area)) for corner in corners)
+    return Found(selector=s.Trees(), many=True, each=True, region=True, rows=True, one_by_one=ones)
 
 
 def _trees(bag: Bag, group: Group, site: Site) -> Found:
@@ -140,6 +156,8 @@ def _by_nearness(bag: Bag, of: s.Selector, group: Group, plural: bool) -> Found 
         return Found(selector=s.Adjacent(near=near, count=size, of=of), many=size > 1, counted=size)
     if bag.take("FARTHEST", "FAR") is not None:
         return _ranked(bag, of, plural, lambda n, base: s.Farthest(origin=near, count=n, of=base))
+    if bag.more and (group.anchor is not None or bag.has("NEARBY", "NEAREST")):
+        bag.more, of = False, s.Other(of=of)  # "three more trees around it"
     if group.anchor is not None:
         bag.take("NEAREST", "NEARBY")
         beside = group.beside

@@ -37,7 +37,7 @@ _SPREAD_ADVICE = "free points are spread over a zone: 'at 5 points spread over t
 _SEVERAL = frozenset({"them", "they", "both", "each", "every", "all", "these", "those"})
 _ANCHORED = ("NEAREST", "FARTHEST", "FAR", "STEP", "OPPOSITE")
 #: Relations that trees have, and rows do not.
-_OF_TREES = ("NEAR", "NEXTTO", "WITHIN", "OUTSIDE", "EXCEPT", "FROM")
+_OF_TREES = ("NEAR", "NEXTTO", "WITHIN", "BEYOND", "OUTSIDE", "EXCEPT", "FROM")
 #: Areas that rows are not a part of, but stand in ("the trees in the northern half in row 3").
 _AREAS = ("HALF", "QUARTER", "SIDE", "EDGE", "ZONE", "DIR")
 
@@ -266,6 +266,8 @@ def _describe(
             group.anchor, group.beside = _single(behind, inner), kind == "NEXTTO"
         case "WITHIN":
             group.within(relation.value, _single(behind, inner))
+        case "BEYOND":
+            group.without(beyond(relation.value, _single(behind, inner)))
         case "EXCEPT" if inner.bag.ids and group.rows is not None and not inner.in_rows:
             of_row = Group(area=group.area, rows=group.rows, one_by_one=group.one_by_one)
             bare = [one for one in excepted if isinstance(one, s.TreeIs)]  # "except tree 4 and tree 7"
@@ -308,6 +310,11 @@ def _among(bag: Bag, group: Group, relation: Term, behind: Found, inner: _Part) 
 def _describes(bag: Bag) -> bool:
     """Whether a phrase says what trees are, and names no place."""
     return bag.describes(*_DESCRIBING)
+
+
+def beyond(metres: float, of: s.Selector) -> s.Selector:
+    """What is left out where trees are to be at least so far from a place: those nearer to it, and itself."""
+    return s.Union(parts=(of, s.Within(distance_m=metres, to=of)))
 
 
 def _single(found: Found, inner: _Part) -> s.Selector:

@@ -144,6 +144,9 @@ def region(bag: Bag, of: s.Selector) -> s.Selector:
         if isinstance(of, s.Half) and bag.has("SIDE"):
             bag.take("SIDE")
             return of
+        if bag.take("EDGE") is not None:  # "the edge of the orchard": all around it
+            sides: tuple[s.Side, ...] = ("north", "east", "south", "west")
+            return s.Union(parts=tuple(s.Edge(side=side, of=of) for side in sides))
         if bag.has("FINISH"):
             raise bag.fault("which trees are meant does not stand there", "say 'the tree nearest to the end'")
         raise bag.fault("which side is meant does not stand there", SIDE_ADVICE)

@@ -10,10 +10,10 @@ from fieldhand.task.plan import Span
 
 #: A sentence with one of these may ask for something, or forbid it, whatever else it says.
 _ASKS = VERBS | {
-    "ASMANY", "AMOUNT", "ANOTHER", "APART", "BATTERY", "BEFORE", "BETWEEN", "BUDGET", "CMP", "COUNT", "DISTINCT",
-    "EACH", "EXCEPT", "FITS", "IF", "IFSO", "INORDER", "INSTEAD", "INTERVAL", "ISNOT", "KEEP", "LEVEL", "NOORDER",
-    "NOT", "NOTYET", "ONLY", "ORDERED", "ORDEROF", "OTHERWISE", "TIMES", "TRY", "UNIT", "UNLESS", "UPTO", "USE",
-    "WHERE", "WHETHER", "WITHOUT",
+    "AMOUNT", "ANOTHER", "APART", "ASMANY", "BATTERY", "BEFORE", "BETWEEN", "BUDGET", "CMP", "COUNT", "DISTINCT",
+    "EACH", "EXCEPT", "FIRSTLY", "FITS", "IF", "IFSO", "INORDER", "INSTEAD", "INTERVAL", "ISNOT", "KEEP", "LEVEL",
+    "NEITHER", "NOORDER", "NOT", "NOTYET", "ONLY", "ORDERED", "ORDEROF", "OTHERWISE", "TIMES", "TRY", "UNIT",
+    "UNLESS", "UNTIL", "UPTO", "USE", "WHERE", "WHETHER", "WITHOUT",
 }  # fmt: skip
 
 

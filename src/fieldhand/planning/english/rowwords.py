@@ -168,10 +168,12 @@ def _over(group: list[Term], _before: Term | None) -> list[Term]:
 
 def _counted_from(group: list[Term], _before: Term | None) -> list[Term]:
     head = next(k for k, t in enumerate(group) if t.kind in ("TREE", "ROW"))
-    rest = group[head + 1 :]
+    behind = next(k for k, t in enumerate(group) if t.kind == "FROM")
+    row = [t for t in group[head + 1 : behind] if t.kind != "COMMA"]
+    rest = group[behind:]
     side: s.CountedFrom = next((t.value for t in rest if t.kind == "DIR"), "usual")
     far = side == "usual" and any(t.kind == "FINISH" for t in rest)
-    return [*group[: head + 1], merged(rest, "COUNTEDFROM", From(side=side, far=far))]
+    return [*group[: head + 1], merged(rest, "COUNTEDFROM", From(side=side, far=far)), *row]
 
 
 def _opposite(group: list[Term], _before: Term | None) -> list[Term]:
@@ -228,7 +230,7 @@ _RULES: tuple[Rule, ...] = (
     (re.compile(rf"<ROW>(?:<AT\.to>|<AT\.on>)<DET>{_SIDE}(?:<SIDE>)?(?!<OF>|<TREE>|<CORNER>)"), _over),
     (
         re.compile(
-            rf"(?:<ORD\.\d+>|<LAST>|<EVERYNTH>|<BACKORD>)(?:<NUM\.\w+>|<ATTRVAL>)*{_HEAD}(?:<COMMA>)?<FROM>(?:<DET>)?"
+            rf"(?:<ORD\.\d+>|<LAST>|<EVERYNTH>|<BACKORD>)(?:<NUM\.\w+>|<ATTRVAL>)*{_HEAD}(?:(?:<OF>|<AT\.in>|<ALONG>)<ROWIDS>)?(?:<COMMA>)?<FROM>(?:<DET>)?"
             rf"(?:{_SIDE}(?:<SIDE>|<EDGE>|<FINISH\.\w+>)?{_NO_HEAD}|<FINISH\.end>|<START>)"
         ),
         _counted_from,

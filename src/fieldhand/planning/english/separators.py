@@ -53,14 +53,30 @@ def separated(terms: list[Term]) -> tuple[list[Term], bool, list[Span]]:
                 silent.append(found.pop().span)  # "to the corner to take a picture"
             found.append(_break_at(term.start))
             opened = False
+        if found and found[-1].kind == "BUDGET" and term.kind in RELATIONS:
+            found.append(_break_at(term.start))  # "spend 10 minutes | in the northern half"
+        if opened and _says_what(found, terms, at):
+            found.append(_break_at(term.start))
+            opened = False
         if term.kind in ("WHERE", "UNLESS"):
             term = replace(term, kind="IF", value=term.kind.lower())
-        opened = opened or term.kind in ("IF", "WHETHER")
+        opened = opened or term.kind in ("IF", "UNTIL", "WHETHER")
         found.append(term)
         if term.kind in ("OTHERWISE", "TRY", "IFSO", "FITS"):
             found.append(_break_at(term.end))
         at += 1
     return *_trimmed(found), silent
+
+
+def _says_what(before: list[Term], terms: list[Term], at: int) -> bool:
+    """ "If it is over 38 | a CO2 as well": what is to be taken, behind a test that is complete."""
+    article = terms[at].kind in ("DET", "NUM", "ANOTHER") and terms[at].text.lower() not in ("the", "that", "this")
+    if not article or not before or before[-1].kind not in ("NUM", "AMOUNT", "LEVEL"):
+        return False
+    noun = terms[at + 1 : at + 2]
+    ahead = terms[at + 2].kind if at + 2 < len(terms) else ""
+    tested = any(t.kind in ("CMP", "BETWEEN", "LEVEL", "IS") for t in before[-4:])
+    return bool(noun) and noun[0].kind == "NOUN" and tested and ahead not in ("IS", "ISNOT", "CMP", "JOIN")
 
 
 def _break_at(place: int) -> Term:
@@ -85,7 +101,7 @@ def _joins(before: list[Term], after: list[Term], opened: bool) -> bool:
         clause = list(_until(after, lambda t: t.kind in ("COMMA", *STARTS)))
         tests = any(t.kind in _TESTS for t in clause)
         return (
-            before[-1].kind not in ("IF", "WHETHER")
+            before[-1].kind not in ("IF", "UNTIL", "WHETHER")
             and tests
             and not any(t.kind in ("TREE", "IDS") for t in clause[:4])
         )

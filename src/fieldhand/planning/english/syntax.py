@@ -123,7 +123,7 @@ def parse(sentence: Sentence) -> tuple[Part, ...] | NotParsed:
 
     terms = sentence.terms
     tokens = [Token(t.kind, t) for t in terms]
-    whole = (terms[0].start, terms[-1].end)
+    whole = (min(t.start for t in terms), max(t.end for t in terms))
     try:
         tree = _parser().parse(tokens, start="start")
     except UnexpectedInput as error:

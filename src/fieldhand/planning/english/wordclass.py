@@ -105,6 +105,8 @@ def _next(term: Term, before: str, after: str) -> Term | None:
 def _one(term: Term, before: str, after: str) -> Term | None:
     if term.kind == "NUM" and term.text.lower() == "one" and before in _ONE_OF_A_KIND and after not in COUNTED:
         return replace(term, kind="PLACE")
+    if term.kind == "NUM" and term.text.lower() == "one" and after in ("CMP", "BETWEEN", "LEVEL", "IS", "ISNOT"):
+        return replace(term, kind="PLACE")  # "until one is low", "one below 400"
     if term.kind == "LAST" and before == "DET" and after in ("COMMA", "AND", "", "STOPMARK"):
         return term
     return None
@@ -217,6 +219,22 @@ def with_ids(terms: list[Term]) -> list[Term]:
     return found
 
 
+def with_at_most(terms: list[Term]) -> list[Term]:
+    """ "At most 6 trees" says how many, as "up to 6 trees" does, and compares nothing."""
+    found = list(terms)
+    for k, term in enumerate(terms[:-2]):
+        compares = (
+            term.kind == "CMP" and term.value == ("le", "") and term.text.lower() not in ("or less", "at or below")
+        )
+        number, noun = (
+            terms[k + 1],
+            next((t for t in terms[k + 2 :] if t.kind not in ("OTHER", "DIR", "ATTRVAL")), None),
+        )
+        if compares and number.kind == "NUM" and noun is not None and noun.kind in ("TREE", "PLACE", "CORNER", "ROW"):
+            found[k] = replace(term, kind="UPTO")
+    return found
+
+
 def _numbers_first(terms: list[Term]) -> list[Term]:
     """ "The first three trees" as "the three first trees"."""
     found = list(terms)
@@ -224,7 +242,12 @@ def _numbers_first(terms: list[Term]) -> list[Term]:
         ranked = found[k].kind in ("LAST", "NEAREST", "MOST", "SUPER", "OTHER", "FARTHEST") or (
             found[k].kind == "ORD" and found[k].value == 1
         )
-        if ranked and found[k + 1].kind == "NUM" and found[k + 2].kind in ("TREE", "ATTRVAL", "ROW"):
+        if (
+            ranked
+            and found[k + 1].kind == "NUM"
+            and found[k + 2].kind
+            in ("TREE", "ATTRVAL", "ROW", "CORNER", "PLACE", "DIR", "QUARTER", "HALF", "EDGE", "SIDE")
+        ):
             found[k], found[k + 1] = found[k + 1], found[k]
     return found
 

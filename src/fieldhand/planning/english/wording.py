@@ -113,5 +113,6 @@ def _rules() -> tuple[tuple[re.Pattern[str], str], ...]:
 
 
 def _spelt_out(pattern: str, short: dict[str, str]) -> str:
-    """A pattern with its abbreviations (``<DIR>``) written out."""
+    """A pattern with its abbreviations (``<DIR>``) written out; the point of a number ends no sentence."""
+    pattern = re.sub(r"\[\^\.([^\]]*)\]", r"(?:[^.\1]|(?<=\\d)\\.(?=\\d))", pattern)
     return re.sub(r"<([A-Z]+)>", lambda m: f"(?:{short[m[1]]})", pattern)

@@ -227,7 +227,8 @@ def _compared(said: Sequence[Token], index: int) -> str:
     """The comparison that a number is the threshold of."""
     for k in range(index - 1, max(-1, index - 1 - _COMPARED), -1):
         text = said[k].text
-        if text == "between" or (text == "from" and k + 2 < len(said) and said[k + 2].text == "to"):
+        number = k + 2 < len(said) and (w.is_number(said[k + 1].text) or said[k + 1].text in w.NUMBERS)
+        if text == "between" or (text == "from" and number and said[k + 2].text == "to"):
             return "between"
         if text in w.BELOW or text in w.ABOVE:
             side = "below" if text in w.BELOW else "above"

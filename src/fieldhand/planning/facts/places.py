@@ -143,8 +143,9 @@ def _sides(said: Stated, plan: Planned) -> Iterator[Mismatch]:
             yield Mismatch(kind="side", message=f"the request says '{side}', and no place of the plan is there")
     if said.unknown or said.words & w.VAGUE_SIDES:
         return
+    around = len(plan.sides) == 4 and not said.sides  # each quarter, or the edge all around
     for side, node in plan.sides.items():
-        if side not in said.sides:
+        if side not in said.sides and not around:
             yield Mismatch(
                 kind="side", message=f"the plan goes to the {side}, of which the request says nothing", node=node
             )

@@ -132,7 +132,7 @@ def every_nth(spots: Spots, selector: EveryNth, tell: Tell) -> Spots:
             f"every {selector.nth}th tree from the {selector.start}th on is no tree",
             advice="ask for every tree, every second tree, ...; the first tree of a row is tree 1",
         )
-    way, side = _ways(spots, "usual")
+    way, side = _ways(spots, selector.counted_from)
     number, _ = standing(spots, way)
     tell.rule = f"the trees that stand are counted, in each row from {side}"
     outside = int((number == 0).sum())

@@ -242,6 +242,8 @@ def _counted(selector: s.InRow | s.EveryNth, saying: Saying) -> Phrase:
     if isinstance(selector, s.EveryNth):
         every = say_every(selector.nth)
         start = f", from the {say_ordinal(selector.start)} on" if selector.start != 1 else ""
+        if selector.counted_from != "usual":
+            start += f", counted from the {selector.counted_from}"
         if group.bare:
             return _many(f"{every} tree{group.of_what if group.row else f' of each row{group.of_what}'}{start}")
         return _many(f"{every} one of {group.group()}{start}")

@@ -1,0 +1,78 @@
+""" "Until": a round of visits, or a repetition, that ends once a reading is as asked."""
+
+from __future__ import annotations
+
+from fieldhand.planning.english import draft as d
+from fieldhand.planning.english.cases import Cases
+from fieldhand.planning.english.faults import Question, text_of, unclear
+from fieldhand.planning.english.hand import ACTS
+from fieldhand.planning.english.places import find
+from fieldhand.planning.english.syntax import Part
+from fieldhand.planning.english.tested import place_in, read_condition
+from fieldhand.task import selectors as s
+
+
+class Until(Cases):
+    """Reads what ends a round early."""
+
+    def _until(self, part: Part, following: tuple[Part, ...]) -> None:
+        """ "Until one is above 38 °C": said of the round whose reading it tests.
+
+        What follows without a place of its own is done where that reading was taken, and nowhere if none was.
+        """
+        terms, place = place_in(part.terms[1:])
+        if place:
+            raise unclear(part.terms, "a round ends by a reading of its own", "say 'until one is below 33 °C'")
+        known = [step for step, _ in d.walk(self.told.root) if isinstance(step, d.Capture)]
+        tested = read_condition(terms, known, self._robot, self._site)
+        captures = [self._tested_capture(predicate, None, part, True) for predicate in tested.predicates]
+        if any(capture is None for capture in captures):
+            raise unclear(part.terms, "a round ends by a reading, not by what a tree is", "name the trees instead")
+        round_ = self._round_of([capture for capture in captures if capture is not None])
+        if round_ is None:
+            raise Question(f"'{text_of(part.terms)}': at which trees, or how often at most?")
+        if round_.until is not None or (isinstance(round_, d.Loop) and round_.optional):
+            raise unclear(part.terms, "that round ends for another reason already", "say one of them")
+        condition = tested.condition([self._bound(capture) for capture in captures])
+        round_.until = condition
+        round_.said += part.said
+        if following and following[0].kind in (*ACTS, "stop") and self._has_no_place(following[0]):
+            choice = d.Choice(condition=condition, then=d.Block(), said=part.said)
+            round_.body.add(choice)
+            self._choice, self._scope = choice, choice.then
+            self._found_one = choice
+
+    def _has_no_place(self, part: Part) -> bool:
+        if part.kind == "stop":
+            return False
+        return part.places is None or self._related(part).here
+
+    def _after_until(self, part: Part) -> None:
+        """Whether a command still belongs to the place where a round ended."""
+        if self._found_one is not None and not (part.kind in ACTS and self._has_no_place(part)):
+            if self._scope is self._found_one.then:
+                self._scope = self.told.root
+            self._found_one, self._loop = None, None
+
+    def _at_most_of_them(self, part: Part) -> bool:
+        """ "..., but at most 8 trees": said of the round before it. Whether it is."""
+        round_ = self._loop
+        if round_ is None or part.places is None or part.relation is not None:
+            return False
+        found = find(part.places, self._site)
+        if found.at_most is None or found.selector != s.Trees():
+            return False
+        if round_.at_most is not None or round_.optional:
+            raise unclear(part.terms, "how many is said already", "say it once")
+        round_.at_most = found.at_most
+        round_.said += part.said
+        return True
+
+    def _round_of(self, captures: list[d.Capture]) -> d.Loop | d.Times | None:
+        """The innermost round that holds all of these captures."""
+        for step, _ in reversed(list(d.walk(self.told.root))):
+            if isinstance(step, d.Loop | d.Times):
+                inside = [st for st, _ in d.walk(step.body)]
+                if all(any(st is capture for st in inside) for capture in captures):
+                    return step
+        return None
