@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
-from functools import cache, cached_property
-from typing import Any
+from functools import cached_property
 
-from fieldhand.planning.english.inflection import forms_of, plural_of
 from fieldhand.planning.english.kinds import CONTINUES, RELATIONS, TESTS
 from fieldhand.planning.english.naming import Entry, Phrase, robot_entries, site_entries, split
+from fieldhand.planning.english.shared import shared_vocabulary
 from fieldhand.planning.english.tokens import Term, Word
-from fieldhand.planning.english.vocabulary import vocabulary
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
 #: Words of the shared vocabulary that a robot's own word may replace; no function word is among them.
 _REPLACEABLE = frozenset({"READING", "FILLER", "TREE", "PLACE", "EDGE", "SIDE"})
-#: Orders by the compass, as the lexicon of orders calls them.
-_WAYS = (("west", "east"), ("east", "west"), ("north", "south"), ("south", "north"))
 _SINGLE = {"stop": "STOPMARK", "comma": "COMMA", "dash": "DASH", "sign": "AND", "hash": "NUMBERED", "silent": "FILLER"}
 #: Behind "starting in the north", these go on with a place: it is no order then.
 _NO_ORDER = frozenset(
@@ -29,8 +25,6 @@ _NO_ORDER = frozenset(
 _MAY_NAME = frozenset({"UNKNOWN", "ATTRVAL", "ATTR", "START", "FINISH", "DIR", "ZONE", "IDS", "NAMED", "MIDDLE"})
 #: A shorter word is no word that another may be a misspelling of.
 _SPELLABLE = 6
-_TENS = ("twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety")
-_UNITS = ("one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 
 
 @dataclass(frozen=True)
@@ -50,12 +44,12 @@ class Lexicon:
     @cached_property
     def longest(self) -> int:
         """Words of the longest phrase."""
-        return max(len(p) for p in (*self.own, *_shared()))
+        return max(len(p) for p in (*self.own, *shared_vocabulary()))
 
     @cached_property
     def vocabulary(self) -> frozenset[str]:
         """Every word that stands in some phrase, names of rows, blocks and trees among them."""
-        words = {word for phrase in (*self.own, *_shared()) for word in phrase}
+        words = {word for phrase in (*self.own, *shared_vocabulary()) for word in phrase}
         names = [*self.trees, *self._rows, *self._blocks]
         return frozenset({*words, *names, *(part for name in names for part in split(name))})
 
@@ -66,7 +60,7 @@ class Lexicon:
 
     def entry(self, phrase: Phrase) -> Entry | None:
         """What a phrase is; None if it is not known."""
-        return self.own.get(phrase) or _shared().get(phrase)
+        return self.own.get(phrase) or shared_vocabulary().get(phrase)
 
     def terms(self, words: list[Word]) -> list[Term]:
         """The words as terms. A word that no phrase holds is of kind ``UNKNOWN``; a full stop is ``STOPMARK``."""
@@ -141,9 +135,9 @@ class Lexicon:
         elif not listed and (head.kind == "TREE" or before[-1].kind == "NUMBERED"):
             return self.trees, "IDS"
         elif head.kind == "IDS" and before[-1].kind in ("COMMA", "AND"):  # "trees T89 and T158"
-            return {spelt: name for spelt, name in self.trees.items() if (spelt,) not in _shared()}, "IDS"
+            return {spelt: name for spelt, name in self.trees.items() if (spelt,) not in shared_vocabulary()}, "IDS"
         if listed:  # "row B and a picture": a name that is a word besides stands right behind "row"
-            found = {spelt: name for spelt, name in found.items() if (spelt,) not in _shared()}
+            found = {spelt: name for spelt, name in found.items() if (spelt,) not in shared_vocabulary()}
         return found, "NAMED"
 
     def _name(self, words: list[Word], at: int, before: list[Term]) -> tuple[Term, int] | None:
@@ -211,7 +205,7 @@ class Lexicon:
 
     def nearest(self, word: str) -> tuple[str, ...]:
         """Known words that look like this one."""
-        known = {w for p in (*self.own, *_shared()) for w in p if len(w) > 3}
+        known = {w for p in (*self.own, *shared_vocabulary()) for w in p if len(w) > 3}
         spelt = word.lower()
         return tuple(w for w in get_close_matches(spelt, known, n=2, cutoff=0.8) if w != spelt)
 
@@ -220,10 +214,10 @@ def lexicon_for(robot: RobotProfile, site: Site) -> Lexicon:
     """The lexicon of a robot on a site. The robot's words come before the site's; none replaces function words."""
     own: dict[Phrase, Entry] = {}
     for phrase, entry in site_entries(site):
-        if phrase not in _shared():
+        if phrase not in shared_vocabulary():
             own.setdefault(phrase, entry)
     for phrase, entry in robot_entries(robot):
-        shared = _shared().get(phrase)
+        shared = shared_vocabulary().get(phrase)
         if shared is None or shared.kind in _REPLACEABLE:
             own[phrase] = entry
     odd = {"".join(split(tree)): tree for tree in site.by_id if not tree.isdigit()}
@@ -238,114 +232,3 @@ def _spelt(name: str) -> str:
 def _joins_names(term: Term) -> bool:
     """Whether a list or a range of names goes on with it."""
     return term.kind in ("COMMA", "AND", "DASH") or term.text.lower() in ("to", "through")
-
-
-@cache
-def _shared() -> Mapping[Phrase, Entry]:
-    """The shared vocabulary, inflected. What stands later here replaces what stands before it."""
-    v = vocabulary()
-    entries: dict[Phrase, Entry] = {}
-
-    def add(phrases: Iterable[str], kind: str, value: Any = None, plural: bool = False) -> None:
-        for phrase in phrases:
-            entries[split(phrase)] = Entry(kind=kind, value=value, plural=plural)
-
-    add(v["silent"]["filler"], "FILLER")
-    for kind, phrases in v["nouns"].items():
-        add(phrases, kind)
-        add(map(plural_of, phrases), kind, plural=True)
-    for kind, phrases in v["verbs"].items():
-        for phrase in phrases:
-            for form in forms_of(phrase):
-                entries.setdefault(split(form), Entry(kind=kind))
-            if phrase not in ("end", "finish"):  # these are nouns first; what stands around them tells
-                add([phrase], kind)
-    for kind, phrases in v["words"].items():
-        add(phrases, kind, kind)
-    add(v["silent"]["purpose"], "PURPOSE")
-    for known in v["not_yet"]:
-        add(known["phrases"], "NOTYET", known["advice"])
-    for phrase, kind, value in (*_numbers(v), *_compass(v)):
-        add([phrase], kind, value)
-    for test, phrases in v["compare"].items():
-        add(phrases, "CMP", (test, ""))
-    for known in v["compare_attribute"]:
-        add([known["word"]], "CMP", (known["test"], known["attribute"]))
-    for known in v["superlatives"]:
-        add(known["words"], "SUPER", (known["attribute"], known["lowest"]))
-    for level, phrases in v["levels"].items():
-        add(phrases, "LEVEL", level)
-    for known in v["units"]:
-        for phrase in known["words"]:
-            entries.setdefault(
-                split(phrase), Entry(kind="UNIT", value=(known["unit"], known["factor"], known["offset"]))
-            )
-    add(["up to"], "UPTO")
-    for by, phrases in v["orders"].items():
-        add(phrases, "ORDERED", (by, "", False))
-    for by, phrase in _compass_orders(v):
-        add([phrase], "ORDERED", (by, "", False))
-    add(_spreading(), "SPREAD")
-    return entries
-
-
-def _compass_orders(v: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    """ "From north to south", "starting in the west", "northernmost first"."""
-    for a, b in _WAYS:
-        by = f"{a}_to_{b}"
-        for form in ("from {} to {}", "{} to {}", "from the {} to the {}", "from {}ernmost to {}ernmost",
-                     "from the {}ernmost to the {}ernmost", "from the {}ern end to the {}ern end",
-                     "from the {} end to the {} end", "from the {} side to the {} side"):  # fmt: skip
-            yield by, form.format(a, b)
-        for form in ("{}ernmost first", "the {}ernmost first", "the {}ernmost one first", "{}most first"):
-            yield by, form.format(a)
-        for begin in ("starting", "beginning", "working", "going"):
-            for where in ("from", "at", "in", "on"):
-                for word in v["sides"][a]:
-                    for end in ("", " end", " side", " edge"):
-                        if word == a or end:
-                            yield by, f"{begin} {where} the {word}{end}"
-
-
-def _spreading() -> Iterator[str]:
-    """ "Evenly spread over": how free points lie in an area."""
-    for verb in ("spread", "spread out", "distributed", "scattered"):
-        for where in ("over", "across", "through", "throughout", "in", "around", "within", "all over"):
-            yield f"{verb} {where}"
-            for how in ("evenly", "uniformly", "equally"):
-                yield f"{how} {verb} {where}"
-                yield f"{verb} {how} {where}"
-
-
-def _numbers(v: Mapping[str, Any]) -> Iterator[tuple[str, str, Any]]:
-    for word, number in v["numbers"].items():
-        yield word, "NUM", float(number)
-    for tens, name in enumerate(_TENS, start=2):
-        for unit, digit in enumerate(_UNITS, start=1):
-            yield f"{name} {digit}", "NUM", float(10 * tens + unit)
-    for rank, word in enumerate(v["ranks"]["words"], start=1):
-        for form in (word, f"very {word}"):
-            yield form, "ORD", rank
-    for word in ("last", "final", "very last"):
-        yield word, "LAST", None
-    for word, count in v["counts"].items():
-        yield word, "COUNT", count
-
-
-def _compass(v: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
-    for side, words in v["sides"].items():
-        for word in words:
-            yield word, "DIR", side
-            yield f"{word} most", "MOST", side
-        for form in ("{}ernmost", "{}most", "most {}ern", "most {}erly", "furthest {}", "farthest {}", "far {}"):
-            yield form.format(side), "MOST", side
-        for form in ("extreme {}", "extreme {}ern"):
-            yield form.format(side), "MOST", side
-    for first in ("north", "south"):
-        for second in ("east", "west"):
-            corner = first[0] + second[0]
-            for form in ("{}{}", "{} {}", "{}{}ern", "{} {}ern", "{}ern {}ern", "{}{}erly"):
-                yield form.format(first, second), "DIR", corner
-            for form in ("{}{}ernmost", "{}{}most", "{} {}ernmost", "{} {}ern most", "most {}{}ern", "most {} {}ern"):
-                yield form.format(first, second), "MOST", corner
-            yield corner, "DIR", corner

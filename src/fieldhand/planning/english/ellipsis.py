@@ -1,0 +1,59 @@
+"""What is left unsaid because it was said before: "another", "two more there", "three more times"."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fieldhand.planning.english.counting import Wanted
+from fieldhand.planning.english.faults import Question, text_of, unclear
+from fieldhand.planning.english.leaving import Leaving
+from fieldhand.planning.english.places import find
+from fieldhand.planning.english.syntax import Part
+
+
+class Elliptic(Leaving):
+    """Reads parts that go on with what the command before them asks for."""
+
+    def _elided(self, part: Part) -> tuple[Part, Wanted] | None:
+        """ "Another", "two in the western half": of what, the command before says. None if the part names trees."""
+        if part.places is None or not find(part.places, self._site).object_only:
+            return None
+        found = find(part.places, self._site)
+        if any(t.kind == "THERE" for t in part.tails) and found.counted != 1:
+            raise unclear(part.terms, "which of them is not clear", "say how many trees in one sentence")
+        if len(part.places.chains) > 1:
+            raise unclear(part.terms, "of what is not clear", "say each in a sentence of its own")
+        if len({action for action, _ in self._objects}) > 1:
+            names = tuple(action.replace("_", " ") for action, _ in self._objects)
+            raise Question(f"'{text_of(part.terms)}': another of which?", names)
+        wanted = self._wanted((), part)
+        objects = tuple((action, found.counted or count) for action, count in wanted[:1])
+        first = part.places.chains[0]
+        if len(first.phrases) == 1:
+            return replace(part, places=None, relation=None), objects
+        rest = replace(first, phrases=first.phrases[1:], relations=first.relations[1:])
+        places = replace(part.places, chains=(rest,))
+        return replace(part, places=places, relation=first.relations[0]), objects
+
+    def _captured_next(self) -> bool:
+        """Whether what follows in the sentence is captured at the places that have just been named."""
+        ahead = next((p for p in self._following if p.kind not in ("order", "distinct", "budget")), None)
+        if ahead is None or ahead.kind not in ("more_objects", "act_on_objects"):
+            return False
+        return ahead.places is None or self._related(ahead).here
+
+    def _further(self, part: Part, times: int) -> int:
+        """How many times more a passage is done that has been done once: "three more times", "three times in all"."""
+        said = next(t.text.lower() for t in part.tails if t.kind == "COUNT")
+        if "more" in said.split() or "further" in said.split():
+            return times
+        if said.split()[-1] in ("all", "total", "altogether", "overall"):
+            if times < 2:
+                raise unclear(part.terms, "once in all is what is done already")
+            return times - 1
+        again = "once" if times == 1 else f"{times} times"
+        raise Question(
+            f"'{text_of(part.terms)}': {again} in all, or {again} more?",
+            (f"{times} times in all", f"{times} more times"),
+            terms=[t for t in part.tails if t.kind == "COUNT"],
+        )
