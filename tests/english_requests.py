@@ -6,6 +6,21 @@ Longer than other files because it is a table.
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
+    (
+        "husky",
+        "Air temp at the northernmost tree, then at the southernmost. If both are under 30 come back to the start. Otherwise take a co2 at the southern one and finish at the end marker.",
+        "air @ Extreme(north) = r1; air @ Extreme(south) = r2; if r1 < 30 degC and r2 < 30 degC: [go Marker(start)] else [co2 @ Extreme(south, of Union(Extreme(north)+Extreme(south))); go Marker(end)] | stay",
+    ),
+    (
+        "husky",
+        "Photograph the north-east corner tree. If it is hot go to the opposite corner and take CO2.",
+        "picture @ Corners(ne) = r1; if r1 high: [go Corners(sw); co2]",
+    ),
+    (
+        "husky",
+        "Photograph three trees in the northern half and two in the other half",
+        "for Take(3, of Half(north)): [picture]; for Take(2, of Half(south)): [picture]",
+    ),
     ("husky", "Return to the start after taking a picture of tree 9.", "picture @ TreeIs(9) | return_to_start"),
     ("husky", "Go back to the start after photographing tree 9.", "picture @ TreeIs(9) | return_to_start"),
     ("husky", "Go back to the charger after photographing tree 9.", "picture @ TreeIs(9); go Marker(charger) | stay"),

@@ -6,6 +6,12 @@
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
+    ("husky", "Take three pictures of trees 15 m apart.", "for Union(TreeIs(1)+TreeIs(4)+TreeIs(7)): [picture]"),
+    (
+        "husky",
+        "co2 at four trees of row 3, each 12 m from the next",
+        "for Union(TreeIs(38)+TreeIs(40)+TreeIs(42)+TreeIs(44)): [co2]",
+    ),
     ("husky", "Photograph at least 3 trees in row 2.", "for Take(3, of Rows(2, 2)): [picture]"),
     (
         "husky",
@@ -1057,6 +1063,11 @@ ASKED = [
 ]
 
 REFUSED = [
+    (
+        "husky",
+        "Photograph two trees that are 300 metres apart.",
+        "'Photograph two trees that are 300 metres apart': there are no 2 trees 300 m from each other",
+    ),
     ("husky", "take a picture of every tree in block B", "there is no block 'B'"),
     ("husky", "take a picture of every tree in row 40", "there is no row '40'"),
     ("husky", "take a picture of tree 30 in row 3", "row 3 has no tree 30"),
@@ -1073,11 +1084,6 @@ REFUSED = [
         "husky",
         "Take a picture of the northernmost row.",
         "'the northernmost row': the rows run north-south: they are not counted from the north",
-    ),
-    (
-        "husky",
-        "Take three pictures of trees 15 m apart.",
-        "'Take three pictures of trees 15 m apart': trees stand where they stand: no distance between them can be asked for",
     ),
     ("husky", "Take a picture every few trees.", "'few' is not possible yet"),
     (
@@ -1119,7 +1125,7 @@ REFUSED = [
     (
         "husky",
         "take CO2 readings 20 m apart at trees 4 and 5",
-        "'take CO2 readings 20 m apart at trees 4 and 5': trees stand where they stand: no distance between them can be asked for",
+        "'take CO2 readings 20 m apart at trees 4 and 5': how many trees are that?",
     ),
     (
         "husky",
@@ -1278,7 +1284,7 @@ REFUSED = [
     (
         "husky",
         "take a picture of every tree in row 3 every 10 m",
-        "'take a picture of every tree in row 3 every 10 m': trees stand where they stand: no distance between them can be asked for",
+        "'take a picture of every tree in row 3 every 10 m': how many trees are that?",
     ),
     (
         "husky",

@@ -9,6 +9,7 @@ from fieldhand.planning.english.allowing import with_allowances
 from fieldhand.planning.english.faults import unclear
 from fieldhand.planning.english.kinds import PLACES, RELATIONS, VERBS
 from fieldhand.planning.english.limits import with_amounts, with_limits
+from fieldhand.planning.english.opposites import with_opposites
 from fieldhand.planning.english.rowwords import with_row_ids, with_row_words
 from fieldhand.planning.english.separators import separated
 from fieldhand.planning.english.spacing import with_orders, with_spacing
@@ -92,7 +93,7 @@ def arrange(asked: Asked) -> Arranged:
     """
     kept, filler, reasons = list(asked.terms), list(asked.filler), asked.reasons
     sentences: list[Sentence] = []
-    for group in in_time(_split(kept, filler)):
+    for group in in_time(with_opposites(_split(kept, filler))):
         sentence, silent = _sentence(group)
         filler += silent
         if any(t.kind not in ("SEP", "JOIN") for t in sentence.terms):

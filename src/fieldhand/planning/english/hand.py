@@ -188,7 +188,7 @@ class Hand:
         """The places of a part, with the relation that ties them to its verb."""
         if part.places is None:
             raise unclear(part.terms, "a place was expected")
-        found = find(part.places, self._site)
+        found = self._one_of_two(part) or find(part.places, self._site)
         relation = part.relation
         self._check_rows(found, part)
         if relation is not None and relation.kind == "ALONG" and not (found.rows or isinstance(found.selector, s.Edge)):
@@ -215,6 +215,23 @@ class Hand:
                 return Found(selector=other, many=True, region=True)
             case _:
                 raise unclear(part.terms, f"'{relation.text}' does not fit there")
+
+    def _one_of_two(self, part: Part) -> Found | None:
+        """ "The southern one": of the two places that were spoken of last, the one that is farther to that side."""
+        phrase = part.places.chains[0].phrases[0] if part.places is not None else None
+        terms = [] if phrase is None or part.places is None else [t for group in phrase.nominals for t in group]
+        whole = part.places is not None and len(part.places.terms) == len(phrase.terms if phrase else ())
+        if not whole or [t.kind for t in terms] != ["DIR", "PLACE"] or len(str(terms[0].value)) < 3:
+            return None
+        spoken: list[s.Selector] = []
+        for step, _ in d.walk(self.told.root):
+            place = step.place if isinstance(step, d.Go) else step.at if isinstance(step, d.Capture) else None
+            known = place is None or isinstance(place, s.Marker) or place in spoken
+            if place is not None and not known and s.is_single(place) and not s.is_relative(place):
+                spoken.append(place)
+        if len(spoken) < 2:
+            return None
+        return Found(selector=s.Extreme(side=terms[0].value, of=s.Union(parts=tuple(spoken[-2:]))))
 
     def _check_rows(self, found: Found, part: Part) -> None:
         """ "5 trees down", "that row", "across the aisle": from a tree that has been spoken of."""

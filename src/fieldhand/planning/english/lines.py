@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from fieldhand.planning.english.apart import trees_apart
 from fieldhand.planning.english.counting import Wanted
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
@@ -67,8 +68,11 @@ def stops_of(found: Found | None, part: Part, wanted: Wanted, site: Site) -> Fou
         return _found(s.Spaced(apart_m=apart, count=count, near=selector), count)
     if found.region:
         raise unclear(part.terms, "stops at a distance need a line", _LINE)
-    raise unclear(part.terms, "trees stand where they stand: no distance between them can be asked for",
-                  "say 'every third tree of row 2', or leave the trees out")  # fmt: skip
+    number = count or found.counted or 0
+    if number < 2 or spacing is None or (count and found.counted not in (None, count)):
+        raise unclear(part.terms, "how many trees are that?", "say 'three trees 15 m apart', for example")
+    area = selector.of if isinstance(selector, s.Take) else selector
+    return trees_apart(area, number, apart, least=spacing.value.least, site=site, said=part.terms)
 
 
 def _in_rows(found: Found, part: Part, stops: s.Spaced, site: Site) -> Found:

@@ -98,6 +98,10 @@ class Motion(Until):
                 self._scope.add(Homeward(said=part.said, then=then))
         else:
             marker = place or s.Marker(name="start" if then == "return_to_start" else "end")
+            self.told.ends_differ = self.told.ends_differ or self.told.in_case not in (
+                None,
+                then if place is None else "",
+            )
             self.told.in_case = then if place is None else None
             if self._scope.steps and isinstance(self._scope.steps[-1], d.Halt):
                 self._scope.steps[-1].said += part.said

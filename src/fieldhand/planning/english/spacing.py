@@ -16,10 +16,16 @@ _METRES = r"<AMOUNT\.metres>"
 
 @dataclass(frozen=True, kw_only=True)
 class Stops:
-    """Metres from stop to stop; ``every`` as in "every 20 m", where a number may be that of each stop."""
+    """Metres from stop to stop.
+
+    Attributes:
+        every: As in "every 20 m", where a number may be that of each stop.
+        least: The distance is a least one.
+    """
 
     apart_m: float
     every: bool = False
+    least: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,7 +54,8 @@ def with_orders(terms: list[Term]) -> list[Term]:
 def _stops(group: list[Term], before: Term | None) -> list[Term]:
     amount = next(t for t in group if t.kind == "AMOUNT")
     every = any(t.kind == "EACH" for t in group) and not any(t.kind in ("APART", "SPACEDBY") for t in group)
-    made = merged(group, "EVERYM", Stops(apart_m=amount.value.number, every=every))
+    least = any(t.kind == "CMP" for t in group)
+    made = merged(group, "EVERYM", Stops(apart_m=amount.value.number, every=every, least=least))
     if before is None and group[0].kind == "COMMA":
         return [group[0], made]
     return [made]
@@ -80,7 +87,7 @@ _ONE = r"(?:<TREE>|<PLACE\.\w+>|<NUM\.one>)?"
 _SPACING: tuple[Rule, ...] = (
     (
         re.compile(
-            rf"{_BEFORE}(?:<WHICH>)?(?:<SPACEDBY>|<WITH>|<AT\.\w+>|<EACH\.\w+>|<DET>)*{_METRES}<APART>{_AFTER}"
+            rf"{_BEFORE}(?:<WHICH>)?(?:<SPACEDBY>|<WITH>|<AT\.\w+>|<EACH\.\w+>|<DET>|<CMP\.g[et]>)*{_METRES}<APART>{_AFTER}"
             rf"|{_BEFORE}(?:<SPACEDBY>)?(?:<AT\.\w+>|<WITH>)(?:<DET>)?{_METRES}<INTERVAL>{_AFTER}"
             rf"|{_BEFORE}(?:<SPACEDBY>)?(?:<AT\.\w+>|<WITH>)(?:<DET>)?<INTERVAL><OF>{_METRES}{_AFTER}"
             rf"|{_BEFORE}<SPACEDBY>(?:<AT\.\w+>|<NEAR>)?(?:<EACH\.(?:every|each)>)?{_METRES}(?:<APART>)?{_AFTER}"

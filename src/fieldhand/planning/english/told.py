@@ -22,6 +22,7 @@ class Told:
         nominal_said: The ranges of the request that say it.
         first: The request says where to end before it says what to do.
         in_case: Where the robot is to end in one case, if the request says it.
+        ends_differ: It is to end elsewhere in another case.
         assumptions: What was assumed, as sentences.
         joints: The ranges of the request that say in which order its parts follow each other ("then", "after that").
         no_part: The ranges of the request that ask for nothing.
@@ -33,6 +34,7 @@ class Told:
     nominal_said: list[Span] = field(default_factory=list)
     first: bool = False
     in_case: Then | None = None
+    ends_differ: bool = False
     assumptions: list[str] = field(default_factory=list)
     joints: list[Span] = field(default_factory=list)
     no_part: list[Span] = field(default_factory=list)
@@ -61,6 +63,11 @@ def settle(told: Told) -> None:
         steps.pop()
     elif told.nominal in ("return_to_start", "return_to_end") and not told.first:
         told.nominal = None
+    if told.nominal is None and told.ends_differ:
+        told.nominal = "stay"
+        told.assumptions.append(
+            "Where the mission ends depends on the case; in a case that says nothing of it, the robot stays."
+        )
     if told.nominal is None and told.in_case is not None:
         told.nominal = told.in_case
         told.assumptions.append(f"The mission ends there in any case ({told.in_case.replace('_', ' ')}).")
