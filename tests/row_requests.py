@@ -6,11 +6,12 @@
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
-    ("husky", "Take three pictures of trees 15 m apart.", "for Union(TreeIs(1)+TreeIs(4)+TreeIs(7)): [picture]"),
+    ("husky", "Take three CO2 readings at least 15 m apart.", "for Spaced(15, 3): [co2]"),
+    ("husky", "Take three pictures of trees 15 m apart.", "for Apart(15, 3): [picture]"),
     (
         "husky",
         "co2 at four trees of row 3, each 12 m from the next",
-        "for Union(TreeIs(38)+TreeIs(40)+TreeIs(42)+TreeIs(44)): [co2]",
+        "for Apart(12, 4, of Rows(3, 3)): [co2]",
     ),
     ("husky", "Photograph at least 3 trees in row 2.", "for Take(3, of Rows(2, 2)): [picture]"),
     (
@@ -1066,7 +1067,7 @@ REFUSED = [
     (
         "husky",
         "Photograph two trees that are 300 metres apart.",
-        "'Photograph two trees that are 300 metres apart': there are no 2 trees 300 m from each other",
+        "there are no 2 trees about 300 m from each other",
     ),
     ("husky", "take a picture of every tree in block B", "there is no block 'B'"),
     ("husky", "take a picture of every tree in row 40", "there is no row '40'"),
@@ -1086,11 +1087,6 @@ REFUSED = [
         "'the northernmost row': the rows run north-south: they are not counted from the north",
     ),
     ("husky", "Take a picture every few trees.", "'few' is not possible yet"),
-    (
-        "husky",
-        "Take three CO2 readings at least 15 m apart.",
-        "'at least' does not fit where it stands in 'Take three CO2 readings at least 15 m apart'",
-    ),
     (
         "husky",
         "Take a picture of every tree between rows 3 and 5.",

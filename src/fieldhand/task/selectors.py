@@ -357,6 +357,16 @@ class Spaced:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Apart:
+    """``count`` trees of ``of``, each about ``apart_m`` metres from the one before it, or ``least`` so far from all."""
+
+    apart_m: float
+    count: int
+    least: bool = False
+    of: Selector = Trees()
+
+
+@dataclass(frozen=True, kw_only=True)
 class PointsIn:
     """``count`` free points spread evenly over a zone; one point is its middle. Points are not trees."""
 
@@ -408,6 +418,7 @@ Selector = (
     | Ordered
     | Nth
     | Spaced
+    | Apart
     | PointsIn
     | Union
 )
@@ -451,7 +462,7 @@ def is_single(selector: Selector) -> bool:
             return len(which) == 1
         case Extreme() | Middle() | EdgeMiddle() | Nearest() | Farthest() | Adjacent() | Top() | Take():
             return selector.count == 1
-        case Successive() | Spaced() | PointsIn():
+        case Successive() | Spaced() | Apart() | PointsIn():
             return selector.count == 1
         case Union(parts=inner):
             return len(inner) == 1 and is_single(inner[0])

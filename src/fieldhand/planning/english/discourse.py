@@ -203,9 +203,7 @@ class Discourse(Elliptic):
             found = Found(selector=s.Trees(), many=True)
         if found is not None and found.all_or_these and self._loop is not None:
             found = replace(found, here=True, these=True)
-        known = found.assumed if found is not None else ()
         found = self._lined(found, part, wanted)
-        self.told.assumptions += [one for one in (found.assumed if found is not None else ()) if one not in known]
         block, at, each = self._where(found, part, wanted)
         times = next((int(t.value) for t in part.tails if t.kind == "COUNT"), 1)
         self._commands += 1

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from fieldhand.planning.english.apart import trees_apart
 from fieldhand.planning.english.counting import Wanted
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
@@ -72,7 +71,9 @@ def stops_of(found: Found | None, part: Part, wanted: Wanted, site: Site) -> Fou
     if number < 2 or spacing is None or (count and found.counted not in (None, count)):
         raise unclear(part.terms, "how many trees are that?", "say 'three trees 15 m apart', for example")
     area = selector.of if isinstance(selector, s.Take) else selector
-    return trees_apart(area, number, apart, least=spacing.value.least, site=site, said=part.terms)
+    return Found(
+        selector=s.Apart(apart_m=apart, count=number, least=spacing.value.least, of=area), many=True, counted=number
+    )
 
 
 def _in_rows(found: Found, part: Part, stops: s.Spaced, site: Site) -> Found:

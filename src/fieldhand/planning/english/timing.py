@@ -27,7 +27,8 @@ def in_time(sentences: Iterable[list[Term]]) -> list[list[Term]]:
 
 def _reminded(sentence: list[Term], before: list[list[Term]]) -> list[Term]:
     """ "After photographing them, ...": what was told before, said again to say when."""
-    if len(sentence) < 3 or sentence[0].kind != "THEN" or sentence[1].kind not in VERBS or not before:
+    doing = len(sentence) > 2 and sentence[1].kind in VERBS and sentence[1].text.lower().endswith("ing")
+    if not doing or not before or sentence[0].kind != "THEN" or sentence[0].text.lower() != "after":
         return sentence
     end = next((k for k in range(2, len(sentence)) if sentence[k].kind in VERBS | {"COMMA"}), len(sentence))
     clause, verb = sentence[1:end], _stem(sentence[1])

@@ -43,7 +43,7 @@ def places(selector: Selector) -> Range:
             total = None if None in highs else sum(h for h in highs if h is not None)
             apart = all(isinstance(part, s.TreeIs) for part in parts) and len(set(parts)) == len(parts)
             return Range(low=total if apart and total is not None else 1, high=total)
-        case s.Spaced(count=count) | s.PointsIn(count=count) if count:
+        case s.Spaced(count=count) | s.Apart(count=count) | s.PointsIn(count=count) if count:
             return Range(low=count, high=count)
         case s.Extreme() | s.Middle() | s.EdgeMiddle() | s.Nearest() | s.Farthest() | s.Top() | s.Take():
             return Range(low=selector.count, high=selector.count)

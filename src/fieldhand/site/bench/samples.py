@@ -12,6 +12,7 @@ from fieldhand.task.selectors import (
     Adjacent,
     AlongRow,
     AmongExtreme,
+    Apart,
     Bound,
     Corners,
     Edge,
@@ -96,6 +97,7 @@ def samples(site: Site) -> Mapping[str, Selector]:
         Ordered(by="rows"),
         Nth(nth=2, of=Ordered(by="north_to_south")),
         Spaced(apart_m=15.0),
+        Apart(apart_m=25.0, count=5),
         PointsIn(zone=zone, count=9),
         Union(parts=(First(), Last(), Corners())),
     )

@@ -13,6 +13,7 @@ from fieldhand.site.context import Context
 from fieldhand.site.kinds import phrase
 from fieldhand.site.model import Place, Site
 from fieldhand.site.places import attributes, byrow, extent, hand, neighbours, ordering, points
+from fieldhand.site.places.apart import apart
 from fieldhand.site.places.faults import listed, no_such_block, no_such_tree, no_such_zone, nothing, short, too_few
 from fieldhand.site.places.nesting import bare_ground
 from fieldhand.site.places.spots import Spots, joined
@@ -131,6 +132,8 @@ class Resolution:
                 if not len(found):
                     raise too_few(self.site, selector.of, abs(number), len(of))
                 return found
+            case s.Apart():
+                return apart(of, selector, tell)
             case s.Spaced(near=near):
                 return points.spaced(of, self.spots(near), selector, tell)
 

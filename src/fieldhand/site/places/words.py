@@ -120,6 +120,8 @@ def _new_phrase(selector: s.Selector, saying: Saying) -> Phrase:
             return replace(_phrase(of, saying), order=say_order(selector))
         case s.Nth():
             return _nth(selector, saying)
+        case s.Apart():
+            return _apart(selector, saying)
         case s.Spaced() | s.PointsIn():
             return _free_points(selector, saying)
         case s.Union(parts=parts):
@@ -296,6 +298,14 @@ def _nth(selector: s.Nth, saying: Saying) -> Phrase:
     group = _phrase(inner, saying)
     order = f", {group.order}" if group.order else ""
     return _one(f"the {rank} {'tree' if group.plain else f'of {group.group()}'}{order}")
+
+
+def _apart(selector: s.Apart, saying: Saying) -> Phrase:
+    """Trees at a distance from each other."""
+    group = _phrase(selector.of, saying)
+    trees = say_count(selector.count, "tree") if group.plain else f"{selector.count} of {group.group()}"
+    how = "at least" if selector.least else "about"
+    return _many(f"{trees}, {how} {say_number(selector.apart_m)} m from each other")
 
 
 def _free_points(selector: s.Spaced | s.PointsIn, saying: Saying) -> Phrase:

@@ -1,0 +1,63 @@
+"""Trees at a distance from each other. They stand where they stand: those that fit best are looked for."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import dist
+
+import numpy as np
+
+from fieldhand.errors import PlaceError
+from fieldhand.site.places.spots import Spots
+from fieldhand.site.places.tell import Tell
+from fieldhand.task.selectors import Apart
+from fieldhand.task.words import say_number
+
+#: A tree whose distance differs by more than this share of what was asked for is not "so far apart".
+TOLERANCE = 0.25
+#: So many trees are tried as the first.
+_MOST_TRIES = 200
+
+
+def apart(of: Spots, selector: Apart, tell: Tell) -> Spots:
+    """The first trees that fit, each tried in turn to begin with; from there each time the one that fits best.
+
+    Raises:
+        PlaceError: There are no such trees.
+    """
+    metres, count = selector.apart_m, selector.count
+    if not (np.isfinite(metres) and metres > 0):
+        raise PlaceError(f"trees {metres:g} m apart are no trees", advice="ask for more than 0 m")
+    chosen = _chosen(of, count, metres, selector.least) if count >= 1 else []
+    if not chosen:
+        how = f"{'at least' if selector.least else 'about'} {say_number(metres)} m"
+        raise PlaceError(
+            f"there are no {count} trees {how} from each other",
+            where=of.site.name,
+            advice="ask for fewer, or for a smaller distance",
+        )
+    found = of.keep(chosen)
+    if count > 1:
+        legs = [dist(a.xy, b.xy) for a, b in pairwise(found.places)]
+        near, far = f"{min(legs):.1f}", f"{max(legs):.1f}"
+        tell.note(f"trees stand where they stand: these are {near if near == far else f'{near} to {far}'} m apart")
+    return found
+
+
+def _chosen(of: Spots, count: int, metres: float, least: bool) -> list[int]:
+    xy = of.xy
+    nearest = metres if least else metres * (1 - TOLERANCE)
+    for first in range(0, len(xy), max(1, len(xy) // _MOST_TRIES)):
+        chosen = [first]
+        free = np.ones(len(xy), dtype=bool)
+        while len(chosen) < count:
+            away = np.hypot(*(xy - xy[chosen[-1]]).T)
+            free &= away >= nearest
+            off = np.where(free, np.abs(away - metres), np.inf)
+            best = int(off.argmin())
+            if not free[best] or (not least and off[best] > metres * TOLERANCE):
+                break
+            chosen.append(best)
+        if len(chosen) == count:
+            return chosen
+    return []
