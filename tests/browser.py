@@ -5,11 +5,13 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import httpx
 from fastapi import FastAPI
 
+from fieldhand import mission
 from fieldhand.api.app import create_app
 from fieldhand.api.work import Limits
 from fieldhand.planning.planner import Answer, Outcome, Planned, Planner
@@ -93,6 +95,13 @@ def task_of(plan: Node, request: str, site: Site, robot: RobotProfile) -> Task:
         ),
         constraints=Constraints(budgets=(Budget(kind="distance_m", limit=600.0),)),
     )
+
+
+@cache
+def corner_warnings() -> tuple[str, ...]:
+    """What has to be confirmed of that Task: its request says none of what it does."""
+    site, robot = load_demo(), load_robot("husky")
+    return mission.review(corner_task("corners", site, robot), site, robot).warnings
 
 
 def corner_xml() -> str:

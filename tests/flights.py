@@ -8,6 +8,7 @@ from datetime import UTC, datetime
 from typing import Any
 
 from fieldhand import mission
+from fieldhand.approval.authorize import EveryWarning
 from fieldhand.execution.world import World, parse_world
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned, Planner
@@ -43,7 +44,8 @@ class Flight:
 def fly_task(task: Task, site: Site, robot: str = "husky", *, world: World | None = None, seed: int = 0) -> Flight:
     """Approve a Task and carry it out."""
     profile = load_robot(robot)
-    approved = mission.authorize(task, site, profile, by="tester", at=datetime(2026, 1, 1, tzinfo=UTC))
+    at = datetime(2026, 1, 1, tzinfo=UTC)
+    approved = mission.authorize(task, site, profile, by="tester", at=at, confirmed=EveryWarning())
     events: list[Event] = []
     mission.carry_out(approved, site, profile, world=world or World(), seed=seed, speed=None, emit=events.append)
     return Flight(task=task, site=site, events=tuple(events), assessment=mission.assess(task, events))

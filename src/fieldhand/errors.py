@@ -13,6 +13,7 @@
     │   ├── ProblemError            an orienteering problem that contradicts itself or has no solution
     │   └── ModelError              the language model: key, endpoint, answer
     ├── NotApprovedError            a check failed or the operator said no
+    │   └── NotConfirmedError       there are warnings that nobody has confirmed
     └── ExecutionError              the robot
         ├── DriveFault              a leg that cannot be driven
         └── ActionFault             an action or a sensor that failed
@@ -31,6 +32,7 @@ __all__ = [
     "InputError",
     "ModelError",
     "NotApprovedError",
+    "NotConfirmedError",
     "OutputError",
     "PlaceError",
     "ProblemError",
@@ -113,6 +115,19 @@ class ModelError(InputError):
 
 class NotApprovedError(FieldhandError):
     """A check failed, or the operator did not approve."""
+
+
+class NotConfirmedError(NotApprovedError):
+    """A Task has warnings that nobody has confirmed.
+
+    Args:
+        warnings: Each as it was shown, and as it has to be confirmed.
+        advice: What to do.
+    """
+
+    def __init__(self, warnings: tuple[str, ...], *, advice: str) -> None:
+        self.warnings = warnings
+        super().__init__(f"not confirmed: {'; '.join(warnings)}", advice=advice)
 
 
 class ExecutionError(FieldhandError):

@@ -5,7 +5,7 @@ request ──plan──▶ Task ──review──▶ Review ──authorize─
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -45,6 +45,11 @@ class Review:
     def errors(self) -> tuple[Problem, ...]:
         """The problems that forbid approval."""
         return tuple(p for p in self.problems if p.severity == "error")
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What has to be confirmed, each in the words in which :func:`authorize` takes it."""
+        return tuple(str(p) for p in self.problems if p.severity == "warning")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -163,11 +168,12 @@ def review(task: Task, site: Site, robot: RobotProfile, *, seed: int = 0, docume
 
 
 def authorize(
-    task: Task, site: Site, robot: RobotProfile, *, by: str, at: datetime, confirmed: tuple[str, ...] = ()
+    task: Task, site: Site, robot: RobotProfile, *, by: str, at: datetime, confirmed: Container[str] = ()
 ) -> AuthorizedTask:
     """Approve a Task for this site and this robot, with the warnings that were shown and accepted.
 
     Raises:
+        NotConfirmedError: It has a warning that is not among the confirmed ones (:attr:`Review.warnings`).
         NotApprovedError: A check fails.
     """
     from fieldhand.approval.authorize import approve

@@ -159,7 +159,7 @@ def test_an_empty_request_is_a_problem() -> None:
 def test_a_checked_document_is_reviewed_as_it_was_planned(planned: dict[str, Any]) -> None:
     checked = browser().post("/api/check", {"xml": planned["xml"]}).json()
     assert checked["outcome"] == "checked"
-    for part in ("task", "approvable", "problems", "read_back", "estimate", "map"):
+    for part in ("task", "approvable", "warnings", "problems", "read_back", "estimate", "map"):
         assert checked[part] == planned[part]
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from browser import Says, browser, corner_xml
+from browser import Says, browser, corner_warnings, corner_xml
 from fieldhand import mission
 from fieldhand.api.work import Limits
 from fieldhand.planning.planner import Reason, Refused
@@ -19,7 +19,8 @@ XML = corner_xml()
 
 
 def run(**body: Any) -> dict[str, Any]:
-    answer = browser().post("/api/run", {"xml": XML, "approved_by": "Ana", "seed": 3, **body})
+    whole = {"xml": XML, "approved_by": "Ana", "confirmed": corner_warnings(), "seed": 3, **body}
+    answer = browser().post("/api/run", whole)
     assert answer.status_code == 200, answer.text
     result: dict[str, Any] = answer.json()
     return result
@@ -90,7 +91,7 @@ def test_a_fault_of_the_world_is_a_failure_that_is_told() -> None:
 
 def test_a_mission_that_is_cut_off_says_so_and_its_path_ends_where_it_stands() -> None:
     web = browser(limits=Limits(run_s=0.0))
-    cut = web.post("/api/run", {"xml": XML, "approved_by": "Ana"}).json()
+    cut = web.post("/api/run", {"xml": XML, "approved_by": "Ana", "confirmed": corner_warnings()}).json()
     assert cut["status"] == "aborted"
     assert "longer than" in cut["reason"]
     assert not cut["success"]
@@ -98,8 +99,27 @@ def test_a_mission_that_is_cut_off_says_so_and_its_path_ends_where_it_stands() -
 
 def test_a_request_is_planned_and_run(done: dict[str, Any]) -> None:
     # Another request is another Task, but this planner gives the same plan.
-    ran = browser().post("/api/run", {"request": "corners", "approved_by": "Ana", "seed": 3}).json()
-    assert ran["events"] == done["events"]
+    body = {"request": "corners", "approved_by": "Ana", "confirmed": corner_warnings(), "seed": 3}
+    assert browser().post("/api/run", body).json()["events"] == done["events"]
+
+
+@pytest.mark.parametrize("what", [{"xml": XML}, {"request": "corners"}], ids=["document", "request"])
+def test_a_warning_that_is_not_confirmed_stops_it_and_is_said(
+    what: dict[str, str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[object] = []
+    monkeypatch.setattr(mission, "carry_out", lambda *a, **k: started.append(a))
+    first, *others = corner_warnings()
+    for confirmed, left in (([], [first, *others]), ([first], others), (["all of them"], [first, *others])):
+        answer = browser().post("/api/run", {**what, "approved_by": "Ana", "confirmed": confirmed})
+        assert answer.status_code == 422
+        assert answer.json()["warnings"] == left
+        assert first in answer.json()["what"] or confirmed == [first]
+    assert not started
+
+
+def test_what_was_confirmed_stands_in_the_answer(done: dict[str, Any]) -> None:
+    assert done["authorization"]["confirmed"] == list(corner_warnings())
 
 
 def test_a_request_that_is_refused_runs_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -127,6 +147,8 @@ def test_a_task_for_another_robot_is_not_run() -> None:
         {"seed": "many"},
         {"speed": 1},
         {"world": []},
+        {"confirmed": True},
+        {"confirmed": [7]},
     ],
 )
 def test_a_fault_of_shape_is_said(more: dict[str, Any]) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import cast
 
 import pytest
@@ -13,6 +13,7 @@ from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Reason
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.build import make_task
+from fieldhand.task.codec import decode, encode
 from fieldhand.task.plan import GoTo
 from fieldhand.task.selectors import First
 
@@ -34,7 +35,8 @@ class Fixed:
 
 
 def planned(planner: str) -> Planned:
-    return Planned(task=make_task(request="go", plan=PLAN, measures={}), planner=planner, warnings=("of its own",))
+    task = make_task(request="go", plan=PLAN, measures={})
+    return Planned(task=replace(task, command=replace(task.command, warnings=("of its own",))), planner=planner)
 
 
 CLARIFY = Clarify(question="Which?", planner="english")
@@ -59,11 +61,13 @@ def test_the_operator_reads_which_planner_it_was_and_why() -> None:
     by_english, by_model = ask(Fixed(planned("english")), None), ask(Fixed(REFUSED), Fixed(planned("llm:m")))
     assert isinstance(by_english, Planned)
     assert isinstance(by_model, Planned)
-    assert by_english.warnings[0] == by_model.warnings[0] == "of its own"
-    assert by_english.warnings == ("of its own",)
-    assert "'llm:m'" in by_model.warnings[-1]
-    assert "'a' is not known" in by_model.warnings[-1]
-    assert "and 2 more" in by_model.warnings[-1]
+    assert by_english.task.command.warnings == ("of its own",)
+    first, last = by_model.task.command.warnings
+    assert first == "of its own"
+    assert "'llm:m'" in last
+    assert "'a' is not known" in last
+    assert "and 2 more" in last
+    assert decode(encode(by_model.task)) == by_model.task
 
 
 def test_a_question_of_the_model_is_handed_on() -> None:

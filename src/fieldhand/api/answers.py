@@ -37,12 +37,13 @@ def words_answer(task: Task) -> list[dict[str, str]]:
 
 
 def review_answer(review: Review, ground: Ground) -> dict[str, Any]:
-    """A review: may it be approved, what is wrong, what will be done, what it takes, and where."""
+    """A review: may it be approved, what has to be confirmed, what is wrong, what will be done and takes, and where."""
     estimate = review.estimate
     return {
         "task": review.task.id,
         "words": words_answer(review.task),
         "approvable": not review.errors,
+        "warnings": list(review.warnings),
         "problems": [
             {"severity": p.severity, "node": p.node, "where": p.where, "what": p.what, "advice": p.advice}
             for p in review.problems

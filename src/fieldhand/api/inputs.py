@@ -81,6 +81,7 @@ class AnswerBody(Body):
 
 
 Answers = Annotated[list[AnswerBody], Field(max_length=20)]
+Warnings = Annotated[list[Words], Field(max_length=200)]
 
 
 class PlanBody(OnGround):
@@ -98,13 +99,14 @@ class CheckBody(OnGround):
 
 
 class RunBody(OnGround):
-    """A mission to simulate: a Task document, or a request; and who approves it."""
+    """A mission to simulate: a Task document, or a request; who approves it, and which warnings they confirm."""
 
     xml: Xml | None = None
     request: Words | None = None
     answers: Answers = []
     planner: Literal["auto", "english", "llm"] = "auto"
     approved_by: Name
+    confirmed: Warnings = []
     seed: Annotated[int, Field(ge=0, lt=2**32)] | None = None
     world: dict[str, Any] | None = None
 

@@ -41,7 +41,6 @@ def _plan(body: PlanBody, planners: Planners) -> dict[str, Any]:
     return {
         "outcome": "planned",
         "planner": outcome.planner,
-        "warnings": list(outcome.warnings),
         "xml": document.decode(),
         **review_answer(review, ground),
     }

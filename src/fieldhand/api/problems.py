@@ -1,5 +1,7 @@
 """What goes wrong, as JSON: ``{"status", "what", "where", "advice"}``, never a traceback.
 
+Where warnings were not confirmed, ``warnings`` holds each of them.
+
 400  what was given cannot be used (every InputError)
 403  a page of another site tries to use this one, or calls it by another name
 404, 405  no such address, no such method
@@ -21,7 +23,7 @@ from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
 from starlette.responses import Response
 
-from fieldhand.errors import FieldhandError, InputError
+from fieldhand.errors import FieldhandError, InputError, NotConfirmedError
 
 MEDIA_TYPE = "application/problem+json"
 
@@ -45,9 +47,9 @@ class Turned(Exception):
         super().__init__(what)
 
 
-def problem(status: int, what: str, where: str = "", advice: str = "") -> Response:
+def problem(status: int, what: str, where: str = "", advice: str = "", **more: Any) -> Response:
     """A problem as a response."""
-    body = json.dumps({"status": status, "what": what, "where": where, "advice": advice})
+    body = json.dumps({"status": status, "what": what, "where": where, "advice": advice, **more})
     return Response(body, status_code=status, media_type=MEDIA_TYPE)
 
 
@@ -61,7 +63,8 @@ def answer_problems(app: FastAPI) -> None:
 
     @app.exception_handler(FieldhandError)
     async def _known(_: Request, error: FieldhandError) -> Response:
-        return problem(400 if isinstance(error, InputError) else 422, error.what, error.where, error.advice)
+        more = {"warnings": error.warnings} if isinstance(error, NotConfirmedError) else {}
+        return problem(400 if isinstance(error, InputError) else 422, error.what, error.where, error.advice, **more)
 
     @app.exception_handler(Turned)
     async def _turned(_: Request, error: Turned) -> Response:

@@ -48,7 +48,9 @@ def _run(body: RunBody, planners: Planners, limits: Limits) -> dict[str, Any]:
         task = outcome.task
     else:
         task, _ = open_task(body.xml or "", ground.robot)
-    authorized = mission.authorize(task, ground.site, ground.robot, by=body.approved_by, at=datetime.now(UTC))
+    authorized = mission.authorize(
+        task, ground.site, ground.robot, by=body.approved_by, at=datetime.now(UTC), confirmed=body.confirmed
+    )
     events: list[Event] = []
     mission.carry_out(
         authorized,

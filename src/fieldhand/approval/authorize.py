@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Container
 from datetime import datetime
 
 from fieldhand.approval.checks import check
-from fieldhand.errors import NotApprovedError
+from fieldhand.errors import NotApprovedError, NotConfirmedError
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.authorization import Authorization, AuthorizedTask
@@ -14,8 +15,15 @@ from fieldhand.task.codec import encode
 from fieldhand.task.frames import Task
 
 
+class EveryWarning(Container[str]):
+    """Confirms whatever is warned of: for experiments, in which nobody is there to read."""
+
+    def __contains__(self, warning: object) -> bool:
+        return True
+
+
 def approve(
-    task: Task, site: Site, robot: RobotProfile, *, by: str, at: str, confirmed: tuple[str, ...] = ()
+    task: Task, site: Site, robot: RobotProfile, *, by: str, at: str, confirmed: Container[str] = ()
 ) -> AuthorizedTask:
     """Approve a Task for this site and this robot, in the name of a person.
 
@@ -24,26 +32,36 @@ def approve(
         site, robot: For which it is approved, byte by byte.
         by: Who approves.
         at: When, ISO 8601 with time zone.
-        confirmed: Warnings that were shown and accepted.
+        confirmed: The warnings that were shown and accepted, each in its own words (``str`` of the problem).
 
     Raises:
+        NotConfirmedError: There is a warning that is not among the confirmed ones.
         NotApprovedError: A check fails, nobody approves, or ``at`` is no moment.
     """
     if not by.strip():
         raise NotApprovedError("nobody approves", where="by", advice="say who approves")
     _require_moment(at)
-    errors = [str(p) for p in check(task, site, robot) if p.severity == "error"]
+    problems = check(task, site, robot)
+    errors = [str(p) for p in problems if p.severity == "error"]
     if errors:
         raise NotApprovedError("; ".join(errors), advice="mend this and approve again")
+    warnings = tuple(str(p) for p in problems if p.severity == "warning")
+    _require_confirmed(warnings, confirmed)
     authorization = Authorization(
         by=by,
         at=at,
         task_sha256=hashlib.sha256(encode(task)).hexdigest(),
         site_sha256=site.sha256,
         robot_sha256=robot.sha256,
-        confirmed=confirmed,
+        confirmed=warnings,
     )
     return AuthorizedTask(task=task, authorization=authorization)
+
+
+def _require_confirmed(warnings: tuple[str, ...], confirmed: Container[str]) -> None:
+    left = tuple(warning for warning in warnings if warning not in confirmed)
+    if left:
+        raise NotConfirmedError(left, advice="confirm each if the plan is right in spite of it, or plan it anew")
 
 
 def _require_moment(at: str) -> None:

@@ -13,6 +13,7 @@ from typing import Literal
 
 from fieldhand.approval.account import unaccounted
 from fieldhand.approval.budget import budget_problems
+from fieldhand.approval.doubts import doubts
 from fieldhand.approval.legs import driven_through
 from fieldhand.approval.problem import Problem
 from fieldhand.errors import DriveFault, FieldhandError, PlaceError, TaskError
@@ -65,6 +66,7 @@ def examine(
     problems = [*_document(task, robot, document), *_references(task, robot), *_resources(task, site, robot)]
     problems.extend(unaccounted(task))
     if not _errors(problems):
+        problems.extend(doubts(task, site, robot))
         problems.extend(_places(task, site, robot))
     forecast = None
     if not _errors(problems):

@@ -15,7 +15,7 @@ class Problem:
         node: Id of the plan node; empty where none is meant.
         where: Line and element, zone or site.
         advice: What to do about it.
-        severity: An ``error`` forbids approval, a ``warning`` does not.
+        severity: An ``error`` forbids approval; a ``warning`` does until it is confirmed.
     """
 
     what: str

@@ -90,8 +90,6 @@ def plan_or_read(
     words, outcome = plan_and_ask(words, ground, mission.make_planner(planner, os.environ, transcript), replies)
     if not isinstance(outcome, Planned):
         fail_outcome(words, outcome)
-    for warning in outcome.warnings:
-        note(warning)
     return outcome.task, None, outcome.planner
 
 

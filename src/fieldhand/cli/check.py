@@ -35,7 +35,14 @@ def check(
     else:
         show.show_review(review)
         show.out.print()
-        count = len(review.errors)
-        show.out.print("Ready for approval." if not count else f"Not ready: {count} error{'s' if count > 1 else ''}.")
+        show.out.print(_verdict(len(review.errors), len(review.warnings)))
     if review.errors:
         raise SystemExit(1)
+
+
+def _verdict(errors: int, warnings: int) -> str:
+    if errors:
+        return f"Not ready: {errors} error{'s' if errors > 1 else ''}."
+    if warnings:
+        return f"Ready for approval once {'the warning is' if warnings == 1 else f'{warnings} warnings are'} confirmed."
+    return "Ready for approval."

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from fieldhand import mission
 from fieldhand.cli import show
 from fieldhand.cli.inputs import Ground, may_ask, write_file
-from fieldhand.errors import InputError, NotApprovedError
+from fieldhand.errors import InputError, NotApprovedError, NotConfirmedError
 from fieldhand.task.frames import Task
 from fieldhand.task.results import Ended, Event
 
@@ -29,6 +29,7 @@ class Orders:
 
     Attributes:
         ask: Ask the operator before it starts.
+        confirm: Every warning is confirmed without asking.
         by: Who approves; None for the user who is logged in.
         world: What sensors read and what goes wrong.
         speed: Simulated seconds in a second; None for as fast as it goes.
@@ -38,6 +39,7 @@ class Orders:
     """
 
     ask: bool
+    confirm: bool = False
     by: str | None
     world: World
     seed: int
@@ -54,6 +56,7 @@ def fly(ground: Ground, task: Task, document: bytes | None, orders: Orders, *, p
         The exit status: 0 if the plan was done and every goal was met, else 1.
 
     Raises:
+        NotConfirmedError: There are warnings, and nobody is asked about them.
         NotApprovedError: A check fails, or the operator says no.
         OutputError: Something cannot be written.
     """
@@ -95,21 +98,40 @@ def _review(ground: Ground, task: Task, document: bytes | None, orders: Orders) 
 
 
 def _approve(ground: Ground, review: mission.Review, orders: Orders) -> AuthorizedTask:
+    if orders.ask and not may_ask():
+        raise NotApprovedError("nobody is here to approve", advice="give --yes if you have read the plan")
+    if review.warnings and not orders.confirm:
+        _confirm(review.warnings, orders)
     if orders.ask:
-        if not may_ask():
-            raise NotApprovedError("nobody is here to approve", advice="give --yes if you have read the plan")
-        import typer
-
-        if not typer.confirm("\nApprove and carry out?"):
-            raise NotApprovedError("not approved, nothing was done")
+        _ask("Approve and carry out?")
     return mission.authorize(
         review.task,
         ground.site,
         ground.robot,
         by=orders.by or _user(),
         at=datetime.now(UTC),
-        confirmed=tuple(str(p) for p in review.problems if p.severity == "warning"),
+        confirmed=review.warnings,
     )
+
+
+def _confirm(warnings: tuple[str, ...], orders: Orders) -> None:
+    """Have the operator confirm the warnings; they were shown with the review.
+
+    Raises:
+        NotConfirmedError: Nobody is asked.
+        NotApprovedError: The operator says no.
+    """
+    if not orders.ask:
+        raise NotConfirmedError(warnings, advice="give --confirm, too, if the plan is right in spite of that")
+    spite = "the warning above" if len(warnings) == 1 else f"the {len(warnings)} warnings above"
+    _ask(f"Is the plan right in spite of {spite}?")
+
+
+def _ask(question: str) -> None:
+    import typer
+
+    if not typer.confirm(f"\n{question}"):
+        raise NotApprovedError("not approved, nothing was done")
 
 
 def _leave_plan(ground: Ground, review: mission.Review, document: bytes | None, orders: Orders) -> None:

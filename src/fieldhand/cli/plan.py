@@ -64,8 +64,6 @@ def plan(
         record = show.outcome_record(outcome) | show.review_record(review) | {"xml": document.decode()}
         show.print_json(record)
     else:
-        for warning in outcome.warnings:
-            show.note(warning)
         show.show_review(review)
         for what, path in (("Task", output), ("Map", picture)):
             if path is not None:

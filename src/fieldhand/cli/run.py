@@ -34,6 +34,9 @@ def run(
         str, typer.Option("--speed", help="max, or simulated seconds in a second (1 is real time).")
     ] = "max",
     yes: Annotated[bool, typer.Option("--yes", "-y", help="Approve without asking.")] = False,
+    confirm: Annotated[
+        bool, typer.Option("--confirm", help="Confirm every warning without asking; --yes alone does not.")
+    ] = False,
     by: Annotated[str | None, typer.Option("--by", help="Who approves; else the user who is logged in.")] = None,
     answer: AnswerOption = None,
     assume: AssumeOption = False,
@@ -56,6 +59,7 @@ def run(
     task, document, planned_by = plan_or_read(request, ground, planner, transcript, replies)
     orders = Orders(
         ask=not yes,
+        confirm=confirm,
         by=by,
         world=given,
         seed=given.seed if seed is None else seed,

@@ -96,7 +96,7 @@ def outcome_record(outcome: Planned | Clarify | Refused) -> dict[str, Any]:
     """A planner's answer as JSON."""
     match outcome:
         case Planned():
-            return {"outcome": "planned", "planner": outcome.planner, "warnings": list(outcome.warnings)}
+            return {"outcome": "planned", "planner": outcome.planner}
         case Clarify():
             return {"outcome": "clarify", "question": outcome.question, "choices": list(outcome.choices)}
         case Refused():
@@ -112,6 +112,7 @@ def review_record(review: Review) -> dict[str, Any]:
             {"severity": p.severity, "node": p.node, "where": p.where, "what": p.what, "advice": p.advice}
             for p in review.problems
         ],
+        "warnings": list(review.warnings),
         "read_back": [] if review.read_back is None else list(review.read_back.text_lines()),
         "estimate": None if review.estimate is None else review.estimate.as_record(),
     }

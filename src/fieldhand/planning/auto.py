@@ -59,8 +59,7 @@ class AutoPlanner:
             case Planned():
                 return _warn(
                     answered,
-                    f"Planned by '{answered.planner}', because the built-in planner did not understand: {why}. "
-                    "Read it with care.",
+                    f"planned by '{answered.planner}', because the built-in planner did not understand: {why}",
                 )
             case Clarify():
                 return answered
@@ -69,7 +68,9 @@ class AutoPlanner:
 
 
 def _warn(planned: Planned, warning: str) -> Planned:
-    return replace(planned, warnings=(*planned.warnings, warning))
+    command = planned.task.command
+    command = replace(command, warnings=(*command.warnings, warning))
+    return replace(planned, task=replace(planned.task, command=command))
 
 
 def _advise(refused: Refused) -> Refused:

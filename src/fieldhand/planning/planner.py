@@ -13,15 +13,10 @@ from fieldhand.task.plan import Span
 
 @dataclass(frozen=True, kw_only=True)
 class Planned:
-    """The request was understood.
-
-    Attributes:
-        warnings: What the operator should know before approving, as sentences.
-    """
+    """The request was understood. What the operator should know before approving stands in the Task."""
 
     task: Task
     planner: str
-    warnings: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

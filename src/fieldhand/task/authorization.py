@@ -18,7 +18,7 @@ class Authorization:
         by: Who approved.
         at: When, ISO 8601 with time zone.
         task_sha256, site_sha256, robot_sha256: Of the Task document, the site file and the profile that were approved.
-        confirmed: Warnings that were shown and accepted.
+        confirmed: Every warning of the Task there, each shown and accepted.
     """
 
     by: str

@@ -50,6 +50,7 @@ class Command:
 
     Attributes:
         no_part: Ranges of the request that have no part in the plan: politeness, a reason that is given.
+        warnings: What its planner wants confirmed before it is approved, as sentences.
     """
 
     request: str
@@ -57,6 +58,7 @@ class Command:
     variables: tuple[Variable, ...] = ()
     assumptions: tuple[str, ...] = ()
     no_part: tuple[Span, ...] = ()
+    warnings: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

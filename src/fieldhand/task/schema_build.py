@@ -13,6 +13,7 @@ from fieldhand.task.codec_shapes import (
     DRAFT_DEFAULTS,
     FAMILIES,
     NAMESPACE,
+    NOT_IN_DRAFTS,
     QUOTES,
     Attribute,
     Child,
@@ -120,7 +121,8 @@ class SchemaBuilder:
         elif shape.children:
             content = _xs(made, "all")
             for child in shape.children:
-                self.child(content, shape, child)
+                if not (self.draft and (shape.cls, child.field) in NOT_IN_DRAFTS):
+                    self.child(content, shape, child)
         for attribute in self.attributes(shape):
             self.attribute(made, shape.cls, attribute)
 

@@ -13,6 +13,7 @@ from shapely.geometry import box
 
 from fieldhand import mission
 from fieldhand.errors import ModelError, NotApprovedError
+from fieldhand.facts import mismatches
 from fieldhand.planning.llm.prompt import LONGEST_LINE, MOST_DATA, MOST_OF_SITE, opening, repair
 from fieldhand.planning.planner import Clarify, Planned, Refused
 from fieldhand.robot.loader import load_robot
@@ -154,8 +155,9 @@ def test_an_obedient_model_gives_a_checked_plan_a_question_or_a_refusal_and_noth
         # A plan is data: it passes the checks of approval as anybody's plan, or it is not approved.
         assert outcome.task.command.request == REQUEST
         assert decode(encode(outcome.task)) == outcome.task
-        assert outcome.warnings, "what contradicts the request is not approved in silence"
-        shown = [*outcome.warnings, *outcome.task.command.assumptions]
+        found = mismatches(outcome.task, site, HUSKY)
+        assert found, "what contradicts the request is not approved in silence"
+        shown = [*(one.message for one in found), *outcome.task.command.assumptions]
         assert not any(INVISIBLE.search(text) for text in shown)
     else:
         assert isinstance(outcome, Clarify | Refused)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from fieldhand.facts import mismatches
 from fieldhand.planning.llm.replay import replay
 from fieldhand.planning.llm.transcript import Session, read_transcript
 from fieldhand.planning.planner import Planned
@@ -31,12 +32,13 @@ def site_of(session: Session) -> Site:
 @pytest.mark.parametrize("path", TRANSCRIPTS, ids=lambda p: p.stem)
 def test_a_recorded_answer_still_makes_a_plan(path: Path) -> None:
     for session in read_transcript(path):
-        outcome = replay(session, site_of(session), load_robot(session.about["robot"]["name"]))
+        site, robot = site_of(session), load_robot(session.about["robot"]["name"])
+        outcome = replay(session, site, robot)
         assert type(outcome).__name__.lower() == session.outcome
         if isinstance(outcome, Planned):
             assert outcome.task.command.request == session.request
             assert outcome.planner == session.about["planner"]
-        assert outcome.warnings == ()
+            assert mismatches(outcome.task, site, robot) == ()
 
 
 @pytest.mark.parametrize("path", TRANSCRIPTS, ids=lambda p: p.stem)

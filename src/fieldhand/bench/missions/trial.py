@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Literal
 
 from fieldhand import mission
+from fieldhand.approval.authorize import EveryWarning
 from fieldhand.bench.missions.cases import Case, CaseWorld
 from fieldhand.bench.missions.ground import Ground, load_ground
 from fieldhand.bench.missions.judge import judge
@@ -207,8 +208,7 @@ def _approve(task: Task, site: Site, robot: RobotProfile) -> AuthorizedTask:
     Raises:
         NotApprovedError: A check forbids it.
     """
-    warnings = tuple(str(p) for p in mission.review(task, site, robot).problems if p.severity == "warning")
-    return mission.authorize(task, site, robot, by="the experiment", at=_APPROVED_AT, confirmed=warnings)
+    return mission.authorize(task, site, robot, by="the experiment", at=_APPROVED_AT, confirmed=EveryWarning())
 
 
 def _drive(approved: AuthorizedTask, world: CaseWorld, site: Site, robot: RobotProfile, seed: int) -> tuple[str, ...]:

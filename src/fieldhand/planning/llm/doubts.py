@@ -1,8 +1,11 @@
-"""Where a model's plan contradicts what the request says: problems for the model, then warnings for a person."""
+"""Where a model's plan contradicts what the request says: problems for the model.
+
+What it does not mend, approval finds again, and a person has to confirm it.
+"""
 
 from __future__ import annotations
 
-from fieldhand.planning.facts import mismatches
+from fieldhand.facts import mismatches
 from fieldhand.planning.llm.review import Problem
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -23,8 +26,3 @@ def doubts(task: Task, draft: Draft, site: Site, robot: RobotProfile) -> tuple[P
         Problem(kind="request", message=found.message, where=places.get(found.node, ""))
         for found in mismatches(task, site, robot)
     )
-
-
-def warning_of(doubt: Problem) -> str:
-    """A doubt as the sentence that an operator reads before approving."""
-    return f"Perhaps not what was asked: {doubt.message}."

@@ -1,13 +1,13 @@
 """Plan with a language model: ask, read the answer, check it, let the model mend it, at most a few times.
 
 A plan that can be used but contradicts what the request says outright goes back once. If it does so again, the operator
-gets it with a warning for each contradiction: the model may be right, and a person can see it.
+gets it, and approval warns of each contradiction: the model may be right, and a person can see it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from datetime import datetime
 from pathlib import Path
 
@@ -15,7 +15,7 @@ from fieldhand.errors import ModelError, RequestError
 from fieldhand.planning.llm.answer import QuestionAnswer, RefusalAnswer, TaskAnswer, Unusable, read_answer
 from fieldhand.planning.llm.chat import Chat, Message, Reply
 from fieldhand.planning.llm.coordinates import coordinates
-from fieldhand.planning.llm.doubts import doubts, warning_of
+from fieldhand.planning.llm.doubts import doubts
 from fieldhand.planning.llm.plain import visible_line
 from fieldhand.planning.llm.prompt import answered, opening, repair
 from fieldhand.planning.llm.review import Problem, read_draft, review
@@ -150,10 +150,7 @@ class LlmPlanner:
                 if problems:
                     return _Understood(problems=problems)
                 planned = _planned(draft, request, site, robot, name, answers)
-                found = doubts(planned.task, draft, site, robot)
-                return _Understood(
-                    outcome=replace(planned, warnings=tuple(warning_of(doubt) for doubt in found)), problems=found
-                )
+                return _Understood(outcome=planned, problems=doubts(planned.task, draft, site, robot))
 
     def _unusable(self, problems: Sequence[Problem]) -> ModelError:
         """The clear failure at the end of the last try, with the last problems."""

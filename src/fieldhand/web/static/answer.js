@@ -11,11 +11,15 @@ export const title = (answer) => TITLES[answer.outcome];
 export function render(answer, request, map, reply) {
   if (answer.outcome === "clarify") return question(answer, reply);
   if (answer.outcome === "refused") return refusal(answer, request);
-  const parts = [...words(answer), ...problems(answer), ...answer.warnings.map((w) => notice("warning", sentence(w)))];
+  const parts = [...words(answer), ...problems(answer)];
   if (answer.read_back) parts.push(steps(answer, map), ...rest(answer.read_back), totals(answer.read_back.totals));
   parts.push(document_(answer));
   return parts;
 }
+
+// A box to tick for each warning. Nothing is approved before all are ticked, here as on the server.
+export const ticks = (warnings) =>
+  warnings.map((text) => el("label", { class: "tick" }, el("input", { type: "checkbox", required: true, value: text }), el("span", {}, sentence(text))));
 
 // The request with what became of its words; the legend names what occurs.
 function words({ words: pieces }) {

@@ -1,6 +1,6 @@
 // The page: a request becomes a plan, an approved plan a simulated mission.
 
-import { render as renderAnswer, title as answerTitle } from "./answer.js";
+import { render as renderAnswer, ticks, title as answerTitle } from "./answer.js";
 import { get, post } from "./api.js";
 import { $, el, notice, problemNotice, sentence } from "./dom.js";
 import { Flight, title as flightTitle } from "./flight.js";
@@ -141,6 +141,8 @@ function showAnswer(answer, request) {
   $("answer-body").replaceChildren(...renderAnswer(answer, request, map, reply));
   $("answer").hidden = false;
   $("approve").hidden = !(answer.outcome === "planned" && answer.approvable);
+  $("ticks").replaceChildren(...ticks(answer.warnings ?? []));
+  $("confirm").hidden = !answer.warnings?.length;
   $("answer").focus({ preventScroll: true });
   $("answer").scrollIntoView({ block: "nearest", behavior: "smooth" });
 }
@@ -156,7 +158,8 @@ async function simulate() {
   const by = $("by").value.trim();
   localStorage.setItem("fieldhand.by", by);
   flight?.pause();
-  const body = { xml: answer.xml, site, robot, approved_by: by, seed: Number($("seed").value || 0) };
+  const confirmed = [...$("ticks").querySelectorAll("input:checked")].map((box) => box.value);
+  const body = { xml: answer.xml, site, robot, approved_by: by, confirmed, seed: Number($("seed").value || 0) };
   await during($("run-button"), $("run-notice"), async (signal) => {
     const run = await post("/api/run", body, signal);
     flight = new Flight(run, map);

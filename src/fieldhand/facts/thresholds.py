@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from fieldhand.planning.facts import words as w
-from fieldhand.planning.facts.amounts import Amount
-from fieldhand.planning.facts.limits import BATTERY
-from fieldhand.planning.facts.mismatch import Mismatch
-from fieldhand.planning.facts.planned import Planned, Tested
-from fieldhand.planning.facts.stated import Stated
+from fieldhand.facts import words as w
+from fieldhand.facts.amounts import Amount
+from fieldhand.facts.limits import BATTERY
+from fieldhand.facts.mismatch import Mismatch
+from fieldhand.facts.planned import Planned, Tested
+from fieldhand.facts.stated import Stated
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.words import TESTS, say_quantity
 

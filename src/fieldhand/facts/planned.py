@@ -10,7 +10,7 @@ from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Literal
 
-from fieldhand.planning.facts.selected import ONE, Range, counts, places, sides
+from fieldhand.facts.selected import ONE, Range, counts, places, sides
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 from fieldhand.task import selectors as s

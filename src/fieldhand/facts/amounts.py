@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from itertools import zip_longest
 from typing import Literal
 
-from fieldhand.planning.facts import words as w
-from fieldhand.planning.facts.words import Token
+from fieldhand.facts import words as w
+from fieldhand.facts.words import Token
 
 AmountKind = Literal[
     "id", "row", "name", "rows", "trees", "captures", "corners", "times", "length", "time", "attribute", "percent",

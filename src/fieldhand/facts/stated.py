@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from fieldhand.planning.facts import words as w
-from fieldhand.planning.facts.amounts import Amount, Noun, amounts, numbers_of
-from fieldhand.planning.facts.words import Token, tokens
+from fieldhand.facts import words as w
+from fieldhand.facts.amounts import Amount, Noun, amounts, numbers_of
+from fieldhand.facts.words import Token, tokens
 from fieldhand.robot.model import Action, RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.selectors import Side

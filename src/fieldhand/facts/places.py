@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from fieldhand.planning.facts import words as w
-from fieldhand.planning.facts.amounts import Amount
-from fieldhand.planning.facts.mismatch import Mismatch
-from fieldhand.planning.facts.planned import Planned
-from fieldhand.planning.facts.stated import Stated
+from fieldhand.facts import words as w
+from fieldhand.facts.amounts import Amount
+from fieldhand.facts.mismatch import Mismatch
+from fieldhand.facts.planned import Planned
+from fieldhand.facts.stated import Stated
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 from fieldhand.task import selectors as s

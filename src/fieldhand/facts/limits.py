@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from fieldhand.planning.facts.amounts import Amount
-from fieldhand.planning.facts.mismatch import Mismatch
-from fieldhand.planning.facts.planned import Planned
-from fieldhand.planning.facts.stated import Stated
-from fieldhand.planning.facts.words import words_in
+from fieldhand.facts.amounts import Amount
+from fieldhand.facts.mismatch import Mismatch
+from fieldhand.facts.planned import Planned
+from fieldhand.facts.stated import Stated
+from fieldhand.facts.words import words_in
 from fieldhand.task.frames import BudgetKind
 
 _KINDS: dict[BudgetKind, tuple[str, str]] = {

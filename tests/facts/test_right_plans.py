@@ -14,8 +14,8 @@ import yaml
 
 import english_requests
 import row_requests
+from fieldhand.facts import mismatches
 from fieldhand.planning.english.planner import EnglishPlanner
-from fieldhand.planning.facts import mismatches
 from fieldhand.planning.llm.answer import TaskAnswer, read_answer
 from fieldhand.planning.llm.chat import Reply
 from fieldhand.planning.llm.examples import EXAMPLES, ROBOT
@@ -33,7 +33,7 @@ from fieldhand.task.codec import Draft
 from fieldhand.task.frames import Task
 from site_grids import grid
 
-ROOT = Path(__file__).resolve().parents[3]
+ROOT = Path(__file__).resolve().parents[2]
 MISSIONS = ROOT.parent / "shared" / "data" / "missions" / "orchard.yaml"
 PAGE = (ROOT / "docs" / "english.md").read_text(encoding="utf-8")
 ROBOTS = {name: load_robot(name) for name in ("husky", "amiga")}

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 import english_requests
 import row_requests
+from fieldhand.facts import mismatches
 from fieldhand.planning.english.planner import EnglishPlanner
-from fieldhand.planning.facts import mismatches
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site

@@ -10,14 +10,14 @@ from collections.abc import Iterator
 from itertools import accumulate
 
 from fieldhand.errors import PlaceError
-from fieldhand.planning.facts import words as w
-from fieldhand.planning.facts.amounts import Amount, numbers_of
-from fieldhand.planning.facts.limits import limits
-from fieldhand.planning.facts.mismatch import Mismatch
-from fieldhand.planning.facts.places import named_places
-from fieldhand.planning.facts.planned import Captures, Number, Planned, planned
-from fieldhand.planning.facts.stated import Stated, hints, stated
-from fieldhand.planning.facts.thresholds import thresholds
+from fieldhand.facts import words as w
+from fieldhand.facts.amounts import Amount, numbers_of
+from fieldhand.facts.limits import limits
+from fieldhand.facts.mismatch import Mismatch
+from fieldhand.facts.places import named_places
+from fieldhand.facts.planned import Captures, Number, Planned, planned
+from fieldhand.facts.stated import Stated, hints, stated
+from fieldhand.facts.thresholds import thresholds
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task

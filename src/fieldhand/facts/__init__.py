@@ -8,7 +8,7 @@ silence here does not mean that a plan is right, but a mismatch means that someb
 None of it shares a word list or a rule with the English planner, so that it does not repeat that planner's mistakes.
 """
 
-from fieldhand.planning.facts.compare import mismatches
-from fieldhand.planning.facts.mismatch import Mismatch
+from fieldhand.facts.compare import mismatches
+from fieldhand.facts.mismatch import Mismatch
 
 __all__ = ["Mismatch", "mismatches"]
