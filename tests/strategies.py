@@ -182,6 +182,7 @@ class Parts:
             nominal=st.sampled_from(("return_to_end", "return_to_start", "stay")),
             faulted=st.lists(self.instance(FaultedExit), max_size=3).map(tuple),
             assumptions=st.lists(texts, max_size=2).map(tuple),
+            read_as=texts,
             warnings=st.lists(texts, max_size=2).map(tuple),
             nominal_said=_spans,
             no_part=_spans,

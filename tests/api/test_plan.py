@@ -95,6 +95,15 @@ def test_an_answer_to_a_question_leads_to_the_plan() -> None:
     assert web.post("/api/plan", {**body, "answers": [{"question": "?"}]}).status_code == 422
 
 
+def test_the_places_of_each_choice_are_on_the_map_with_its_number() -> None:
+    asked = browser(EnglishPlanner()).post("/api/plan", {"request": "take a picture of row 3"}).json()
+    every, four = asked["places"]
+    marked = {f["properties"]["place"]: f["properties"]["numbers"] for f in of_role(asked, "choice")}
+    assert set(marked) == set(every)
+    assert {place for place, numbers in marked.items() if numbers[0] == 2} == set(four)
+    assert len(of_role(asked, "tree")) == len(load_demo().trees)
+
+
 def test_the_request_comes_in_pieces_with_what_became_of_each() -> None:
     request = "Please take a picture of tree 4."
     words = browser(EnglishPlanner()).post("/api/plan", {"request": request}).json()["words"]

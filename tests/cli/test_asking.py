@@ -6,6 +6,7 @@ import io
 import json
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import pytest
 
@@ -127,3 +128,23 @@ def test_the_words_of_a_request_are_shown_with_and_without_colour(monkeypatch: p
     assert "\x1b[1;34mtake a picture\x1b[0m" in shown["standard"]
     assert "\x1b" not in shown[None]
     assert "(no part in the plan: Please; action: take a picture; place: tree 4)" in shown[None]
+
+
+def test_a_question_is_drawn_before_it_is_answered_or_left(typed: Callable[[str], None], tmp_path: Path) -> None:
+    places = tuple((tree.place,) for tree in GROUND.site.trees[:2])
+    which = Clarify(question="Which end?", choices=("north", "south"), places=places)
+    drawn: list[Clarify] = []
+    typed("2\n")
+    plan_and_ask("go", GROUND, Asks((which,)), Replies(draw=drawn.append))
+    plan_and_ask("go", GROUND, Asks((which,)), Replies(ask=False, draw=drawn.append))
+    assert drawn == [which, which]
+    plan_and_ask("go", GROUND, Asks((which,)), Replies(given=("north",), draw=drawn.append))
+    assert len(drawn) == 2
+
+
+def test_a_question_that_nobody_answers_leaves_its_picture_and_says_where_each_choice_leads(tmp_path: Path) -> None:
+    words = ("plan", "take a picture of tree 5 in row 1", "--site", "demo", "--picture", "q.png")
+    asked = fieldhand(*words, cwd=tmp_path)
+    assert asked.status == 2
+    assert "(tree 5)" in asked.err
+    assert (tmp_path / "q.png").stat().st_size > 10_000

@@ -6,15 +6,15 @@ from dataclasses import asdict
 from typing import Any
 
 from fieldhand.api.inputs import Ground
-from fieldhand.api.maps import plan_map, site_map
+from fieldhand.api.maps import choices_map, plan_map, site_map
 from fieldhand.mission import Review
 from fieldhand.planning.planner import Clarify, Refused
 from fieldhand.task.account import NAMES, account, has_ranges
 from fieldhand.task.frames import Task
 
 
-def unplanned_answer(outcome: Clarify | Refused) -> dict[str, Any]:
-    """A question or a refusal."""
+def unplanned_answer(outcome: Clarify | Refused, ground: Ground) -> dict[str, Any]:
+    """A question, with where its choices lead, or a refusal."""
     match outcome:
         case Clarify():
             return {
@@ -23,6 +23,8 @@ def unplanned_answer(outcome: Clarify | Refused) -> dict[str, Any]:
                 "question": outcome.question,
                 "choices": list(outcome.choices),
                 "free": outcome.free,
+                "places": [[place.id for place in one] for one in outcome.places],
+                "map": choices_map(ground.site, outcome.places),
             }
         case Refused():
             reasons = [{"what": r.what, "said": [list(s) for s in r.said], "advice": r.advice} for r in outcome.reasons]

@@ -1,8 +1,8 @@
 """Sites, plans and driven paths as GeoJSON, in degrees WGS 84, each feature with a ``role``.
 
 ``zone``, ``row``, ``tree``, ``gate``, ``marker``: the site. ``path``, ``stop``: a plan, the legs with the node that
-drives them, the stops with their number and the nodes that go or act there. ``leg``, ``capture``, ``end``: what was
-driven, with times in seconds since the mission began.
+drives them, the stops with their number and the nodes that go or act there. ``choice``: a place that an answer to a
+question would mean. ``leg``, ``capture``, ``end``: what was driven, with times in seconds since the mission began.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from fieldhand.site.choices import choice_marks
 from fieldhand.site.model import Place, Site
 from fieldhand.site.projection import Projection
 from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event
@@ -66,6 +67,15 @@ def plan_map(site: Site, estimate: Estimate) -> Feature:
         _add_legs(legs, branch.walk, site.projection, other=number > 0)
         _add_stops(stops, branch.walk, other=number > 0)
     return _collection([*site_map(site)["features"], *legs.values(), *stops.values()])
+
+
+def choices_map(site: Site, choices: Sequence[Sequence[Place]]) -> Feature:
+    """A site with the places of several choices: each with the numbers of the choices that hold it."""
+    marks = [
+        _at(m.place, role="choice", numbers=list(m.numbers), labelled=m.labelled, place=m.place.id, kind=m.place.kind)
+        for m in choice_marks(choices)
+    ]
+    return _collection([*site_map(site)["features"], *marks])
 
 
 def driven_map(events: Iterable[Event]) -> Feature:

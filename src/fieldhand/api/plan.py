@@ -35,7 +35,7 @@ def _plan(body: PlanBody, planners: Planners) -> dict[str, Any]:
     ground = open_ground(body)
     outcome = mission.plan(body.request, ground.site, ground.robot, planners(body.planner), answers_of(body))
     if not isinstance(outcome, Planned):
-        return unplanned_answer(outcome)
+        return unplanned_answer(outcome, ground)
     document = encode(outcome.task)
     review = mission.review(outcome.task, ground.site, ground.robot, document=document)
     return {

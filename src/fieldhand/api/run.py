@@ -44,7 +44,7 @@ def _run(body: RunBody, planners: Planners, limits: Limits) -> dict[str, Any]:
     if body.request is not None:
         outcome = mission.plan(body.request, ground.site, ground.robot, planners(body.planner), answers_of(body))
         if not isinstance(outcome, Planned):
-            return unplanned_answer(outcome)
+            return unplanned_answer(outcome, ground)
         task = outcome.task
     else:
         task, _ = open_task(body.xml or "", ground.robot)

@@ -12,7 +12,7 @@ from rich.text import Text
 
 from fieldhand import mission
 from fieldhand.cli.inputs import Ground, may_ask
-from fieldhand.cli.show import err, fail_outcome, note
+from fieldhand.cli.show import err, fail_outcome, note, show_question
 from fieldhand.errors import RequestError
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Planner
 from fieldhand.task.frames import Task
@@ -29,11 +29,13 @@ class Replies:
         given: Answers in the order in which they are used.
         assume: Take the first choice where no answer is given, and say so among the assumptions.
         ask: Ask the person at the terminal where there is one.
+        draw: Draws a question that is put to a person, or that nobody answers.
     """
 
     given: tuple[str, ...] = ()
     assume: bool = False
     ask: bool = True
+    draw: Callable[[Clarify], None] = lambda _: None
 
 
 def plan_and_ask(request: str, ground: Ground, planner: Planner, replies: Replies) -> tuple[str, Outcome]:
@@ -60,8 +62,10 @@ def plan_and_ask(request: str, ground: Ground, planner: Planner, replies: Replie
         elif replies.assume and outcome.choices:
             said, assumed = outcome.choices[0], True
         elif replies.ask and may_ask():
+            replies.draw(outcome)
             said = _asked(outcome, sys.stdin.readline)
         else:
+            replies.draw(outcome)
             return request, outcome
         choice = _choice(said, outcome)
         if choice is not None or outcome.free:
@@ -95,9 +99,7 @@ def plan_or_read(
 
 def _asked(asked: Clarify, read: Callable[[], str]) -> str:
     """One question at the terminal, and what was typed."""
-    err.print(Text("A question first: ", style="bold") + Text(asked.question))
-    for number, choice in enumerate(asked.choices, start=1):
-        err.print(Text(f"  {number}. {choice}"))
+    show_question(asked)
     other = "other words" if asked.free else "the whole request in other words"
     numbers = f"1 to {len(asked.choices)}, or " if len(asked.choices) > 1 else "1, or " if asked.choices else ""
     err.print(Text(f"{numbers}{other}: "), end="")

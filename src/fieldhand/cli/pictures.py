@@ -5,11 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fieldhand.cli.show import note
 from fieldhand.errors import NotApprovedError
 from fieldhand.mission import Review
 
 if TYPE_CHECKING:
     from fieldhand.cli.inputs import Ground
+    from fieldhand.planning.planner import Clarify
 
 
 def draw_plan(path: Path, review: Review, ground: Ground) -> None:
@@ -25,3 +27,16 @@ def draw_plan(path: Path, review: Review, ground: Ground) -> None:
     from fieldhand.approval.preview import save_map
 
     save_map(review.task, ground.site, ground.robot, review.estimate, path)
+
+
+def draw_question(path: Path, asked: Clarify, ground: Ground) -> None:
+    """The map of a question, if its choices differ there.
+
+    Raises:
+        OutputError: The file cannot be written.
+    """
+    if asked.places:
+        from fieldhand.site.drawing import save_choices_picture
+
+        save_choices_picture(ground.site, asked.question, asked.choices, asked.places, path)
+        note(f"the choices are drawn in {path}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -40,12 +41,15 @@ def plan(
     from fieldhand.cli import show
     from fieldhand.cli.asking import Replies, plan_and_ask
     from fieldhand.cli.inputs import open_ground, write_file
+    from fieldhand.cli.pictures import draw_plan, draw_question
     from fieldhand.planning.planner import Planned
     from fieldhand.task.codec import encode
 
     ground = open_ground(site, robot, lenient=lenient)
     chosen = mission.make_planner(planner, os.environ, transcript)
     replies = Replies(given=tuple(answer or ()), assume=assume, ask=not json)
+    if picture is not None:
+        replies = replace(replies, draw=lambda asked: draw_question(picture, asked, ground))
     request, outcome = plan_and_ask(request, ground, chosen, replies)
     if not isinstance(outcome, Planned):
         if json:
@@ -57,8 +61,6 @@ def plan(
     if output is not None:
         write_file(output, document)
     if picture is not None:
-        from fieldhand.cli.pictures import draw_plan
-
         draw_plan(picture, review, ground)
     if json:
         record = show.outcome_record(outcome) | show.review_record(review) | {"xml": document.decode()}

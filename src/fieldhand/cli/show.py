@@ -18,6 +18,7 @@ from fieldhand.task.account import NAMES, Role, account, has_ranges
 
 if TYPE_CHECKING:
     from fieldhand.mission import Review
+    from fieldhand.site.model import Place
     from fieldhand.task.frames import Task
     from fieldhand.task.results import Ended, GoalOutcome
 
@@ -66,9 +67,7 @@ def print_json(value: Any) -> None:
 def fail_outcome(request: str, outcome: Clarify | Refused) -> NoReturn:
     """Say what was not understood or what is asked back, and end the program with status 2."""
     if isinstance(outcome, Clarify):
-        err.print(Text("A question first: ", style="bold") + Text(outcome.question))
-        for number, choice in enumerate(outcome.choices, start=1):
-            err.print(Text(f"  {number}. {choice}"))
+        show_question(outcome)
         err.print("Say it in the request and plan again, or give --answer.")
         raise SystemExit(2)
     spans = [span for reason in outcome.reasons for span in reason.said]
@@ -77,6 +76,21 @@ def fail_outcome(request: str, outcome: Clarify | Refused) -> NoReturn:
     for reason in outcome.reasons:
         err.print(Text("fieldhand: ", style="bold") + Text(sentence(reason)))
     raise SystemExit(2)
+
+
+def show_question(asked: Clarify) -> None:
+    """A question with its choices, and where each of them leads."""
+    err.print(Text("A question first: ", style="bold") + Text(asked.question))
+    led = asked.places or tuple(() for _ in asked.choices)
+    for number, (choice, places) in enumerate(zip(asked.choices, led, strict=True), start=1):
+        err.print(Text(f"  {number}. {choice}") + Text(_where(places), style="dim"))
+
+
+def _where(places: Sequence[Place]) -> str:
+    """Places in a few words, behind a choice."""
+    if len(places) == 1:
+        return f" ({places[0].kind} {places[0].id})"
+    return f" ({len(places)} {'trees' if all(p.kind == 'tree' for p in places) else 'places'})" if places else ""
 
 
 def sentence(reason: Reason) -> str:
@@ -98,7 +112,10 @@ def outcome_record(outcome: Planned | Clarify | Refused) -> dict[str, Any]:
         case Planned():
             return {"outcome": "planned", "planner": outcome.planner}
         case Clarify():
-            return {"outcome": "clarify", "question": outcome.question, "choices": list(outcome.choices)}
+            places = [[place.id for place in one] for one in outcome.places]
+            return {
+                "outcome": "clarify", "question": outcome.question, "choices": list(outcome.choices), "places": places,
+            }  # fmt: skip
         case Refused():
             reasons = [{"what": r.what, "said": r.said, "advice": r.advice} for r in outcome.reasons]
             return {"outcome": "refused", "reasons": reasons}

@@ -33,7 +33,8 @@ def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[Mismatch, .
 
     A request that states no such fact has none, and a plan without any may still be wrong.
     """
-    said, plan = stated(task.command.request, robot, site), planned(task)
+    request = task.command.read_as or task.command.request
+    said, plan = stated(request, robot, site), planned(task)
     found = [
         *_sensors(said, plan, robot),
         *_counts(said, plan, site),

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.model import Site
+from fieldhand.site.model import Place, Site
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Span
 
@@ -24,11 +24,14 @@ class Clarify:
     """The request can mean two things here: one question, with the answers to choose from.
 
     Attributes:
+        places: For each choice, the places that it would mean; empty for one that nobody knows of yet. Nothing at all
+            where the choices do not differ on the map.
         free: Other words than a choice can be an answer; else they are a request of their own.
     """
 
     question: str
     choices: tuple[str, ...] = ()
+    places: tuple[tuple[Place, ...], ...] = ()
     planner: str = ""
     free: bool = False
 

@@ -51,6 +51,8 @@ def make_task(
     assumptions: tuple[str, ...] = (),
     nominal_said: tuple[Span, ...] = (),
     no_part: tuple[Span, ...] = (),
+    read_as: str = "",
+    warnings: tuple[str, ...] = (),
 ) -> Task:
     """A Task whose ids, goals and variables follow from its plan.
 
@@ -65,6 +67,8 @@ def make_task(
         assumptions: What was assumed in reading the request, as sentences.
         nominal_said: Ranges of the request that say where the robot goes when the plan is done.
         no_part: Ranges of the request that have no part in the plan.
+        read_as: The request with what was answered to questions about it, if anything was.
+        warnings: What has to be confirmed before it is approved, as sentences.
 
     Returns:
         The same Task for the same arguments: its id is a hash of request, plan and resources.
@@ -79,6 +83,8 @@ def make_task(
             variables=variables(numbered, measures),
             assumptions=assumptions,
             no_part=no_part,
+            read_as=read_as,
+            warnings=warnings,
         ),
         composition=Composition(plan=numbered, nominal=nominal, nominal_said=nominal_said, faulted=faulted),
         constraints=constraints or Constraints(),

@@ -40,6 +40,7 @@ class Draft:
     request: str
     nominal_said: tuple[Span, ...] = ()
     no_part: tuple[Span, ...] = ()
+    warnings: tuple[str, ...] = ()
 
 
 def encode(task: Task) -> bytes:
@@ -88,6 +89,7 @@ def decode_draft(data: bytes, *, source: str = "") -> Draft:
         request=task.command.request,
         nominal_said=task.composition.nominal_said,
         no_part=task.command.no_part,
+        warnings=task.command.warnings,
     )
 
 

@@ -53,7 +53,7 @@ QUOTED = {"command": "no-part", "exits": "nominal-said", "constraints": "reserve
 _NAMES: dict[tuple[type, str], str] = {(Task, "composition"): "task-composition", (Command, "variables"): "state"}
 _CLASS_NAMES: dict[type, str] = {FaultedExit: "faulted"}
 #: Text of any length stands in an element of its own.
-_TEXTS = {(Command, "request"), (Command, "assumptions"), (Command, "warnings")}
+_TEXTS = {(Command, "request"), (Command, "read_as"), (Command, "assumptions"), (Command, "warnings")}
 #: Fields whose meaning depends on the quantity that stands beside them.
 _OF_QUANTITY = ("value", "low", "high", "unit", "level")
 #: What a draft may leave out beside what has a default: it is derived by ``task.build.make_task``.
@@ -62,8 +62,6 @@ DRAFT_DEFAULTS: dict[tuple[type, str] | str, Any] = {
     (Command, "request"): "",
     (Task, "command"): Command(request=""),
 }
-#: What no draft holds: only a program warns of a plan, never the one who wrote it.
-NOT_IN_DRAFTS = {(Command, "warnings")}
 
 
 @dataclass(frozen=True, kw_only=True)

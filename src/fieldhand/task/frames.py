@@ -50,6 +50,7 @@ class Command:
 
     Attributes:
         no_part: Ranges of the request that have no part in the plan: politeness, a reason that is given.
+        read_as: The request with what was answered to questions about it; empty where nothing was asked.
         warnings: What its planner wants confirmed before it is approved, as sentences.
     """
 
@@ -58,6 +59,7 @@ class Command:
     variables: tuple[Variable, ...] = ()
     assumptions: tuple[str, ...] = ()
     no_part: tuple[Span, ...] = ()
+    read_as: str = ""
     warnings: tuple[str, ...] = ()
 
 

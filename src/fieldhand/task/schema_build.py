@@ -13,7 +13,6 @@ from fieldhand.task.codec_shapes import (
     DRAFT_DEFAULTS,
     FAMILIES,
     NAMESPACE,
-    NOT_IN_DRAFTS,
     QUOTES,
     Attribute,
     Child,
@@ -121,8 +120,7 @@ class SchemaBuilder:
         elif shape.children:
             content = _xs(made, "all")
             for child in shape.children:
-                if not (self.draft and (shape.cls, child.field) in NOT_IN_DRAFTS):
-                    self.child(content, shape, child)
+                self.child(content, shape, child)
         for attribute in self.attributes(shape):
             self.attribute(made, shape.cls, attribute)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from fieldhand.planning.english.tokens import Term
 from fieldhand.planning.planner import Reason
@@ -39,9 +39,13 @@ class Question(Exception):
         self.words = words or (choices if spans else tuple("" for _ in choices))
         super().__init__(question)
 
+    def answers(self) -> Iterator[tuple[str, str]]:
+        """Each choice with its words."""
+        return zip(self.choices, self.words, strict=True)
+
     def words_of(self, answer: str) -> str | None:
         """The words of the choice that an answer names; None if it names none."""
-        named = [w for c, w in zip(self.choices, self.words, strict=True) if c.lower() == answer.strip().lower()]
+        named = [w for c, w in self.answers() if c.lower() == answer.strip().lower()]
         return named[0] if named else None
 
 

@@ -14,6 +14,7 @@ from fieldhand.planning.english.discourse import Discourse
 from fieldhand.planning.english.draft import Halt, node_of
 from fieldhand.planning.english.faults import Question, Unclear
 from fieldhand.planning.english.languages import language_of
+from fieldhand.planning.english.leading import places_of_choices
 from fieldhand.planning.english.leaving import place_unsure
 from fieldhand.planning.english.lexicon import Lexicon, lexicon_for
 from fieldhand.planning.english.limits import Limit
@@ -62,18 +63,23 @@ class EnglishPlanner:
         Raises:
             RequestError: The request is empty, too long, or holds characters that no document can hold.
         """
+
+        def read(worded: Worded, taken: tuple[Answer, ...]) -> Outcome:
+            return _read(request, worded, taken, site, robot)
+
         _check_text(request)
         worded = Worded.typed(request)
         taken: tuple[Answer, ...] = ()
         while True:
             try:
-                return _read(request, worded, taken, site, robot)
+                return read(worded, taken)
             except Unclear as unclear:
                 return _refused(worded, (unclear.reason,))
             except Question as question:
                 given = next((a for a in answers if a.question == question.question and a not in taken), None)
                 if given is None:
-                    return Clarify(question=question.question, choices=question.choices, planner=NAME)
+                    places = places_of_choices(question, worded, taken, read, site, robot)
+                    return Clarify(question=question.question, choices=question.choices, places=places, planner=NAME)
                 words = question.words_of(given.answer)
                 if not words:
                     return _refused(worded, (_unanswered(question, given, known=words is not None),))
@@ -102,7 +108,7 @@ def _read(request: str, worded: Worded, taken: tuple[Answer, ...], site: Site, r
     told = _told(arranged, worded.text, robot, site)
     told.assumptions += [str(answer) for answer in taken]
     as_typed(told, worded)
-    return _planned(request, told, site, robot)
+    return _planned(request, worded.text if taken else "", told, site, robot)
 
 
 def _turned(said: Sequence[Word], words: Sequence[Word]) -> list[p.Span]:
@@ -232,7 +238,7 @@ def _misfit(wrong: NotParsed, request: str) -> Reason:
     return Reason(what=what, said=(wrong.term.span,), advice=advice)
 
 
-def _planned(request: str, told: Told, site: Site, robot: RobotProfile) -> Outcome:
+def _planned(request: str, read_as: str, told: Told, site: Site, robot: RobotProfile) -> Outcome:
     if all(isinstance(step, Halt) for step in told.root.steps):
         reason = Reason(
             what="the request asks for nothing to be done", advice="say what to take or measure, and at which trees"
@@ -257,6 +263,7 @@ def _planned(request: str, told: Told, site: Site, robot: RobotProfile) -> Outco
         nominal_said=tuple(told.nominal_said),
         no_part=tuple((start, end) for start, end in told.no_part if re.search(r"\w", request[start:end])),
         faulted=_faulted(nominal),
+        read_as=read_as,
         assumptions=tuple(dict.fromkeys([*told.assumptions, *assumptions])),
     )
     problems = tuple(_impossible(task.composition.plan, site))

@@ -201,5 +201,7 @@ def _planned(
         assumptions=(*map(str, answers), *(visible_line(said, LONGEST_ASSUMPTION) for said in draft.assumptions)),
         nominal_said=draft.nominal_said,
         no_part=draft.no_part,
+        read_as="\n".join([f"{request}.", *(f"{answer.answer}." for answer in answers)]) if answers else "",
+        warnings=tuple(visible_line(said, LONGEST_ASSUMPTION) for said in draft.warnings),
     )
     return Planned(task=task, planner=name)

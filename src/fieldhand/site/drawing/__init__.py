@@ -1,6 +1,15 @@
 """Pictures of a site, in local metres: the quiet ground that maps and reports lie on, and the site's own picture."""
 
+from fieldhand.site.drawing.choices import save_choices_picture
 from fieldhand.site.drawing.ground import TREE_COLOUR, draw_site, site_figure, tree_size
 from fieldhand.site.drawing.picture import save_site_picture, site_picture
 
-__all__ = ["TREE_COLOUR", "draw_site", "save_site_picture", "site_figure", "site_picture", "tree_size"]
+__all__ = [
+    "TREE_COLOUR",
+    "draw_site",
+    "save_choices_picture",
+    "save_site_picture",
+    "site_figure",
+    "site_picture",
+    "tree_size",
+]

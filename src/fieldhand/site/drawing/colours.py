@@ -7,6 +7,8 @@ TREE = "#5b8c5a"
 ROWS = ("#0072b2", "#e69f00", "#117a65", "#d55e00")
 #: The same for letters, which are thin.
 ROW_INKS = ("#005f96", "#946500", "#0e6453", "#a54800")
+#: Of the choices of a question, on green trees.
+CHOICES = ("#005f96", "#a54800", "#6a3d9a", "#2f2f2f")
 NO_ROW = "#a6a6a6"
 FAINT_ROW = "#9db79a"
 

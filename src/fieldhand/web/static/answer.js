@@ -1,6 +1,7 @@
 // What the planner answers: the plan in words with its stops, a question, or what was not understood.
 
 import { download, el, minutes, notice, sentence } from "./dom.js";
+import { choiceClass } from "./map.js";
 
 const TITLES = { planned: "The plan", clarify: "A question first", refused: "Not understood" };
 const MANY = 8; // more stops of one line than this are counted
@@ -9,7 +10,7 @@ export const title = (answer) => TITLES[answer.outcome];
 
 // The answer as elements. `map` lights up stops; `reply` takes the answer to a question.
 export function render(answer, request, map, reply) {
-  if (answer.outcome === "clarify") return question(answer, reply);
+  if (answer.outcome === "clarify") return question(answer, map, reply);
   if (answer.outcome === "refused") return refusal(answer, request);
   const parts = [...words(answer), ...problems(answer)];
   if (answer.read_back) parts.push(steps(answer, map), ...rest(answer.read_back), totals(answer.read_back.totals));
@@ -32,9 +33,16 @@ function words({ words: pieces }) {
 
 // The choices are buttons: a click plans again with the answer. Other words go into the request, or, where the planner
 // takes them as an answer, into a field of their own.
-function question({ question: asked, choices, free }, reply) {
-  const choice = (text) => el("li", {}, el("button", { type: "button", class: "example", onclick: () => reply(asked, text) }, text));
+function question({ question: asked, choices, free, places }, map, reply) {
+  const choice = (text, k) => {
+    const number = el("span", { class: places[k]?.length ? `badge choice-key ${choiceClass(k + 1)}` : "badge other" }, String(k + 1));
+    const button = el("button", { type: "button", class: "example", onclick: () => reply(asked, text) }, number, text);
+    for (const kind of ["pointerenter", "focus"]) button.addEventListener(kind, () => map.highlightChoice(k + 1));
+    for (const kind of ["pointerleave", "blur"]) button.addEventListener(kind, () => map.highlightChoice(0));
+    return el("li", {}, button);
+  };
   const parts = [el("p", { class: "question" }, asked), el("ol", { class: "choices" }, choices.map(choice))];
+  if (places.length) parts.push(el("p", { class: "hint" }, "Or tap its place on the map."));
   if (!free) return [...parts, el("p", { class: "hint" }, "Or say it in the request, and plan again.")];
   const words = el("input", { id: "other-words", maxlength: 2000, required: true });
   const send = (event) => (event.preventDefault(), reply(asked, words.value));

@@ -132,6 +132,7 @@ async function planRequest() {
       plan = { answer, site, robot };
       map.showPlan(answer.map.features);
     }
+    if (answer.outcome === "clarify") map.showChoices(answer.map.features, answer.choices, (choice) => reply(answer.question, choice));
     showAnswer(answer, request);
   });
 }

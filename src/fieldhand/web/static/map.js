@@ -5,6 +5,7 @@ import { $, svg } from "./dom.js";
 const METRES_PER_DEGREE = 111_320;
 const CLOSEST_M = 8; // the view is never narrower than this
 const CLOSEST_STOPS_PX = 17;
+const TAP_PX = 6; // a finger that moves less has tapped
 const MARKER = { start: "S", end: "E", charger: "C" };
 
 export class FieldMap {
@@ -12,7 +13,7 @@ export class FieldMap {
     this.root = $("map");
     this.info = $("map-info");
     this.layers = {};
-    for (const name of ["zones", "rows", "trees", "paths", "driven", "markers", "stops", "captures", "robot"]) {
+    for (const name of ["zones", "rows", "trees", "paths", "driven", "markers", "stops", "choices", "captures", "robot"]) {
       this.layers[name] = svg("g", { class: `layer-${name}` });
       this.root.append(this.layers[name]);
     }
@@ -60,10 +61,32 @@ export class FieldMap {
     this.#crowd();
   }
 
+  // The places that the choices of a question mean; a tap on one takes the choice with the fewest places that holds it.
+  showChoices(features, choices, choose) {
+    this.clearPlan();
+    const numbered = new Set();
+    const marks = features.filter((f) => f.properties.role === "choice").map((f) => this.#choice(f, choices, choose));
+    for (const sign of marks.filter((one) => one.numbered)) {
+      // Where numbers would cover each other, one of each choice is left.
+      sign.classList.toggle("first", !numbered.has(sign.dataset.numbers));
+      numbered.add(sign.dataset.numbers);
+    }
+    for (const sign of marks.filter((one) => one.numbered).reverse()) this.layers.choices.append(sign);
+    this.closestChoice = closest(marks.filter((one) => one.numbered).map((one) => one.at));
+    this.#crowd();
+  }
+
+  // Marks the places of a choice by its number, counted from 1; 0 for none.
+  highlightChoice(number) {
+    for (const sign of this.layers.choices.children) {
+      sign.classList.toggle("lit", sign.dataset.numbers.split(" ").includes(String(number)));
+    }
+  }
+
   clearPlan() {
     this.clearDrive();
-    for (const name of ["paths", "stops"]) this.layers[name].replaceChildren();
-    this.#forget(this.layers.stops);
+    for (const name of ["paths", "stops", "choices"]) this.layers[name].replaceChildren();
+    this.signs = this.signs.filter((s) => s.isConnected);
   }
 
   clearDrive() {
@@ -206,6 +229,22 @@ export class FieldMap {
     sign.addEventListener("pointerleave", () => this.onstop([]));
   }
 
+  #choice({ geometry, properties }, choices, choose) {
+    const { numbers, labelled, kind, place } = properties;
+    const label = [...numbers].sort((a, b) => a - b).join(", ");
+    const words = `${kind} ${place}: ${numbers.map((n) => `${n}. ${choices[n - 1]}`).join("; ")}`;
+    const sign = this.#sign(this.layers.choices, `choice ${choiceClass(numbers[0])}`, this.metres(geometry.coordinates), [
+      svg("circle", { r: labelled ? 9 + 1.7 * label.length : 6 }),
+      labelled ? svg("text", { y: 0.5 }, label) : null,
+      svg("title", {}, words),
+    ]);
+    sign.dataset.numbers = numbers.join(" ");
+    sign.numbered = labelled;
+    sign.words = words.charAt(0).toUpperCase() + words.slice(1);
+    sign.addEventListener("click", () => choose(choices[numbers[0] - 1]));
+    return sign;
+  }
+
   #sign(layer, kind, at, children) {
     const sign = svg("g", { class: kind }, children);
     layer.append(sign);
@@ -217,10 +256,6 @@ export class FieldMap {
   #place(sign, at) {
     sign.at = at;
     sign.setAttribute("transform", `translate(${at[0]} ${at[1]}) scale(${this.perPixel ?? 1})`);
-  }
-
-  #forget(layer) {
-    this.signs = this.signs.filter((s) => s.isConnected && s.parentNode !== layer);
   }
 
   #points(coordinates) {
@@ -249,6 +284,7 @@ export class FieldMap {
   // Numbers that would cover each other give way to dots until the map is zoomed in.
   #crowd() {
     this.layers.stops.classList.toggle("crowded", (this.closest ?? Infinity) / this.perPixel < CLOSEST_STOPS_PX);
+    this.layers.choices.classList.toggle("crowded", (this.closestChoice ?? Infinity) / this.perPixel < CLOSEST_STOPS_PX);
   }
 
   #at(event) {
@@ -295,12 +331,15 @@ export class FieldMap {
 
   #listenToFingers() {
     const fingers = new Map();
+    let first = null; // where a finger came down that has not moved yet: it may be a tap
     this.root.addEventListener("pointerdown", (event) => {
+      first = fingers.size ? null : [event.clientX, event.clientY];
       fingers.set(event.pointerId, this.#at(event));
     });
     this.root.addEventListener("pointermove", (event) => {
       const from = fingers.get(event.pointerId);
-      if (!from) return;
+      if (!from || (first && distance(first, [event.clientX, event.clientY]) < TAP_PX)) return;
+      first = null;
       if (!this.root.hasPointerCapture(event.pointerId)) this.root.setPointerCapture(event.pointerId);
       const to = this.#at(event);
       const other = [...fingers.entries()].find(([id]) => id !== event.pointerId)?.[1];
@@ -314,6 +353,9 @@ export class FieldMap {
     }
   }
 }
+
+// Choices are told apart by four colours, which come round again; the numbers say the rest.
+export const choiceClass = (number) => `c${((number - 1) % 4) + 1}`;
 
 function treeWords({ id, row, attributes }) {
   const rest = Object.entries(attributes)

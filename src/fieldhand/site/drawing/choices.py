@@ -1,0 +1,108 @@
+"""The picture of a question: each choice's places marked with its number."""
+
+from __future__ import annotations
+
+import math
+import textwrap
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from fieldhand.errors import OutputError
+from fieldhand.site.choices import choice_marks
+from fieldhand.site.drawing import colours
+from fieldhand.site.drawing.ground import draw_site, site_figure, tree_size
+from fieldhand.site.model import Place, Site
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+#: Diameter in points of a disc that holds a number, and what a further digit or number adds to it.
+_DISC, _WIDER = 13.0, 2.4
+#: Letters that an inch of the question and of the choices below it hold.
+_LETTERS_IN = 12.0
+
+
+def save_choices_picture(
+    site: Site, question: str, choices: Sequence[str], places: Sequence[Sequence[Place]], path: Path
+) -> None:
+    """Draw a question into a picture file; the ending says which kind (``.png``, ``.svg``, ``.pdf``).
+
+    Args:
+        site: What it is about.
+        question: Written above.
+        choices: What can be answered, written below with their numbers, counted from 1.
+        places: For each choice what it would mean; none where that is not known.
+        path: Written.
+
+    Raises:
+        OutputError: The file cannot be written, or its ending is of no kind of picture.
+    """
+    figure = choices_picture(site, question, choices, places)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        figure.savefig(path, dpi=150)
+    except OSError as fault:
+        raise OutputError(
+            f"the picture cannot be written ({fault.strerror or fault})", where=str(path), advice="choose another place"
+        ) from None
+    except ValueError:
+        raise OutputError(
+            f"{path.suffix or 'no ending'} is no kind of picture",
+            where=str(path),
+            advice="end its name in .png, .svg or .pdf",
+        ) from None
+
+
+def choices_picture(site: Site, question: str, choices: Sequence[str], places: Sequence[Sequence[Place]]) -> Figure:
+    """The picture as a figure that belongs to no window."""
+    figure = site_figure(site)
+    ax = figure.axes[0]
+    draw_site(ax, site)
+    _mark(ax, site, places)
+    _write(figure, question, choices, places)
+    return figure
+
+
+def colour_of(number: int) -> str:
+    """The colour of a choice by its number, counted from 1."""
+    return colours.CHOICES[(number - 1) % len(colours.CHOICES)]
+
+
+def _mark(ax: Axes, site: Site, places: Sequence[Sequence[Place]]) -> None:
+    """A disc for each place, larger where the numbers of its choices are written in it."""
+    dot = max(math.sqrt(tree_size(ax, site)) * 1.3, 5.0)
+    for mark in choice_marks(places):
+        words = ", ".join(str(number) for number in sorted(mark.numbers)) if mark.labelled else ""
+        size = _DISC + _WIDER * (len(words) - 1) if words else dot
+        ax.plot(
+            *mark.place.xy, marker="o", markersize=size, color=colour_of(mark.numbers[0]), markeredgecolor="white",
+            markeredgewidth=1.0, zorder=12 if words else 10, gid="choice",
+        )  # fmt: skip
+        if words:
+            ax.text(
+                *mark.place.xy, words, ha="center", va="center_baseline", fontsize=8, fontweight="bold", color="white",
+                zorder=13, gid="choice-number",
+            )  # fmt: skip
+
+
+def _write(figure: Figure, question: str, choices: Sequence[str], places: Sequence[Sequence[Place]]) -> None:
+    """The question above the map, the choices below it."""
+    from matplotlib.lines import Line2D
+
+    width = max(30, int(figure.get_size_inches()[0] * _LETTERS_IN))
+    figure.suptitle("\n".join(textwrap.wrap(_plain(question), width)), fontsize=11, color=colours.INK)
+    handles = [
+        Line2D(
+            [], [], marker="o", linestyle="none", markersize=8, color=colour_of(k) if there else "white",
+            markeredgecolor="white", label=textwrap.shorten(f"{k}. {_plain(choice)}", width, placeholder=" …"),
+        )
+        for k, (choice, there) in enumerate(zip(choices, places, strict=True), start=1)
+    ]  # fmt: skip
+    figure.legend(handles=handles, loc="outside lower left", frameon=False, fontsize=9, labelcolor=colours.INK)
+
+
+def _plain(text: str) -> str:
+    """A dollar sign is a dollar sign and not mathematics."""
+    return text.replace("$", r"\$")
