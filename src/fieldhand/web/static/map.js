@@ -87,6 +87,7 @@ export class FieldMap {
     this.clearDrive();
     for (const name of ["paths", "stops", "choices"]) this.layers[name].replaceChildren();
     this.signs = this.signs.filter((s) => s.isConnected);
+    this.info.textContent = "";
   }
 
   clearDrive() {
