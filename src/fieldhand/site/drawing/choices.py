@@ -8,10 +8,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from fieldhand.errors import OutputError
 from fieldhand.site.choices import choice_marks
 from fieldhand.site.drawing import colours
-from fieldhand.site.drawing.ground import draw_site, site_figure, tree_size
+from fieldhand.site.drawing.ground import draw_dots, draw_site, site_figure, tree_size
 from fieldhand.site.model import Place, Site
 
 if TYPE_CHECKING:
@@ -72,19 +74,23 @@ def colour_of(number: int) -> str:
 
 def _mark(ax: Axes, site: Site, places: Sequence[Sequence[Place]]) -> None:
     """A disc for each place, larger where the numbers of its choices are written in it."""
-    dot = max(math.sqrt(tree_size(ax, site)) * 1.3, 5.0)
-    for mark in choice_marks(places):
-        words = ", ".join(str(number) for number in sorted(mark.numbers)) if mark.labelled else ""
-        size = _DISC + _WIDER * (len(words) - 1) if words else dot
+    marks = choice_marks(places)
+    dot = max(math.sqrt(tree_size(ax, site)) * 1.3, 5.0) ** 2
+    for number in dict.fromkeys(mark.numbers[0] for mark in marks):
+        xy = np.array([m.place.xy for m in marks if m.numbers[0] == number])
+        draw_dots(ax, xy, dot, colour_of(number), zorder=10)
+    for mark in marks:
+        if not mark.labelled:
+            continue
+        words = ", ".join(str(number) for number in sorted(mark.numbers))
         ax.plot(
-            *mark.place.xy, marker="o", markersize=size, color=colour_of(mark.numbers[0]), markeredgecolor="white",
-            markeredgewidth=1.0, zorder=12 if words else 10, gid="choice",
+            *mark.place.xy, marker="o", markersize=_DISC + _WIDER * (len(words) - 1), markeredgewidth=1.0,
+            color=colour_of(mark.numbers[0]), markeredgecolor="white", zorder=12, gid="choice",
         )  # fmt: skip
-        if words:
-            ax.text(
-                *mark.place.xy, words, ha="center", va="center_baseline", fontsize=8, fontweight="bold", color="white",
-                zorder=13, gid="choice-number",
-            )  # fmt: skip
+        ax.text(
+            *mark.place.xy, words, ha="center", va="center_baseline", fontsize=8, fontweight="bold", color="white",
+            zorder=13, gid="choice-number",
+        )  # fmt: skip
 
 
 def _write(figure: Figure, question: str, choices: Sequence[str], places: Sequence[Sequence[Place]]) -> None:
