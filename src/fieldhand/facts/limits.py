@@ -75,6 +75,8 @@ def _dropped(said: Stated, plan: Planned, amount: Amount) -> Iterator[Mismatch]:
         return
     before = {t.text for t in said.said[max(0, amount.index - 6) : amount.index]}
     after = {t.text for t in said.said[amount.index : amount.index + 4]}
+    if amount.kind == "length" and said.spaced and plan.trees:
+        return  # the trees that stand so are named
     if amount.kind == "length" or before & _LIMITS:
         if amount.kind == "length" and not (before & _LIMITS or after & {"apart", "intervals", "interval", "spacing"}):
             return

@@ -21,6 +21,8 @@ _UNNAMED = (s.Rows, s.InRow, s.RowOf, s.AlongRow, s.Across, s.EveryNth, s.Succes
 #: Words of a request that says what is to be done when something goes wrong.
 _OF_FAULTS = w.words_in("fail fails failed fault error abort aborted wrong stuck problem battery charge budget low")
 _NUMBER = re.compile("-?[0-9]{1,9}")
+#: A side that is named by the one that was spoken of before.
+_OTHER_PART = re.compile(r"\bother (?:half|side|end|edge|corner|quarter)\b")
 #: Rows that are not called by a number each.
 _SOME_ROWS = re.compile(
     r"\b(?:each|every|all|per|other|last|final|next|odd|even|alternate|middle|cent(?:er|re|ral)|\w+most|by)"
@@ -31,7 +33,7 @@ _SOME_ROWS = re.compile(
 def named_places(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
     """Contradictions in what places are called."""
     yield from _trees(said, plan)
-    yield from _rows(said, plan)
+    yield from _rows(said, plan, site)
     yield from _areas(said, plan)
     yield from _sides(said, plan)
     yield from _attributes(said, plan)
@@ -52,6 +54,8 @@ def _trees(said: Stated, plan: Planned) -> Iterator[Mismatch]:
         if amount.kind != "id" or str(n) in named or n in counted or any(a <= n <= b for a, b in map(sorted, spans)):
             continue
         yield Mismatch(kind="place", message=f"the request names tree {n}, and the plan does not")
+    if said.spaced:
+        return  # which trees stand so far from each other, only the site says
     spoken = said.text.replace(" ", "")
     numbers = {str(n) for n in said.whole_numbers}
     for node, tree in plan.trees:
@@ -67,7 +71,7 @@ def _digits(name: str) -> str:
     return name[len(head) :].lstrip("0")
 
 
-def _rows(said: Stated, plan: Planned) -> Iterator[Mismatch]:
+def _rows(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
     """Each row that is called by a number is in the plan, and no other."""
     rows = [(node, x) for node, x in plan.having(s.Rows) if isinstance(x, s.Rows)]
     if not all(_NUMBER.fullmatch(name) for _, row in rows for name in (row.first, row.last)):
@@ -75,7 +79,7 @@ def _rows(said: Stated, plan: Planned) -> Iterator[Mismatch]:
     for amount in said.amounts:
         if not _is_row(said, amount) or _of_named_tree(said, plan, amount):
             continue
-        if not any(_holds(row, amount) for _, row in rows):
+        if not any(_holds(row, amount) for _, row in rows) and not _has_named_tree(amount, plan, site):
             message = f"the request names row {amount.values[0]:g}, and the plan does not"
             yield Mismatch(kind="place", message=message)
     if said.unknown or _SOME_ROWS.search(said.text):
@@ -101,6 +105,13 @@ def _of_named_tree(said: Stated, plan: Planned, amount: Amount) -> bool:
     return any(
         a.kind == "id" and 0 < amount.index - a.index <= 8 and str(int(a.values[0])) in named for a in said.amounts
     )
+
+
+def _has_named_tree(amount: Amount, plan: Planned, site: Site) -> bool:
+    """Whether a tree that the plan names by its id stands in that row of the site."""
+    planting, wanted = site.planting, int(amount.values[0])
+    stands = {int(planting.row_of[site.by_id[tree].index]) for _, tree in plan.trees if tree in site.by_id}
+    return any(row == wanted - 1 or planting.rows[row].name == str(wanted) for row in stands if row >= 0)
 
 
 def _holds(row: s.Rows, amount: Amount) -> bool:
@@ -141,7 +152,7 @@ def _sides(said: Stated, plan: Planned) -> Iterator[Mismatch]:
     if not any(isinstance(x, _UNNAMED) for _, x in plan.selectors):
         for side in sorted(spoken - held):
             yield Mismatch(kind="side", message=f"the request says '{side}', and no place of the plan is there")
-    if said.unknown or said.words & w.VAGUE_SIDES:
+    if said.unknown or said.words & w.VAGUE_SIDES or _OTHER_PART.search(said.text):
         return
     around = len(plan.sides) == 4 and not said.sides  # each quarter, or the edge all around
     for side, node in plan.sides.items():

@@ -108,6 +108,12 @@ class Stated:
         return "end" if to_end else "start"
 
     @cached_property
+    def spaced(self) -> bool:
+        """Whether places are asked for that are so many metres from each other."""
+        apart = re.search(r"\bapart\b|\b(?:from|between) (?:each|one|them|the next)\b", self.text)
+        return bool(apart) and any(a.kind == "length" for a in self.amounts)
+
+    @cached_property
     def as_many(self) -> bool:
         """Whether as many as possible are asked for."""
         return bool(re.search(r"\bas many (?:[\w%]+ ){0,6}?as (?:possible|(?:you|it|we|the robot) can)\b", self.text))
