@@ -23,6 +23,9 @@ _NEEDS_HEAD = frozenset(
     {"TREE", "CORNER", "EDGE", "HALF", "QUARTER", "SIDE", "FINISH", "PLOT", "MIDDLE", "PLACE", "DIR", "MOST", "ATTRVAL"}
     | {"ROW", "OVER"}
 )
+_NAMED = frozenset({"TREE", "PLACE", "IDS", "CORNER"})
+#: What leaves are called where their colour is said ("with yellow leaves"), not where they are sampled.
+_FOLIAGE = frozenset({"leaf", "leaves", "foliage"})
 #: In a clause that gives a reason, these would be something to do or to decide.
 _MORE_THAN_A_REASON = VERBS | {"NUM", "AMOUNT", "IF", "OTHERWISE", "TREE", "CORNER", "WHETHER", "BUDGET", "FITS"}
 #: A reason with words that are not known is one all the same, but for these.
@@ -179,6 +182,12 @@ def _sentence(terms: list[Term]) -> tuple[Sentence, list[Span]]:
     return Sentence(terms=tuple(terms), then=then), silent
 
 
+def _ranks_go_on(terms: list[Term]) -> bool:
+    """Whether another rank and its tree follow ("... and at the last tree")."""
+    kinds = [t.kind for t in terms if t.kind not in ("AND", "COMMA", "DET", "AT", "OF")]
+    return len(kinds) > 1 and kinds[0] in ("ORD", "LAST") and kinds[1] == "TREE"
+
+
 def _tersely(terms: list[Term]) -> list[Term]:
     """ "Soil moisture, tree 88" and "tree 30 first, nitrate": what, and where, with no verb and no preposition."""
     comma = next((k for k, t in enumerate(terms) if t.kind in ("COMMA", "DASH")), 0)
@@ -213,11 +222,24 @@ def _with_heads(terms: list[Term]) -> list[Term]:
     for index, term in enumerate(terms):
         if term is headed:
             continue
+        ahead_kinds = [*(t.kind for t in terms[index + 1 : index + 3]), "", ""]
+        described = ahead_kinds[0] in ("FARTHEST", "FAR", "NEARBY") and ahead_kinds[1] not in _NAMED
+        if term.kind == "COMMA" and described and index and terms[index - 1].kind in ("TREE", "PLACE"):
+            found.append(replace(term, kind="WHICH"))  # "another tree, as far away as possible"
+            continue
         found.append(term)
         after = terms[index + 1].kind if index + 1 < len(terms) else ""
+        if term.kind == "NOUN" and term.text.lower() in _FOLIAGE and index and terms[index - 1].kind == "ATTRVAL":
+            found[-1] = replace(
+                term, kind="ATTR", value=tuple(name for name, _ in terms[index - 1].value), plural=False
+            )
         listed = after in ("AND", "COMMA") and any(t.kind in ("TREE", "ATTRVAL") for t in terms[index + 1 : index + 4])
         if term.kind == "ATTRVAL" and term.plural and after not in _NEEDS_HEAD | {"ATTR", "ATTRVAL"} and not listed:
             found.append(replace(term, kind="TREE", text="", start=term.end, value=None))  # "6 Carmels"
+        if term.kind in ("ORD", "LAST") and after in ("AND", "COMMA") and _ranks_go_on(terms[index + 1 :]):
+            found.append(
+                replace(term, kind="TREE", text="", start=term.end, value=None)
+            )  # "the first and the last tree"
         one = after == "PLACE" and terms[index + 1].text.lower() == "one"
         if term.kind != "DIR" or (after in _NEEDS_HEAD and not one):
             continue

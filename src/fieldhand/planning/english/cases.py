@@ -230,6 +230,7 @@ class Cases(Hand):
             around = [st for st, _ in d.walk(self.told.root) if isinstance(st, d.Loop) and self._holds(st, choice)]
             self._loop = around[-1] if around else None
         if self._objects != self._objects_at_if:
+            self._objects_of_case = self._objects
             self._objects = ()  # "otherwise take another" may mean what either case takes
         self._scope = choice.otherwise
 

@@ -64,6 +64,7 @@ class Discourse(Elliptic):
         if parts[0].kind not in ("otherwise", "failing", "so"):
             self._scope = self.told.root
         self._sentence_steps = []
+        self._before_case = frozenset()
         self._sentence_acts = False
         if parts[0].kind != "otherwise":
             self._sentence_choices = []
@@ -78,6 +79,7 @@ class Discourse(Elliptic):
                     before = [p for p in parts[:index] if p.kind in COMMANDS and p.kind != "lead"]
                     ahead = next((p.kind for p in following if p.kind not in ("budget", "order")), "")
                     outer, trailing = self._scope, bool(before) and (ahead in ("", "otherwise") or part.bare)
+                    self._before_case = self._known()
                     self._condition(part, trailing=trailing)
                     if trailing and ahead not in ("", "otherwise"):
                         self._scope = outer  # "take a picture if it is low and then return": the return is for all
@@ -168,6 +170,8 @@ class Discourse(Elliptic):
         if self._last_verb in ("go", "visit"):
             self._go(part)
             return
+        if not self._objects and all(t.kind == "NUM" for t in part.terms):
+            self._objects = self._objects_of_case  # "take two pictures, otherwise just one"
         if not self._objects and self._captured_next():
             self._go(replace(part, kind="visit"))  # "Any 6 Kerman trees, a picture of each"
             return
@@ -274,7 +278,7 @@ class Discourse(Elliptic):
 
     def _repeat(self, part: Part) -> None:
         """ "Do the same": what was done at the last place, at the place that this sentence has gone to."""
-        sentence = {id(step) for step in self._sentence_steps}
+        sentence = {id(step) for step in self._sentence_steps if id(step) not in self._before_case}
         old = [st for st in self.told.root.steps if id(st) not in sentence]
         if not old:  # "take a picture at A, then go to B and do the same": B is all that is new
             steps = self.told.root.steps
@@ -289,6 +293,9 @@ class Discourse(Elliptic):
         made = repeating.copied(passage, lambda st: id(st) not in sentence, self._fresh)
         found = None if part.places is None else self._related(part)
         if found is not None and not found.here:
+            if found.region and repeating.in_area(made, found.selector):
+                repeating.append(made, self._scope)
+                return
             found = repeating.as_many_as(old, found)
             repeating.without_place(made, part)
             if found.many:

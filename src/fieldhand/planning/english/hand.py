@@ -57,6 +57,7 @@ class Hand:
         self._commands = 0
         self._objects: tuple[tuple[str, int], ...] = ()  # actions and counts of the last command, for "another"
         self._objects_at_if: tuple[tuple[str, int], ...] = ()
+        self._objects_of_case: tuple[tuple[str, int], ...] = ()  # the same of the case that an "otherwise" ends
         self._last_verb = ""
         self._aside: list[d.Capture] = []  # held by an "if" behind them: a later "if it" does not mean them
         self._choice: d.Choice | None = None
@@ -69,6 +70,7 @@ class Hand:
         self._loop: d.Loop | None = None  # the places that "each of them" and "there" may mean
         self._sentence_steps: list[d.Step] = []
         self._sentence_acts = False
+        self._before_case: frozenset[int] = frozenset()  # the steps before the last "if" of the sentence
         self._last_steps: list[d.Step] = []
         self._allowing: Part | None = None  # "if the battery allows", until all that it is said of has been read
         self._allowed_after: frozenset[int] = frozenset()  # the steps that were there before

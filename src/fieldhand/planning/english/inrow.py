@@ -47,10 +47,14 @@ def named_in_rows(bag: Bag, group: Group, site: Site) -> Found:
         else:
             spans.append((number, number))
     of = group.kept(group.area)
-    parts = tuple(s.InRow(first=first, last=last, of=of) for first, last in spans)
+    counted = bag.take("COUNTEDFROM")
+    if counted is not None and counted.value.far:
+        raise bag.fault("from which side are they counted?", "say 'from the north', for example")
+    side: s.CountedFrom = "usual" if counted is None else counted.value.side
+    parts = tuple(s.InRow(first=first, last=last, counted_from=side, of=of) for first, last in spans)
     selector: s.Selector = parts[0] if len(parts) == 1 else s.Union(parts=parts)
     several = several_rows(of, group, site)
-    if not several and _by_id(bag, of, selector, site):
+    if not several and counted is None and _by_id(bag, of, selector, site):
         trees = tuple(s.TreeIs(tree=name) for name in bag.ids)
         selector = trees[0] if len(trees) == 1 else s.Union(parts=trees)
     bag.finish()

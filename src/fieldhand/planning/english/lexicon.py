@@ -218,7 +218,7 @@ def lexicon_for(robot: RobotProfile, site: Site) -> Lexicon:
             own.setdefault(phrase, entry)
     for phrase, entry in robot_entries(robot):
         shared = shared_vocabulary().get(phrase)
-        if shared is None or shared.kind in _REPLACEABLE:
+        if shared is None or shared.kind in _REPLACEABLE or (shared.kind == "TAKE" and entry.kind == "ACTV"):
             own[phrase] = entry
     odd = {"".join(split(tree)): tree for tree in site.by_id if not tree.isdigit()}
     return Lexicon(own=own, trees=odd, site=site)

@@ -63,7 +63,7 @@ def distributed(found: Found, group: Group, bag: Bag) -> Found:
         return found
     if len(group.one_by_one) > MOST_ONE_BY_ONE:
         raise bag.fault(f"there are {len(group.one_by_one)} of them, too many to be told one by one", "name some rows")
-    parts = tuple(_swapped(found.selector, group.rows, one) for one in group.one_by_one)
+    parts = tuple(swapped(found.selector, group.rows, one) for one in group.one_by_one)
     return Found(selector=s.Union(parts=parts), many=True, each=True, assumed=found.assumed)
 
 
@@ -74,7 +74,7 @@ def _are_several(rows: s.Selector) -> bool:
 
 def spread_over(selector: s.Selector, area: s.Selector, ones: Iterable[s.Selector]) -> s.Selector:
     """A selection of an area, made of each of its parts."""
-    parts = tuple(_swapped(selector, area, one) for one in ones)
+    parts = tuple(swapped(selector, area, one) for one in ones)
     return parts[0] if len(parts) == 1 else s.Union(parts=parts)
 
 
@@ -85,7 +85,7 @@ def _picks_from(selector: s.Selector, area: s.Selector) -> bool:
     return bool(inner) and (isinstance(selector, _PICKS) or any(_picks_from(part, area) for part in inner))
 
 
-def _swapped(selector: s.Selector, old: s.Selector, new: s.Selector) -> s.Selector:
+def swapped(selector: s.Selector, old: s.Selector, new: s.Selector) -> s.Selector:
     """The selector with one part in the place of another."""
     if selector == old:
         return new
@@ -93,9 +93,9 @@ def _swapped(selector: s.Selector, old: s.Selector, new: s.Selector) -> s.Select
     for name in selector.__dataclass_fields__:
         value = getattr(selector, name)
         if isinstance(value, s.Selector):
-            changed[name] = _swapped(value, old, new)
+            changed[name] = swapped(value, old, new)
         elif isinstance(value, tuple) and any(isinstance(item, s.Selector) for item in value):
-            changed[name] = tuple(_swapped(item, old, new) for item in value)
+            changed[name] = tuple(swapped(item, old, new) for item in value)
     outer: Any = selector
     made: s.Selector = replace(outer, **changed)
     return made

@@ -166,6 +166,10 @@ def _by_nearness(bag: Bag, of: s.Selector, group: Group, plural: bool) -> Found 
         return _ranked(bag, of, plural, lambda n, base: s.Nearest(to=near, count=n, adjacent=beside, of=base))
     if bag.take("NEAREST") is not None:
         return _ranked(bag, of, plural, lambda n, base: s.Nearest(to=near, count=n, of=base))
+    if bag.has("NEARBY") and bag.words("NEARBY")[0].text.lower().startswith("neighb") and (bag.count or 0) > 1:
+        bag.take("NEARBY")  # "two neighbouring trees" are neighbours of each other
+        size = bag.count or 2
+        return Found(selector=s.Adjacent(near=near, count=size, of=of), many=True, counted=size)
     if bag.take("NEARBY") is not None:
         one = bag.count or 1
         near_here = s.Nearest(to=s.Here(), count=one, fresh=True, of=of)

@@ -149,6 +149,8 @@ def _chain(chain: Chain, excepted: tuple[Chain, ...], site: Site) -> Found:
             if relation.kind in ("NEAR", "NEXTTO") and line[-1].bag.only("ROW") and not line[-1].bag.pointing:
                 raise unclear(chain.terms, "what is near, the tree or the row?", "name the row, or leave it out")
             line = line[:1]  # "the tree in row 3 nearest to the charger"
+        if len(line) > 1 and line[-1].bag.describes(*_DESCRIBING):
+            line.pop()  # "trees | with yellow leaves | in the southern half"
         while len(line) > 1 and (line[-1].closed and not (plot and line[-1].is_marker)):
             line.pop()
         if relation.kind == "EXCEPT" and line[0].bag.has("TREE", "CORNER", "PLACE"):

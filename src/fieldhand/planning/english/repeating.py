@@ -8,6 +8,7 @@ from dataclasses import replace
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import unclear
 from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.english.syntax import Part
 from fieldhand.task import selectors as s
 
@@ -43,6 +44,36 @@ def _selects(step: d.Step) -> s.Selector | None:
             return at
         case _:
             return None
+
+
+#: Selectors that say where trees are: rows, and areas of the ground.
+_OF_ROWS = (s.Rows, s.RowOf, s.InBlock)
+_OF_GROUND = (s.Half, s.Quarter, s.Edge, s.InZone)
+
+
+def in_area(passage: d.Block, area: s.Selector) -> bool:
+    """Say a passage of another area ("at the first and the last tree of row 6 ... the same in row 8"). Whether it was.
+
+    The one area of the kind that its places are in gives way to the new one; ``passage`` is changed.
+    """
+    kind = next((kinds for kinds in (_OF_ROWS, _OF_GROUND) if isinstance(area, kinds)), None)
+    if kind is None or getattr(area, "of", None) != s.Trees():
+        return False
+    held = [step for step, _ in d.walk(passage) if isinstance(step, d.Go | d.Capture | d.Loop)]
+    inside = {
+        part for step in held if (at := _selects(step)) is not None for part in s.walk(at) if isinstance(part, kind)
+    }
+    if len(inside) != 1 or getattr(old := next(iter(inside)), "of", None) != s.Trees():
+        return False
+    for step in held:
+        match step:
+            case d.Go(place=place):
+                step.place = swapped(place, old, area)
+            case d.Loop(select=select):
+                step.select = swapped(select, old, area)
+            case d.Capture(at=at) if at is not None:
+                step.at = swapped(at, old, area)
+    return True
 
 
 def without_place(passage: d.Block, part: Part) -> None:

@@ -26,6 +26,7 @@ _DOWN = (
     r"(?:<MORE>|<WAY>)?<ALONG>(?:(?:<DET>|<SAME>)+<ROW>(?!<OF>)|(?!<DET>|<ROW|<SAME>|<EACH|<ANY>|<NUM|<OVER>|<IDS>))"
 )
 _FURTHER = r"(?:<WAY>(?:(?:<ALONG>)?(?:<DET>|<SAME>)+<ROW>)?|<MORE>)(?!<TREE>|<ROW)"
+_IN_ROW = r"(?:<ALONG>(?:<DET>|<SAME>)*<ROW>(?!<OF>))?"
 _HEAD = r"(?:<TREE>|<ROW>)"
 
 
@@ -167,7 +168,7 @@ def _over(group: list[Term], _before: Term | None) -> list[Term]:
 
 
 def _counted_from(group: list[Term], _before: Term | None) -> list[Term]:
-    head = next(k for k, t in enumerate(group) if t.kind in ("TREE", "ROW"))
+    head = next(k for k, t in enumerate(group) if t.kind in ("TREE", "ROW", "IDS"))
     behind = next(k for k, t in enumerate(group) if t.kind == "FROM")
     row = [t for t in group[head + 1 : behind] if t.kind != "COMMA"]
     rest = group[behind:]
@@ -223,14 +224,14 @@ _RULES: tuple[Rule, ...] = (
     (re.compile(r"(?:<EACH\.(?:every|each)>)?<ALTERNATE>|<EACH\.(?:every|each)><NUM\.\w+>(?=<TREE>|<ROW>)"), _every),
     (re.compile(r"<ORD\.\d+>(?:<AT\.to>)?<LAST>|<NEXTTO><LAST>|<LAST><AND\.but><NUM\.one>|<PENULT>"), _from_behind),
     (re.compile(r"<ROW><AS>"), _same_as),
-    (re.compile(rf"(?:<NUM\.\w+>|<ORD\.\d+>)<TREE>(?:{_DOWN}|{_WAY}|{_FURTHER})"), _step),
+    (re.compile(rf"(?:<NUM\.\w+>|<ORD\.\d+>)<TREE>(?:{_DOWN}|{_WAY}{_IN_ROW}|{_FURTHER})"), _step),
     (re.compile(rf"<NUM\.\w+><ROWSOVER>(?:(?:<AT\.to><DET>)?{_SIDE}(?:<SIDE>)?)?"), _over),
     (re.compile(rf"<NUM\.\w+><ROW>(?:{_WAY}|<MORE>|<WAY>)"), _over),
     (re.compile(rf"(?:<THEN\.next><ROW>|<PREVIOUS>)(?:(?:<AT\.to>|<AT\.on>)<DET>{_SIDE}(?:<SIDE>)?)?"), _over),
     (re.compile(rf"<ROW>(?:<AT\.to>|<AT\.on>)<DET>{_SIDE}(?:<SIDE>)?(?!<OF>|<TREE>|<CORNER>)"), _over),
     (
         re.compile(
-            rf"(?:<ORD\.\d+>|<LAST>|<EVERYNTH>|<BACKORD>)(?:<NUM\.\w+>|<ATTRVAL>)*{_HEAD}(?:(?:<OF>|<AT\.in>|<ALONG>)<ROWIDS>)?(?:<COMMA>)?<FROM>(?:<DET>)?"
+            rf"(?:(?:<ORD\.\d+>|<LAST>|<EVERYNTH>|<BACKORD>)(?:<NUM\.\w+>|<ATTRVAL>)*{_HEAD}|<IDS>)(?:(?:<OF>|<AT\.in>|<ALONG>)<ROWIDS>)?(?:<COMMA>)?<FROM>(?:<DET>)?"
             rf"(?:{_SIDE}(?:<SIDE>|<EDGE>|<FINISH\.\w+>)?{_NO_HEAD}|<FINISH\.end>|<START>)"
         ),
         _counted_from,

@@ -9,7 +9,7 @@ from fieldhand.planning.english.lexicon import Lexicon
 from fieldhand.planning.english.tokens import Word
 
 #: Words shorter than this are too like each other; a longer one may have one edit, from ``_LONG`` letters on two.
-_SHORT, _LONG = 6, 9
+_SHORT, _LONG = 5, 9
 
 
 def respelt(words: Sequence[Word], lexicon: Lexicon) -> tuple[list[Word], list[str]]:
@@ -25,7 +25,7 @@ def respelt(words: Sequence[Word], lexicon: Lexicon) -> tuple[list[Word], list[s
         if meant is None:
             made.append(word)
             continue
-        made.append(replace(word, norm=meant))
+        made.append(replace(word, norm=meant, text=meant))
         notes.append(f"'{word.text}' is read as '{meant}'.")
     return made, notes
 
@@ -40,6 +40,8 @@ def _meant(word: Word, lexicon: Lexicon) -> str | None:
     edits = 1 if len(word.norm) < _LONG else 2
     found = process.extract(word.norm, lexicon.spellings, scorer=OSA.distance, score_cutoff=edits, limit=4)
     near = [(int(away), str(spelt)) for spelt, away, _ in found if spelt[0] == word.norm[0]]
+    if len(word.norm) == _SHORT:  # so short a word lacks a letter inside, or is not a misspelling
+        near = [(away, spelt) for away, spelt in near if len(spelt) > _SHORT and spelt[-1] == word.norm[-1]]
     closest = sorted({spelt for away, spelt in near if away == min(near)[0]}, key=len)
     # "Pictrue" may be "picture" or, as far as letters go, "pictures".
     sure = len(closest) == 1 or (len(closest) == 2 and closest[0] + "s" == closest[1])

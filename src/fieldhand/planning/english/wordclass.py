@@ -140,6 +140,31 @@ def _first(term: Term, before: str, after: str) -> Term | None:
     return None
 
 
+def _first_of_several(term: Term, before: str, after: str) -> Term | None:
+    """ "The south-east corner first, then ...": it says when, not which."""
+    ends = after in ("COMMA", "THEN", "AND", "STOPMARK", "")
+    if (
+        term.kind == "ORD"
+        and term.value == 1
+        and ends
+        and before in ("CORNER", "TREE", "IDS", "EDGE", "MIDDLE", "PLACE")
+    ):
+        return replace(term, kind="THEN")
+    return None
+
+
+def _reading(term: Term, before: str, after: str) -> Term | None:
+    """ "..., reading the CO2 at each tree": the verb."""
+    if (
+        term.kind == "READING"
+        and term.text.lower() == "reading"
+        and before in _CLAUSE_STARTS
+        and after in ("DET", "NOUN")
+    ):
+        return replace(term, kind="MEASURE", plural=False)
+    return None
+
+
 def _but(term: Term, before: str, after: str) -> Term | None:
     """ "Any tree but tree 4"."""
     trees = before in ("TREE", "PLACE", "CORNER", "EACH") and after in QUANTITY | {
@@ -178,6 +203,8 @@ _RULES: tuple[Callable[[Term, str, str], Term | None], ...] = (
     _by,
     _noun_as_verb,
     _first,
+    _first_of_several,
+    _reading,
     _but,
     _number,
     _whether,

@@ -133,7 +133,7 @@ class Resolution:
                     raise too_few(self.site, selector.of, abs(number), len(of))
                 return found
             case s.Apart():
-                return apart(of, selector, tell)
+                return apart(of.once(selector.count), selector, tell)
             case s.Spaced(near=near):
                 return points.spaced(of, self.spots(near), selector, tell)
 
@@ -254,6 +254,7 @@ class Resolution:
             case s.Nearest(to=origin) | s.Farthest(origin=origin):
                 to = self.spots(origin)
                 left = neighbours.apart_from(of, to)
+                left = left.once(selector.count) if selector.count > 1 else left
                 fresh = isinstance(selector, s.Nearest) and selector.fresh
                 return (left.without(self._visited()) if fresh else left), to
             case s.EdgeMiddle(side=side):
@@ -268,7 +269,7 @@ class Resolution:
         near = of if isinstance(selector, s.Take) else self.spots(selector.near)
         count = selector.count
         if isinstance(selector, s.Take):
-            of = self._outside_keep_outs(of, tell)
+            of = self._outside_keep_outs(of, tell).once(count)
         if count < 1 or len(of) < count:
             raise too_few(self.site, selector, count, len(of))
         match selector:

@@ -96,6 +96,19 @@ class Spots:
             mask &= [k >= 0 or self.others[-1 - k] not in others for k in self.index.tolist()]
         return self.keep(mask)
 
+    def once(self, count: int) -> Spots:
+        """Those without trees that the file holds twice; all of them where fewer than ``count`` are left then."""
+        from fieldhand.site.rows import first_entries
+
+        if len(self) <= count or not self.is_tree.any():
+            return self
+        first = self.site.memory.setdefault("first_entries", None)
+        if first is None:
+            first = self.site.memory["first_entries"] = first_entries(self.site.xy)
+        entries = np.where(self.is_tree, np.asarray(first)[self.index * self.is_tree], self.index)
+        _, where = np.unique(entries, return_index=True)
+        return self if len(where) in (len(self), *range(count)) else self.keep(np.sort(where))
+
     def ranked(self, key: NDArray[np.float64], count: int) -> Spots:
         """The ``count`` with the smallest key, smallest first; equal to a tenth of a millimetre is a tie, and ties go
         by file order."""

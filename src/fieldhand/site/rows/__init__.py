@@ -43,7 +43,7 @@ def _seen(xy: NDArray[np.float64]) -> list[SeenBlock]:
     """Rows from the points; trees entered twice are seen once, and stand where the other does."""
     from fieldhand.site.rows.infer import seen_blocks
 
-    first = _first_entry(xy)
+    first = first_entries(xy)
     kept = np.unique(first)
     copies = np.flatnonzero(first != np.arange(len(xy)))
     blocks = seen_blocks(xy[kept])
@@ -56,7 +56,7 @@ def _seen(xy: NDArray[np.float64]) -> list[SeenBlock]:
     return found
 
 
-def _first_entry(xy: NDArray[np.float64]) -> NDArray[np.intp]:
+def first_entries(xy: NDArray[np.float64]) -> NDArray[np.intp]:
     """Of each tree the first of the file that stands in the same place."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
