@@ -48,8 +48,8 @@ class Review:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What has to be confirmed, each in the words in which :func:`authorize` takes it."""
-        return tuple(str(p) for p in self.problems if p.severity == "warning")
+        """What has to be confirmed, each as a message: :func:`authorize` takes it in the language that was read."""
+        return tuple(p.line() for p in self.problems if p.severity == "warning")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -168,7 +168,14 @@ def review(task: Task, site: Site, robot: RobotProfile, *, seed: int = 0, docume
 
 
 def authorize(
-    task: Task, site: Site, robot: RobotProfile, *, by: str, at: datetime, confirmed: Container[str] = ()
+    task: Task,
+    site: Site,
+    robot: RobotProfile,
+    *,
+    by: str,
+    at: datetime,
+    confirmed: Container[str] = (),
+    language: str = "en",
 ) -> AuthorizedTask:
     """Approve a Task for this site and this robot, with the warnings that were shown and accepted.
 
@@ -178,7 +185,9 @@ def authorize(
     """
     from fieldhand.approval.authorize import approve
 
-    return approve(task, site, robot, by=by, at=at.isoformat(timespec="seconds"), confirmed=confirmed)
+    return approve(
+        task, site, robot, by=by, at=at.isoformat(timespec="seconds"), confirmed=confirmed, language=language
+    )
 
 
 def check_world(world: World, site: Site, robot: RobotProfile) -> None:

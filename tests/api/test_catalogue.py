@@ -45,6 +45,7 @@ def test_the_schema_of_the_api_names_every_address() -> None:
         "/api/sites",
         "/api/robots",
         "/api/robots/{name}",
+        "/api/languages",
         "/api/site",
         "/api/plan",
         "/api/check",

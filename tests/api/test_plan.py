@@ -181,3 +181,23 @@ def test_a_document_that_is_no_task_of_this_robot_is_a_problem(xml: str) -> None
     answer = browser().post("/api/check", {"xml": xml})
     assert answer.status_code == 400
     assert answer.json()["where"].startswith("xml")
+
+
+def test_a_plan_is_read_back_in_the_language_that_was_asked_for() -> None:
+    web = browser(EnglishPlanner())
+    body = {"request": "Take a picture of tree 4.", "lang": "es"}
+    planned = web.post("/api/plan", body).json()
+    assert planned["language"] == "es"
+    assert planned["read_back"]["lines"][0]["text"] == "En el árbol 4: tomar una fotografía térmica."
+    assert planned["headings"]["assumptions"] == "Se supone"
+    assert [piece["name"] for piece in planned["words"] if piece["name"]] == ["acción", "lugar"]
+    checked = web.post("/api/check", {"xml": planned["xml"], "lang": "es"}).json()
+    assert checked["read_back"] == planned["read_back"]
+    english = web.post("/api/check", {"xml": planned["xml"]}).json()
+    assert english["read_back"]["lines"][0]["text"] == "At tree 4: take a thermal picture."
+    assert web.post("/api/plan", {**body, "lang": "xx"}).status_code == 422
+
+
+def test_the_approval_says_in_which_language_it_was_read() -> None:
+    body = {"request": "Take a picture of tree 4.", "lang": "es", "approved_by": "Ana", "planner": "english"}
+    assert browser(EnglishPlanner()).post("/api/run", body).json()["authorization"]["language"] == "es"

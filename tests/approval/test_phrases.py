@@ -47,6 +47,12 @@ SAID = [
     (s.Farthest(origin=HERE), None, "the tree farthest from there"),
     (s.Adjacent(near=TREE), None, "2 trees next to each other, beginning with the one nearest to tree 81"),
     (s.Other(), None, "the trees not visited yet"),
+    (s.Apart(count=3, apart_m=15.0), None, "3 trees, about 15 m from each other"),
+    (
+        s.Apart(count=2, apart_m=4.5, least=True, of=YELLOW),
+        None,
+        "2 of the yellow trees, at least 4.5 m from each other",
+    ),
     (s.Excluding(places=TREE, of=YELLOW), None, "the yellow trees other than tree 81"),
     (s.Where(attribute="age_years", test="ge", value=10.0), None, "the trees whose age is at least 10 years"),
     (s.Top(attribute="reward", count=10), None, "the 10 trees with the highest reward"),

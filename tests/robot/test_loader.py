@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import hashlib
 import re
+from importlib import resources
 from pathlib import Path
 
 import pytest
@@ -229,3 +230,12 @@ def test_a_folder_and_a_large_file_are_refused(tmp_path):
 
 def test_the_builtin_robots_are_those_of_the_design():
     assert builtin_names() == ("amiga", "husky")
+
+
+def test_labels_are_read_by_language() -> None:
+    text = (resources.files("fieldhand.robot") / "profiles" / "husky.yaml").read_text()
+    changed = text.replace("  read_co2:\n", "  read_co2:\n    labels: {es: medir el CO2}\n")
+    assert parse_profile(changed.encode()).action["read_co2"].labels == {"es": "medir el CO2"}
+    for bad in ("{Spanish: x}", '{es: ""}', '{es: "a\\nb"}'):
+        with pytest.raises(ProfileError, match="labels"):
+            parse_profile(text.replace("  read_co2:\n", f"  read_co2:\n    labels: {bad}\n").encode())

@@ -7,6 +7,7 @@ from typing import Any
 
 from fieldhand.api.inputs import Ground
 from fieldhand.api.maps import choices_map, plan_map, site_map
+from fieldhand.language import ENGLISH, Language, message
 from fieldhand.mission import Review
 from fieldhand.planning.planner import Clarify, Refused
 from fieldhand.task.account import NAMES, account, has_ranges
@@ -31,26 +32,56 @@ def unplanned_answer(outcome: Clarify | Refused, ground: Ground) -> dict[str, An
             return {"outcome": "refused", "planner": outcome.planner, "reasons": reasons}
 
 
-def words_answer(task: Task) -> list[dict[str, str]]:
+def words_answer(task: Task, language: Language = ENGLISH) -> list[dict[str, str]]:
     """The request in pieces, each with what became of it; empty where the Task does not say it."""
     if not has_ranges(task):
         return []
-    return [{"text": p.text, "role": p.role, "name": NAMES.get(p.role, "")} for p in account(task)]
+    return [{"text": p.text, "role": p.role, "name": language.say(NAMES.get(p.role, ""))} for p in account(task)]
 
 
-def review_answer(review: Review, ground: Ground) -> dict[str, Any]:
+def review_answer(review: Review, ground: Ground, language: Language = ENGLISH) -> dict[str, Any]:
     """A review: may it be approved, what has to be confirmed, what is wrong, what will be done and takes, and where."""
     estimate = review.estimate
     return {
         "task": review.task.id,
-        "words": words_answer(review.task),
+        "words": words_answer(review.task, language),
         "approvable": not review.errors,
-        "warnings": list(review.warnings),
+        "warnings": list(language.read(review.warnings)),
         "problems": [
-            {"severity": p.severity, "node": p.node, "where": p.where, "what": p.what, "advice": p.advice}
+            {
+                "severity": p.severity,
+                "node": p.node,
+                "where": language.say(p.where),
+                "what": language.say(p.what),
+                "advice": language.say(p.advice),
+            }
             for p in review.problems
         ],
-        "read_back": None if review.read_back is None else asdict(review.read_back),
+        "read_back": None if review.read_back is None else asdict(language.read(review.read_back)),
+        "language": language.code,
+        "headings": language.read(_headings(review)),
         "estimate": None if estimate is None else estimate.as_record(),
         "map": site_map(ground.site) if estimate is None else plan_map(ground.site, estimate),
+    }
+
+
+def _headings(review: Review) -> dict[str, str]:
+    """What a page writes over the parts of the read-back."""
+    totals = message("What it takes")
+    if review.read_back is not None and review.read_back.totals.branches > 1:
+        totals = message(
+            "What it takes on the most demanding of {count} branches", count=review.read_back.totals.branches
+        )
+    return {
+        "assumptions": message("Assumed"),
+        "notes": message("To note"),
+        "limits": message("Limits"),
+        "faults": message("When something goes wrong"),
+        "totals": totals,
+        "mean": message("on average"),
+        "p90": message("9 times in 10 below"),
+        "driving": message("Driving"),
+        "time": message("Time"),
+        "battery": message("Battery"),
+        "captures": message("Captures"),
     }

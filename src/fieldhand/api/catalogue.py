@@ -9,10 +9,11 @@ from fastapi import APIRouter
 
 from fieldhand.api.inputs import open_choice, open_robot
 from fieldhand.api.work import Workers
+from fieldhand.language import languages
 
 
 def router(workers: Workers) -> APIRouter:
-    """``GET /sites``, ``GET /robots``, ``GET /robots/{name}``."""
+    """``GET /sites``, ``GET /robots``, ``GET /robots/{name}``, ``GET /languages``."""
     routes = APIRouter(tags=["catalogue"])
 
     @routes.get("/sites")
@@ -29,6 +30,11 @@ def router(workers: Workers) -> APIRouter:
     async def robot(name: str) -> dict[str, Any]:
         """What a robot can do, measure and hold."""
         return await workers.do(lambda: _robot(name))
+
+    @routes.get("/languages")
+    async def spoken() -> list[dict[str, str]]:
+        """The languages in which a plan can be read back."""
+        return [{"code": code, "name": name} for code, name in languages().items()]
 
     return routes
 

@@ -10,6 +10,7 @@ from fieldhand import mission
 from fieldhand.api.answers import review_answer
 from fieldhand.api.inputs import CheckBody, open_ground, open_task
 from fieldhand.api.work import Workers
+from fieldhand.language import open_language
 
 
 def router(workers: Workers) -> APIRouter:
@@ -28,4 +29,8 @@ def _check(body: CheckBody) -> dict[str, Any]:
     ground = open_ground(body)
     task, document = open_task(body.xml, ground.robot)
     review = mission.review(task, ground.site, ground.robot, document=document)
-    return {"outcome": "checked", "request": task.command.request, **review_answer(review, ground)}
+    return {
+        "outcome": "checked",
+        "request": task.command.request,
+        **review_answer(review, ground, open_language(body.lang)),
+    }

@@ -14,6 +14,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints, model_validator
 
 from fieldhand.errors import ProfileError, SiteError
+from fieldhand.language import languages
 from fieldhand.planning.planner import Answer
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -60,11 +61,22 @@ def _not_a_path(value: object) -> object:
 SiteChoice = Annotated[Literal["demo"] | SiteText | dict[str, Any], BeforeValidator(_not_a_path)]
 
 
+def _known_language(code: str) -> str:
+    there = languages()
+    if code not in there:
+        raise ValueError(f"there is no language '{code}', choose one of {', '.join(there)}")
+    return code
+
+
+Lang = Annotated[Name, AfterValidator(_known_language)]
+
+
 class OnGround(Body):
-    """A site, and a robot by its built-in name."""
+    """A site, a robot by its built-in name, and the language of what is read back."""
 
     site: SiteChoice = "demo"
     robot: Name = "husky"
+    lang: Lang = "en"
 
 
 class SiteBody(Body):

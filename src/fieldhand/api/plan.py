@@ -11,6 +11,7 @@ from fieldhand import mission
 from fieldhand.api.answers import review_answer, unplanned_answer
 from fieldhand.api.inputs import PlanBody, answers_of, open_ground
 from fieldhand.api.work import Workers
+from fieldhand.language import open_language
 from fieldhand.planning.planner import Planned, Planner
 
 #: Gives the planner of a name: auto, english or llm.
@@ -42,5 +43,5 @@ def _plan(body: PlanBody, planners: Planners) -> dict[str, Any]:
         "outcome": "planned",
         "planner": outcome.planner,
         "xml": document.decode(),
-        **review_answer(review, ground),
+        **review_answer(review, ground, open_language(body.lang)),
     }

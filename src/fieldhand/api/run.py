@@ -49,7 +49,13 @@ def _run(body: RunBody, planners: Planners, limits: Limits) -> dict[str, Any]:
     else:
         task, _ = open_task(body.xml or "", ground.robot)
     authorized = mission.authorize(
-        task, ground.site, ground.robot, by=body.approved_by, at=datetime.now(UTC), confirmed=body.confirmed
+        task,
+        ground.site,
+        ground.robot,
+        by=body.approved_by,
+        at=datetime.now(UTC),
+        confirmed=body.confirmed,
+        language=body.lang,
     )
     events: list[Event] = []
     mission.carry_out(

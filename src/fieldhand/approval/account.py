@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fieldhand.approval.problem import Problem
+from fieldhand.language import joined, message
 from fieldhand.task.account import account, has_ranges
 from fieldhand.task.frames import Task
 
@@ -18,19 +19,20 @@ def unaccounted(task: Task) -> tuple[Problem, ...]:
     if not has_ranges(task):
         return (
             Problem(
-                where="request",
-                what="the Task does not say which of its words became what",
-                advice="compare the plan with every word of the request",
+                where=message("request"),
+                what=message("the Task does not say which of its words became what"),
+                advice=message("compare the plan with every word of the request"),
                 severity="warning",
             ),
         )
-    shown = ", ".join(f"'{text}'" for text in lost[:_MOST_QUOTED])
-    more = f" and {len(lost) - _MOST_QUOTED} more" if len(lost) > _MOST_QUOTED else ""
+    shown = joined(", ", (message("'{words}'", words=text) for text in lost[:_MOST_QUOTED]))
+    if len(lost) > _MOST_QUOTED:
+        shown = message("{places} and {count} more", places=shown, count=len(lost) - _MOST_QUOTED)
     return (
         Problem(
-            where="request",
-            what=f"nothing in the plan comes from {shown}{more}",
-            advice="say it in other words, or approve only if the plan is right without it",
+            where=message("request"),
+            what=message("nothing in the plan comes from {words}", words=shown),
+            advice=message("say it in other words, or approve only if the plan is right without it"),
             severity="warning",
         ),
     )

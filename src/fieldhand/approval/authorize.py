@@ -8,6 +8,7 @@ from datetime import datetime
 
 from fieldhand.approval.checks import check
 from fieldhand.errors import NotApprovedError, NotConfirmedError
+from fieldhand.language import open_language
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.authorization import Authorization, AuthorizedTask
@@ -23,7 +24,14 @@ class EveryWarning(Container[str]):
 
 
 def approve(
-    task: Task, site: Site, robot: RobotProfile, *, by: str, at: str, confirmed: Container[str] = ()
+    task: Task,
+    site: Site,
+    robot: RobotProfile,
+    *,
+    by: str,
+    at: str,
+    confirmed: Container[str] = (),
+    language: str = "en",
 ) -> AuthorizedTask:
     """Approve a Task for this site and this robot, in the name of a person.
 
@@ -32,7 +40,9 @@ def approve(
         site, robot: For which it is approved, byte by byte.
         by: Who approves.
         at: When, ISO 8601 with time zone.
-        confirmed: The warnings that were shown and accepted, each in its own words (``str`` of the problem).
+        confirmed: The warnings that were shown and accepted, each in its own words (``line`` of the problem) in the
+            language in which it was shown.
+        language: In which the plan and its warnings were read, by its code.
 
     Raises:
         NotConfirmedError: There is a warning that is not among the confirmed ones.
@@ -45,7 +55,7 @@ def approve(
     errors = [str(p) for p in problems if p.severity == "error"]
     if errors:
         raise NotApprovedError("; ".join(errors), advice="mend this and approve again")
-    warnings = tuple(str(p) for p in problems if p.severity == "warning")
+    warnings = open_language(language).read(tuple(p.line() for p in problems if p.severity == "warning"))
     _require_confirmed(warnings, confirmed)
     authorization = Authorization(
         by=by,
@@ -54,6 +64,7 @@ def approve(
         site_sha256=site.sha256,
         robot_sha256=robot.sha256,
         confirmed=warnings,
+        language=language,
     )
     return AuthorizedTask(task=task, authorization=authorization)
 

@@ -12,12 +12,13 @@ from fieldhand.forecast.limits import Resource, resources_of
 from fieldhand.forecast.routes import drives_for, first_places
 from fieldhand.forecast.service import service_of
 from fieldhand.forecast.state import Work
+from fieldhand.language import message
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Act, ForEach, Optional, is_optional, walk
-from fieldhand.task.words import say_duration, say_number
+from fieldhand.task.words import say_duration, say_number, say_rounded
 
 #: A mission that is more likely than not to run short is not approved; one that may is, with a warning.
 _HOPELESS = 0.5
@@ -33,9 +34,9 @@ def budget_problems(task: Task, site: Site, robot: RobotProfile, forecast: Estim
     hopeless = any(c.exceeded and c.chance > _HOPELESS for c in worst.chances)
     for sentence in forecast.problems:
         yield Problem(
-            where="budget",
+            where=message("budget"),
             what=sentence,
-            advice="allow more, or ask for less",
+            advice=message("allow more, or ask for less"),
             severity="error" if hopeless else "warning",
         )
 
@@ -64,26 +65,34 @@ def _nothing_fits(task: Task, site: Site, robot: RobotProfile) -> Iterator[Probl
             amount, limit = _amount(resource, need), _amount(resource, resource.limit)
             sentence = Problem(
                 node=node.id,
-                where="budget",
-                what=f"{limit} is too small for a single visit: the nearest takes about {amount} with the way home",
-                advice="allow more",
+                where=message("budget"),
+                what=message(
+                    "{limit} is too small for a single visit: the nearest takes about {amount} with the way home",
+                    limit=limit,
+                    amount=amount,
+                ),
+                advice=message("allow more"),
             )
             if need > resource.limit:
                 yield sentence
             elif resource.kind != "reserve":
                 safe = say_number(100 * (1 - resource.failure_probability))
-                yield replace(
-                    sentence, what=f"{limit} does not last for a single visit with {safe} % certainty: {amount}"
+                what = message(
+                    "{limit} does not last for a single visit with {chance} % certainty: {amount}",
+                    limit=limit,
+                    chance=safe,
+                    amount=amount,
                 )
+                yield replace(sentence, what=what)
 
 
 def _amount(resource: Resource, value: float) -> str:
     match resource.kind:
         case "distance_m":
-            return f"{value:.0f} m"
+            return message("{number} m", number=say_rounded(value))
         case "duration_s":
             return say_duration(max(0.0, value))
         case "energy_percent":
-            return f"{value:.1f} % of the battery"
+            return message("{number} % of the battery", number=say_rounded(value, 1))
         case "reserve":
-            return f"{value:.1f} % of the battery above the reserve"
+            return message("{number} % of the battery above the reserve", number=say_rounded(value, 1))

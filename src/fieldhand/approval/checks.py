@@ -16,9 +16,11 @@ from fieldhand.approval.budget import budget_problems
 from fieldhand.approval.doubts import doubts
 from fieldhand.approval.legs import driven_through
 from fieldhand.approval.problem import Problem
+from fieldhand.approval.sentences import say_place
 from fieldhand.errors import DriveFault, FieldhandError, PlaceError, TaskError
 from fieldhand.forecast.estimate import Estimate, estimate
 from fieldhand.forecast.routes import beginning, drives_for
+from fieldhand.language import message, named
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context
@@ -94,7 +96,9 @@ def _document(task: Task, robot: RobotProfile, document: bytes | None) -> Iterat
         yield _of_error(error)
         return
     for found in validate(data, capabilities_of(robot)):
-        where = f"line {found.line}" + (f", <{found.element}>" if found.element else "")
+        where = message("line {number}", number=found.line)
+        if found.element:
+            where = message("line {number}, {element}", number=found.line, element=f"<{found.element}>")
         yield Problem(where=where, what=found.message)
 
 
@@ -102,7 +106,7 @@ def _references(task: Task, robot: RobotProfile) -> Iterator[Problem]:
     nodes = [node.id for node in walk(task.composition.plan)]
     for sentence in references(task, capabilities_of(robot)):
         node = next((n for n in nodes if n and f"'{n}'" in sentence), "")
-        yield Problem(node=node, where="plan", what=sentence)
+        yield Problem(node=node, where=message("plan"), what=sentence)
 
 
 def _resources(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
@@ -114,18 +118,23 @@ def _resources(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]
     for kind, (name, sha256) in here.items():
         planned = [r for r in task.resources if r.kind == kind]
         if not planned:
-            yield Problem(
-                where="resources", what=f"the Task does not say for which {kind} it was planned", severity="warning"
-            )
+            what = {
+                "site": message("the Task does not say for which site it was planned"),
+                "robot": message("the Task does not say for which robot it was planned"),
+            }
+            yield Problem(where=message("resources"), what=what[kind], severity="warning")
         for resource in planned:
             if resource.sha256 == sha256:
                 continue
-            other = f"another version of {name}" if resource.name == name else f"{resource.name}, and this is {name}"
-            yield Problem(
-                where="resources",
-                what=f"planned for {other}",
-                advice=f"plan it again for this {kind}, or give that one",
-            )
+            if resource.name == name:
+                planned_for = message("planned for another version of {name}", name=name)
+            else:
+                planned_for = message("planned for {other}, and this is {name}", other=resource.name, name=name)
+            advice = {
+                "site": message("plan it again for this site, or give that one"),
+                "robot": message("plan it again for this robot, or give that one"),
+            }
+            yield Problem(where=message("resources"), what=planned_for, advice=advice[kind])
 
 
 def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
@@ -155,8 +164,8 @@ def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
             yield Problem(
                 node=node.id,
                 where=site.name,
-                what=f"{place.kind} {place.id} is {reason}",
-                advice="leave it out, or correct the site",
+                what=message("{place} is {reason}", place=say_place(place), reason=reason),
+                advice=message("leave it out, or correct the site"),
             )
 
 
@@ -164,13 +173,23 @@ def _left_out(node: ForEach | Optional, closed: list[tuple[Place, str]], site: S
     """Optional visits and steps that cannot be made are left out, and the person who approves is told."""
     if closed:
         place, reason = closed[0]
-        more = f" and {len(closed) - 1} more" if len(closed) > 1 else ""
-        what = "an optional step" if isinstance(node, Optional) else f"{place.kind} {place.id}{more}"
+        said = message("{place} is {reason}", place=say_place(place), reason=reason)
+        if isinstance(node, Optional):
+            what = message("an optional step will be left out: {why}", why=said)
+        elif len(closed) > 1:
+            what = message(
+                "{place} and {count} more will be left out: {why}",
+                place=say_place(place),
+                count=len(closed) - 1,
+                why=said,
+            )
+        else:
+            what = message("{place} will be left out: {why}", place=say_place(place), why=said)
         yield Problem(
             node=node.id,
             where=site.name,
-            what=f"{what} will be left out: {place.kind} {place.id} is {reason}",
-            advice="correct the site if that is wrong",
+            what=what,
+            advice=message("correct the site if that is wrong"),
             severity="warning",
         )
 
@@ -184,8 +203,13 @@ def _exits(task: Task, site: Site, drives: Drives) -> Iterator[Problem]:
         if reason:
             yield Problem(
                 where=site.name,
-                what=f"the {home.id} marker, to which the robot is to go on the fault {taken.fault}, is {reason}",
-                advice="correct the site; else the robot will stop where it is then",
+                what=message(
+                    "{place}, to which the robot is to go on the fault {fault}, is {reason}",
+                    place=say_place(home),
+                    fault=named(taken.fault, "fault"),
+                    reason=reason,
+                ),
+                advice=message("correct the site; else the robot will stop where it is then"),
                 severity="warning",
             )
 
@@ -196,7 +220,9 @@ def _resolved(node: Node, selector: Selector, site: Site) -> tuple[Place, ...]:
         return (resolve_one(selector, site, context),)
     places = tuple(resolve(selector, site, context))
     if not places:
-        raise PlaceError("no place of this site is meant", where=site.name, advice="ask for other trees")
+        raise PlaceError(
+            message("no place of this site is meant"), where=site.name, advice=message("ask for other trees")
+        )
     return places
 
 
@@ -206,17 +232,17 @@ def _drives(forecast: Estimate, site: Site) -> Iterator[Problem]:
         yield Problem(
             node=node,
             where=site.name,
-            what=f"the drive there goes {through}",
-            advice="choose other trees, or another way",
+            what=message("the drive there goes {through}", through=through),
+            advice=message("choose other trees, or another way"),
         )
 
 
 def _coverage(forecast: Estimate) -> Iterator[Problem]:
     if not forecast.complete:
         yield Problem(
-            where="plan",
-            what=f"it has more branches than were looked at ({len(forecast.branches)})",
-            advice="nest fewer conditions, or watch the mission",
+            where=message("plan"),
+            what=message("it has more branches than were looked at ({count})", count=len(forecast.branches)),
+            advice=message("nest fewer conditions, or watch the mission"),
             severity="warning",
         )
 

@@ -1,15 +1,16 @@
-"""Conditions, attributes and actions as English clauses: "the canopy temperature there is below 33 °C"."""
+"""Conditions and actions as clauses: "the canopy temperature there is below 33 °C"."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import assert_never
 
+from fieldhand.language import joined, labelled, message, named
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.places.attribute_words import say_test
+from fieldhand.site.places.attribute_words import say_of_tree, say_with_article
 from fieldhand.task import conditions as c
 from fieldhand.task.plan import Act
-from fieldhand.task.words import TESTS, listed, say_action, say_name, say_number, say_quantity
+from fieldhand.task.words import listed, say_action, say_name, say_number, say_quantity, say_times
 
 Names = Mapping[str, str]
 
@@ -26,31 +27,82 @@ def say_condition(
         negated: Say the opposite.
     """
     places = where or {}
-    no = " not" if negated else ""
     match condition:
         case c.Compare():
-            amount = say_quantity(condition.value, condition.unit)
-            return f"{_reading(condition, places)} is{no} {TESTS[condition.test]} {amount}"
+            return _compared(condition, _reading(condition, places, robot), negated=negated)
         case c.Between():
-            low, high = say_number(condition.low), say_quantity(condition.high, condition.unit)
-            return f"{_reading(condition, places)} is{no} between {low} and {high}"
+            fills = {
+                "reading": _reading(condition, places, robot),
+                "low": say_number(condition.low),
+                "high": say_quantity(condition.high, condition.unit),
+            }
+            if negated:
+                return message("{reading} is not between {low} and {high}", **fills)
+            return message("{reading} is between {low} and {high}", **fills)
         case c.Level():
-            return f"{_reading(condition, places)} is{no} {say_name(condition.level)}{_threshold(condition, robot)}"
+            fills = {
+                "reading": _reading(condition, places, robot),
+                "low": named(say_name(condition.level), "level", message("“{name}”", name=condition.level)),
+                "threshold": _threshold(condition, robot),
+            }
+            if negated:
+                return message("{reading} is not {low} {threshold}", **fills)
+            return message("{reading} is {low} {threshold}", **fills)
         case c.TreeHas():
-            clause = say_test(condition.attribute, condition.test, condition.value)
-            return f"it is not so that the tree's {clause}" if negated else f"the tree's {clause}"
-        case c.AllOf(conditions=inner) | c.AnyOf(conditions=inner):
-            joined = _joined(inner, "and" if isinstance(condition, c.AllOf) else "or", places, robot)
-            return f"it is not so that {joined}" if negated else joined
+            clause = say_of_tree(condition.attribute, condition.test, condition.value)
+            return message("it is not so that {clause}", clause=clause) if negated else clause
+        case c.AllOf() | c.AnyOf():
+            whole = _joined(condition, places, robot)
+            return message("it is not so that {clause}", clause=whole) if negated else whole
         case c.Not(condition=inner_condition):
             return say_condition(inner_condition, places, robot, negated=not negated)
         case _:
             assert_never(condition)
 
 
-def _reading(condition: c.Compare | c.Between | c.Level, where: Names) -> str:
-    place = where.get(condition.reading, f"of the reading “{condition.reading}”")
-    return f"the {say_name(condition.quantity)} {place}".rstrip()
+def _compared(condition: c.Compare, reading: str, *, negated: bool) -> str:
+    """A reading against a threshold: each test is a sentence of its own, and so is its opposite."""
+    amount = say_quantity(condition.value, condition.unit)
+    match condition.test, negated:
+        case "lt", False:
+            return message("{reading} is below {amount}", reading=reading, amount=amount)
+        case "lt", True:
+            return message("{reading} is not below {amount}", reading=reading, amount=amount)
+        case "le", False:
+            return message("{reading} is at most {amount}", reading=reading, amount=amount)
+        case "le", True:
+            return message("{reading} is not at most {amount}", reading=reading, amount=amount)
+        case "gt", False:
+            return message("{reading} is above {amount}", reading=reading, amount=amount)
+        case "gt", True:
+            return message("{reading} is not above {amount}", reading=reading, amount=amount)
+        case "ge", False:
+            return message("{reading} is at least {amount}", reading=reading, amount=amount)
+        case "ge", True:
+            return message("{reading} is not at least {amount}", reading=reading, amount=amount)
+        case "eq", False:
+            return message("{reading} is exactly {amount}", reading=reading, amount=amount)
+        case "eq", True:
+            return message("{reading} is not exactly {amount}", reading=reading, amount=amount)
+        case _, False:
+            return message("{reading} is other than {amount}", reading=reading, amount=amount)
+    return message("{reading} is not other than {amount}", reading=reading, amount=amount)
+
+
+def _reading(condition: c.Compare | c.Between | c.Level, where: Names, robot: RobotProfile | None) -> str:
+    quantity = say_with_article(condition.quantity)
+    if robot is not None and condition.quantity in robot.quantity:
+        quantity = labelled(quantity, robot.quantity[condition.quantity].labels)
+    if condition.reading in where:
+        return message("{quantity} {where}", quantity=quantity, where=where[condition.reading])
+    return message("{quantity} of the reading “{name}”", quantity=quantity, name=condition.reading)
+
+
+def _labels(once: Mapping[str, str], count: int) -> Mapping[str, str]:
+    """What a profile says for an action in other languages, for so many captures."""
+    if count == 1:
+        return once
+    return {code: message("{action} {times}", action=said, times=say_times(count)) for code, said in once.items()}
 
 
 def _threshold(condition: c.Level, robot: RobotProfile | None) -> str:
@@ -58,17 +110,31 @@ def _threshold(condition: c.Level, robot: RobotProfile | None) -> str:
     level = quantity.levels.get(condition.level) if quantity else None
     if quantity is None or level is None:
         return ""
-    return f" ({level.direction} {say_quantity(level.value, quantity.unit)})"
+    amount = say_quantity(level.value, quantity.unit)
+    return (
+        message("(below {amount})", amount=amount)
+        if level.direction == "below"
+        else message("(above {amount})", amount=amount)
+    )
 
 
-def _joined(inner: tuple[c.Condition, ...], word: str, where: Names, robot: RobotProfile | None) -> str:
+def _joined(condition: c.AllOf | c.AnyOf, where: Names, robot: RobotProfile | None) -> str:
     """Parts joined by one word; a part that joins others itself stands in brackets, so that there is one reading."""
-    said = [say_condition(part, where, robot) for part in inner]
-    bracketed = [
-        f"({text})" if isinstance(part, c.AllOf | c.AnyOf) and len(part.conditions) > 1 else text
-        for part, text in zip(inner, said, strict=True)
-    ]
-    return f" {word} ".join(bracketed) or ("always" if word == "and" else "never")
+    every = isinstance(condition, c.AllOf)
+    if not condition.conditions:
+        return message("always") if every else message("never")
+    said = ""
+    for part in condition.conditions:
+        text = say_condition(part, where, robot)
+        if isinstance(part, c.AllOf | c.AnyOf) and len(part.conditions) > 1:
+            text = joined("", ("(", text, ")"))
+        if not said:
+            said = text
+        elif every:
+            said = message("{clause} and {other}", clause=said, other=text)
+        else:
+            said = message("{clause} or {other}", clause=said, other=text)
+    return said
 
 
 def say_act(act: Act, robot: RobotProfile | None = None) -> str:
@@ -77,7 +143,12 @@ def say_act(act: Act, robot: RobotProfile | None = None) -> str:
     if robot is not None and act.action in robot.action:
         units = {p.name: p.unit for p in robot.action[act.action].parameters}
     settings = [
-        f"{say_name(name)} {say_quantity(value, units.get(name, '')) if isinstance(value, float | int) else value}"
+        joined(
+            " ", (say_name(name), say_quantity(value, units.get(name, "")) if isinstance(value, float | int) else value)
+        )
         for name, value in act.parameters
     ]
-    return say_action(act.action, act.count) + (f" with {listed(settings)}" if settings else "")
+    doing = say_action(act.action, act.count)
+    if robot is not None and act.action in robot.action:
+        doing = labelled(doing, _labels(robot.action[act.action].labels, act.count))
+    return message("{doing} with {settings}", doing=doing, settings=listed(settings)) if settings else doing

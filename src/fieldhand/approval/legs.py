@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from fieldhand.forecast.steps import Walk
+from fieldhand.language import message
 from fieldhand.site.model import Site
 
 #: Metres inside a keep-out, or outside the boundary, that a drive may show from rounding.
@@ -34,10 +35,10 @@ def driven_through(walks: Sequence[Walk], site: Site) -> tuple[tuple[str, str], 
         seen.add(step.drive.points)
         line = LineString(step.drive.points)
         for k in tree_lines.query(line, predicate="intersects").tolist():
-            found[step.node.id, f"through the trees of row {rows[k].name}"] = None
+            found[step.node.id, message("through the trees of row {row}", row=rows[k].name)] = None
         for name, polygon in keep_outs:
             if line.intersects(polygon) and line.intersection(polygon).length > TOLERANCE_M:
-                found[step.node.id, f"through the keep-out “{name}”"] = None
+                found[step.node.id, message("through the keep-out “{zone}”", zone=name)] = None
         if inside is not None and line.difference(inside).length > TOLERANCE_M:
-            found[step.node.id, "outside the boundary"] = None
+            found[step.node.id, message("outside the boundary")] = None
     return tuple(found)

@@ -11,6 +11,7 @@ from fieldhand.approval.marks import INK, LINES, WAY
 from fieldhand.approval.readback import ReadBack, say_totals
 from fieldhand.approval.sentences import Line
 from fieldhand.approval.stops import Certainty, Plan
+from fieldhand.language import Language, message
 from fieldhand.task.frames import Task
 from fieldhand.task.words import capitalised, say_action
 
@@ -19,9 +20,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _LINE_WORDS: dict[Certainty, str] = {
-    "certain": "driven in any case",
-    "budget": "driven as far as the budget allows",
-    "conditional": "driven only on some readings",
+    "certain": message("driven in any case"),
+    "budget": message("driven as far as the budget allows"),
+    "conditional": message("driven only on some readings"),
 }
 _QUIET = "#6b6b6b"
 #: Letters that fit into an inch at one point of size; lines lie this many sizes apart.
@@ -34,16 +35,18 @@ _SCALES = (1.25, 1.15, 1.05, 0.95, 0.85)
 _UNIT = re.compile(r"(\d) (m|min|h|s|%|°C|ppm)(?!\w)")
 
 
-def draw_panel(ax: Axes, task: Task, plan: Plan, words: ReadBack, colours: dict[str, str]) -> None:
+def draw_panel(ax: Axes, task: Task, plan: Plan, words: ReadBack, colours: dict[str, str], language: Language) -> None:
     """Write the words from the top down; steps that find no room are counted, the legend and totals always stand."""
-    legend = _legend(plan, colours)
+    legend, totals = _legend(plan, colours, language), language.read(say_totals(words.totals))
     request = " ".join(task.command.request.split())
-    writer = next((w for w in map(partial(_Writer, ax), _SCALES) if _fits(w, request, words, len(legend))), None)
+    writer = next(
+        (w for w in map(partial(_Writer, ax), _SCALES) if _fits(w, request, words, totals, len(legend))), None
+    )
     writer = writer or _Writer(ax, _SCALES[-1])
     for line in writer.wrapped(f"“{request}”", _REQUEST_PT, most=_REQUEST_ROWS):
         writer.write(line, _REQUEST_PT, style="italic")
     writer.skip(9)
-    _write_steps(writer, words.lines, room=writer.left - _below(writer, words, len(legend)))
+    _write_steps(writer, words.lines, writer.left - _below(writer, totals, len(legend)), language)
     writer.skip(6)
     box = ax.legend(
         handles=legend,
@@ -59,7 +62,7 @@ def draw_panel(ax: Axes, task: Task, plan: Plan, words: ReadBack, colours: dict[
     )
     box.set_gid("legend")
     writer.skip(_legend_points(len(legend)))
-    for text in say_totals(words.totals):
+    for text in totals:
         for line in writer.wrapped(text, _SMALL_PT):
             writer.write(line, _SMALL_PT, colour=_QUIET)
 
@@ -68,9 +71,9 @@ def _legend_points(entries: int) -> float:
     return (entries * 1.55 + 0.8) * _SMALL_PT
 
 
-def _below(writer: _Writer, words: ReadBack, entries: int) -> float:
+def _below(writer: _Writer, totals: tuple[str, ...], entries: int) -> float:
     """Points that legend and totals take."""
-    rows = sum(len(writer.wrapped(text, _SMALL_PT)) for text in say_totals(words.totals))
+    rows = sum(len(writer.wrapped(text, _SMALL_PT)) for text in totals)
     return (_legend_points(entries) + 6 + (rows + 0.5) * _LEADING * _SMALL_PT) * writer.scale
 
 
@@ -81,23 +84,24 @@ def _rows(writer: _Writer, line: Line) -> list[str]:
     return writer.wrapped(f"{number}{line.text}", _STEP_PT, margin=margin, hang=" " * (len(number) + 1))
 
 
-def _fits(writer: _Writer, request: str, words: ReadBack, entries: int) -> bool:
+def _fits(writer: _Writer, request: str, words: ReadBack, totals: tuple[str, ...], entries: int) -> bool:
     """Whether everything has room at the writer's scale."""
     asked = len(writer.wrapped(f"“{request}”", _REQUEST_PT))
     head = asked * _REQUEST_PT * _LEADING + 9
     rows = sum(len(_rows(writer, line)) for line in words.lines)
     steps = rows * _STEP_PT * _LEADING + 1.5 * len(words.lines)
-    return asked <= _REQUEST_ROWS and (head + steps) * writer.scale + _below(writer, words, entries) < writer.left
+    return asked <= _REQUEST_ROWS and (head + steps) * writer.scale + _below(writer, totals, entries) < writer.left
 
 
-def _write_steps(writer: _Writer, lines: tuple[Line, ...], room: float) -> None:
+def _write_steps(writer: _Writer, lines: tuple[Line, ...], room: float, language: Language) -> None:
     """The steps as far as there is room; the rest stands in the read-back."""
     bottom = writer.left - room
     for k, line in enumerate(lines):
         rows = _rows(writer, line)
         needed = (len(rows) + (1 if k + 1 < len(lines) else 0)) * _STEP_PT * _LEADING * writer.scale
         if writer.left - needed < bottom:
-            writer.write(f"… and {len(lines) - k} more lines in the read-back", _STEP_PT, colour=_QUIET)
+            more = message("… and {count} more lines in the read-back", count=len(lines) - k)
+            writer.write(language.say(more), _STEP_PT, colour=_QUIET)
             return
         for row in rows:
             writer.write(row, _STEP_PT)
@@ -162,20 +166,27 @@ class _Writer:
         self.left -= points * self.scale
 
 
-def _legend(plan: Plan, colours: dict[str, str]) -> list[Artist]:
+def _legend(plan: Plan, colours: dict[str, str], language: Language) -> list[Artist]:
     from matplotlib.lines import Line2D
 
     def disc(colour: str, edge: str, label: str) -> Artist:
         return Line2D(
-            [], [], marker="o", linestyle="none", markersize=8, color=colour, markeredgecolor=edge, label=label
+            [],
+            [],
+            marker="o",
+            linestyle="none",
+            markersize=8,
+            color=colour,
+            markeredgecolor=edge,
+            label=language.say(label),
         )
 
     found = [disc(colour, "white", capitalised(say_action(name))) for name, colour in colours.items()]
     if any("conditional" in stop.actions.values() for stop in plan.stops):
-        found.append(disc("white", INK, "Hollow: only if a condition holds"))
+        found.append(disc("white", INK, message("Hollow: only if a condition holds")))
     for certainty in LINES:
         if any(leg.certainty == certainty for leg in plan.legs):
             style, width, alpha = LINES[certainty]
-            label = capitalised(_LINE_WORDS[certainty])
+            label = language.say(capitalised(_LINE_WORDS[certainty]))
             found.append(Line2D([], [], color=WAY, linestyle=style, linewidth=width, alpha=alpha, label=label))
     return found

@@ -11,6 +11,7 @@ from fieldhand.approval.readback import ReadBack, read_back
 from fieldhand.approval.stops import Plan, plan_of
 from fieldhand.errors import OutputError
 from fieldhand.forecast.estimate import Estimate
+from fieldhand.language import ENGLISH, Language
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.drawing import draw_site, site_figure
 from fieldhand.site.model import Site
@@ -23,7 +24,9 @@ if TYPE_CHECKING:
 _PANEL_IN, _MARGIN_IN, _LEAST_HEIGHT_IN = 4.7, 0.25, 6.8
 
 
-def save_map(task: Task, site: Site, robot: RobotProfile, estimate: Estimate, path: Path) -> None:
+def save_map(
+    task: Task, site: Site, robot: RobotProfile, estimate: Estimate, path: Path, language: Language = ENGLISH
+) -> None:
     """Draw the planned mission into a picture file; the ending says which kind (``.png``, ``.svg``, ``.pdf``).
 
     Args:
@@ -31,13 +34,14 @@ def save_map(task: Task, site: Site, robot: RobotProfile, estimate: Estimate, pa
         site, robot: Where and with what.
         estimate: Its estimate, whose branches are drawn: the first as a whole, of the others what it lacks.
         path: Where to write; its folder is made if needed.
+        language: Of the words beside the map.
 
     Raises:
         OutputError: The file cannot be written, or its ending is of no kind of picture.
     """
     words = read_back(task, site, robot, estimate)
     plan = plan_of(task, [b.walk for b in estimate.branches], words.lines)
-    figure = draw_map(task, site, plan, words)
+    figure = draw_map(task, site, plan, words, language)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         figure.savefig(path, dpi=150)
@@ -53,7 +57,7 @@ def save_map(task: Task, site: Site, robot: RobotProfile, estimate: Estimate, pa
         ) from None
 
 
-def draw_map(task: Task, site: Site, plan: Plan, words: ReadBack) -> Figure:
+def draw_map(task: Task, site: Site, plan: Plan, words: ReadBack, language: Language = ENGLISH) -> Figure:
     """The map with its words beside it, as a figure that belongs to no window."""
     figure = _two_columns(site)
     ax = figure.axes[0]
@@ -66,7 +70,7 @@ def draw_map(task: Task, site: Site, plan: Plan, words: ReadBack) -> Figure:
     for stop in plan.stops:
         draw_stop(ax, stop, colours, size)
     draw_labels(ax, plan, tuple(m.xy for m in site.markers.values()), size)
-    draw_panel(figure.axes[1], task, plan, words, colours)
+    draw_panel(figure.axes[1], task, plan, language.read(words), colours, language)
     return figure
 
 

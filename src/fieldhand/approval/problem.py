@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from fieldhand.language import joined, shaped
+
 
 @dataclass(frozen=True, kw_only=True)
 class Problem:
@@ -26,7 +28,15 @@ class Problem:
 
     def __str__(self) -> str:
         """One line: where, what, advice."""
+        return str(self.line())
+
+    def line(self) -> str:
+        """The same as a message, for other languages."""
         parts = [self.where] if self.node and self.node in self.where else [p for p in (self.node, self.where) if p]
-        at = f"{', '.join(p for p in parts if p)}: " if any(parts) else ""
-        todo = f"; {self.advice}" if self.advice else ""
-        return " ".join(f"{at}{self.what}{todo}".split())
+        at = (joined(", ", parts), ": ") if parts else ()
+        todo = ("; ", self.advice) if self.advice else ()
+        return shaped(joined("", (*at, self.what, *todo)), _one_line)
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.split())

@@ -10,24 +10,25 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fieldhand.approval.resolved import gather
-from fieldhand.approval.sentences import Line, say_exit, write_lines
+from fieldhand.approval.sentences import Line, say_exit_after, write_lines
 from fieldhand.forecast.estimate import BranchEstimate, Estimate, Figure
 from fieldhand.forecast.limits import reserve_percent
 from fieldhand.forecast.steps import Walk
+from fieldhand.language import counted, joined, message, recalled
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.site.places import notes
-from fieldhand.task.frames import Budget, Fault, Task
+from fieldhand.task.frames import Budget, Fault, Task, Then
 from fieldhand.task.plan import selector_of
-from fieldhand.task.words import capitalised, listed, say_count, say_duration, say_number
+from fieldhand.task.words import capitalised, listed, say_duration, say_number, say_rounded
 
 __all__ = ["Line", "ReadBack", "Totals", "read_back"]
 
 _FAULTS: dict[Fault, str] = {
-    "action_failed": "an action fails for good",
-    "drive_failed": "a way cannot be driven",
-    "low_budget": "what is left only just lasts for the way home",
-    "aborted": "somebody aborts the mission",
+    "action_failed": message("an action fails for good"),
+    "drive_failed": message("a way cannot be driven"),
+    "low_budget": message("what is left only just lasts for the way home"),
+    "aborted": message("somebody aborts the mission"),
 }
 
 
@@ -73,11 +74,11 @@ class ReadBack:
         return (
             *(_numbered(line) for line in self.lines),
             "",
-            *(f"  Limit: {text}" for text in self.limits),
-            *(f"  {text}" for text in self.faults),
-            *(f"  Assumed: {text}" for text in self.assumptions),
-            *(f"  Note: {text}" for text in self.notes),
-            *(f"  {text}" for text in say_totals(self.totals)),
+            *(_indented(message("Limit: {text}", text=text)) for text in self.limits),
+            *(_indented(text) for text in self.faults),
+            *(_indented(message("Assumed: {text}", text=text)) for text in self.assumptions),
+            *(_indented(message("Note: {text}", text=text)) for text in self.notes),
+            *(_indented(text) for text in say_totals(self.totals)),
         )
 
 
@@ -95,7 +96,7 @@ def read_back(task: Task, site: Site, robot: RobotProfile, estimate: Estimate) -
         lines=write_lines(task, site, robot, found),
         limits=_limits(task, robot),
         faults=_faults(task, site),
-        assumptions=task.command.assumptions,
+        assumptions=tuple(recalled(text, "assumption") for text in task.command.assumptions),
         notes=_notes(walks, site),
         totals=_totals(estimate),
     )
@@ -104,49 +105,76 @@ def read_back(task: Task, site: Site, robot: RobotProfile, estimate: Estimate) -
 def say_totals(totals: Totals) -> tuple[str, ...]:
     """What it takes, as sentences."""
     m, s, p = totals.metres, totals.seconds, totals.percent
-    mean = f"{m.mean:.0f} m, {say_duration(s.mean)}, {p.mean:.0f} % of the battery"
-    high = f"{m.p90:.0f} m, {say_duration(s.p90)}, {p.p90:.0f} %"
-    which = f" on the most demanding of {totals.branches} branches" if totals.branches > 1 else ""
-    return (
-        f"In all{which}: {say_count(totals.captures, 'capture')}, about {mean}.",
-        f"Nine times out of ten it takes no more than {high}.",
+    total = counted(
+        "{count} capture, about {metres} m, {time}, {percent} of the battery.",
+        "{count} captures, about {metres} m, {time}, {percent} of the battery.",
+        totals.captures,
+        metres=say_rounded(m.mean),
+        time=say_duration(s.mean),
+        percent=_percent(p.mean),
     )
+    high = message(
+        "Nine times out of ten it takes no more than {metres} m, {time}, {percent}.",
+        metres=say_rounded(m.p90),
+        time=say_duration(s.p90),
+        percent=_percent(p.p90),
+    )
+    if totals.branches == 1:
+        return message("In all: {totals}", totals=total), high
+    branches = message(
+        "In all, on the most demanding of {count} branches: {totals}", count=totals.branches, totals=total
+    )
+    return branches, high
+
+
+def _percent(value: float) -> str:
+    """A share of the battery, which is never nothing where something is done."""
+    return message("less than 1 %") if 0 < value < 0.5 else message("{number} %", number=say_rounded(value))
 
 
 def say_budget(budget: Budget, *, home: bool = True) -> str:
     """A budget as a sentence. ``home``: whether the mission goes anywhere when it is done."""
     match budget.kind:
         case "distance_m":
-            amount = f"{say_number(budget.limit)} m of driving"
+            amount: str = message("{number} m of driving", number=say_number(budget.limit))
         case "duration_s":
             amount = say_duration(budget.limit)
         case "energy_percent":
-            amount = f"{say_number(budget.limit)} % of a full battery"
+            amount = message("{number} % of a full battery", number=say_number(budget.limit))
     chance = say_number(100 * budget.failure_probability)
-    way = ", the way home included" if home else ""
-    return f"at most {amount}{way} (accepted chance of needing more: {chance} %)."
+    if home:
+        return message(
+            "at most {amount}, the way home included (accepted chance of needing more: {chance} %).",
+            amount=amount,
+            chance=chance,
+        )
+    return message("at most {amount} (accepted chance of needing more: {chance} %).", amount=amount, chance=chance)
 
 
 def _limits(task: Task, robot: RobotProfile) -> tuple[str, ...]:
-    reserve = reserve_percent(task.constraints, robot)
-    whose = "the robot's own reserve" if task.constraints.reserve_percent is None else "as the Task asks"
+    reserve = say_number(reserve_percent(task.constraints, robot))
     home = task.composition.nominal != "stay"
     found = [say_budget(b, home=home) for b in task.constraints.budgets]
-    found.append(f"at least {say_number(reserve)} % charge is left at the end ({whose}).")
+    if task.constraints.reserve_percent is None:
+        own = message("at least {percent} % charge is left at the end (the robot's own reserve).", percent=reserve)
+        found.append(own)
+    else:
+        found.append(message("at least {percent} % charge is left at the end (as the Task asks).", percent=reserve))
     speed = task.constraints.speed_m_s
     if speed is not None:
-        found.append(f"at most {say_number(speed)} m/s.")
+        found.append(message("at most {speed} m/s.", speed=say_number(speed)))
     return tuple(found)
 
 
 def _faults(task: Task, site: Site) -> tuple[str, ...]:
     """What happens about faults; those with the same end share a sentence."""
-    by_end: dict[str, list[str]] = {}
+    by_end: dict[Then, list[str]] = {}
     for taken in task.composition.faulted:
-        does = say_exit(taken.then, site).rstrip(".")
-        where = "stop and wait there" if taken.then == "stay" else does[:1].lower() + does[1:]
-        by_end.setdefault(where, []).append(_FAULTS[taken.fault])
-    return tuple(f"If {listed(faults, 'or')}: {end}." for end, faults in by_end.items())
+        by_end.setdefault(taken.then, []).append(_FAULTS[taken.fault])
+    return tuple(
+        message("If {faults}: {exit}.", faults=listed(faults, "or"), exit=say_exit_after(then, site))
+        for then, faults in by_end.items()
+    )
 
 
 def _notes(walks: Sequence[Walk], site: Site) -> tuple[str, ...]:
@@ -158,7 +186,7 @@ def _notes(walks: Sequence[Walk], site: Site) -> tuple[str, ...]:
         if selector is None or step.node.id in seen:
             continue
         seen.add(step.node.id)
-        found.update((capitalised(note).rstrip(".") + ".", None) for note in notes(selector, site, step.context))
+        found.update((message("{note}.", note=capitalised(note)), None) for note in notes(selector, site, step.context))
     return tuple(found)
 
 
@@ -174,5 +202,9 @@ def _totals(estimate: Estimate) -> Totals:
 
 
 def _numbered(line: Line) -> str:
-    margin = "     " * line.indent
-    return f"{margin}{line.number:>3}. {line.text}" if line.number is not None else f"{margin}     {line.text}"
+    number = f"{line.number:>3}." if line.number is not None else "    "
+    return joined("", ("     " * line.indent, number, " ", line.text))
+
+
+def _indented(text: str) -> str:
+    return joined("", ("  ", text))

@@ -7,14 +7,17 @@ from dataclasses import dataclass, replace
 
 from fieldhand.approval.clauses import say_act, say_condition
 from fieldhand.approval.resolved import Found
+from fieldhand.approval.visits import in_order, say_expected, say_expected_visits, say_ids
+from fieldhand.language import counted, message, shaped
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
+from fieldhand.site.places.saying import say_marker, say_tree
 from fieldhand.site.places.words import say_places, say_selector
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Task, Then
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Optional, Repeat, Sequence, Stop, Try
-from fieldhand.task.selectors import Corners, Marker, Selector, TreeIs, Trees, is_single
-from fieldhand.task.words import CORNERS, say_name, say_number
+from fieldhand.task.selectors import Corners, Marker, Selector, TreeIs, Trees, Union, is_single
+from fieldhand.task.words import CORNERS, say_name, say_number, say_times
 
 Names = dict[str, str]
 
@@ -40,17 +43,8 @@ class Line:
 def say_place(place: Place) -> str:
     """A place as the read-back calls it: "tree 81", "the end marker"."""
     if place.kind == "tree":
-        return f"tree {place.id}"
+        return say_tree(place.id)
     return say_marker(place.id) if place.kind == "marker" else place.id
-
-
-def say_marker(name: str) -> str:
-    """A marker in words."""
-    return "the charger" if name == "charger" else f"the {say_name(name)} marker"
-
-
-#: Optional visits that are less likely than this are named as those that go first, where they are no more than so many.
-_SURE, _NAMED = 0.9, 6
 
 
 def write_lines(task: Task, site: Site, robot: RobotProfile, found: Mapping[str, Found]) -> tuple[Line, ...]:
@@ -70,12 +64,27 @@ def write_lines(task: Task, site: Site, robot: RobotProfile, found: Mapping[str,
 def say_exit(then: Then, site: Site) -> str:
     """What the mission does when it is over: "Return to the end marker."."""
     if then == "stay":
-        return "Stay at the last place."
+        return message("Stay at the last place.")
     wanted = "end" if then == "return_to_end" else "start"
     if wanted in site.markers:
-        return f"Return to {say_marker(wanted)}."
-    home = site.home(then, site.start)
-    return f"Return to {say_place(home)} (the site has no {wanted} marker)."
+        return message("Return to {place}.", place=say_marker(wanted))
+    home = say_place(site.home(then, site.start))
+    if wanted == "end":
+        return message("Return to {place} (the site has no end marker).", place=home)
+    return message("Return to {place} (the site has no start marker).", place=home)
+
+
+def say_exit_after(then: Then, site: Site) -> str:
+    """What the mission does after a fault, as the end of a sentence: "return to the end marker"."""
+    if then == "stay":
+        return message("stop and wait there")
+    wanted = "end" if then == "return_to_end" else "start"
+    if wanted in site.markers:
+        return message("return to {place}", place=say_marker(wanted))
+    home = say_place(site.home(then, site.start))
+    if wanted == "end":
+        return message("return to {place} (the site has no end marker)", place=home)
+    return message("return to {place} (the site has no start marker)", place=home)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,11 +110,11 @@ class _Writer:
     def step(self, node: str, indent: int, text: str, also: tuple[str, ...] = ()) -> int:
         """Write a line with the next number."""
         self._number += 1
-        self.lines.append(Line(number=self._number, node=node, indent=indent, text=_one_line(text), also=also))
+        self.lines.append(Line(number=self._number, node=node, indent=indent, text=shaped(text, _one_line), also=also))
         return self._number
 
     def _open(self, node: str, indent: int, text: str) -> None:
-        self.lines.append(Line(number=None, node=node, indent=indent, text=_one_line(text)))
+        self.lines.append(Line(number=None, node=node, indent=indent, text=shaped(text, _one_line)))
 
     def node(self, node: Node, indent: int) -> None:
         match node:
@@ -113,7 +122,7 @@ class _Writer:
                 for step in steps:
                     self.node(step, indent)
             case AnyOrder(steps=steps):
-                self._open(node.id, indent, "In whichever order drives least:")
+                self._open(node.id, indent, message("In whichever order drives least:"))
                 for step in steps:
                     self.node(step, indent + 1)
             case ForEach():
@@ -123,30 +132,33 @@ class _Writer:
             case If():
                 self._if(node, indent)
             case Try():
-                self._open(node.id, indent, "Try this:")
+                self._open(node.id, indent, message("Try this:"))
                 self.node(node.body, indent + 1)
-                self._open(node.id, indent, "If that fails:")
+                self._open(node.id, indent, message("If that fails:"))
                 self.node(node.otherwise, indent + 1)
             case Optional():
                 self._optional(node, indent)
             case GoTo():
-                number = self.step(node.id, indent, f"Drive to {self._at(node, node.place)}.")
+                number = self.step(node.id, indent, message("Drive to {place}.", place=self._at(node, node.place)))
                 self._arrived(node.label, node.id, number)
             case Act():
                 self._act(node, indent)
             case Stop(exit=taken):
-                verdict = "" if taken == "nominal" else ", which counts as failed"
-                self.step(node.id, indent, f"End the mission here{verdict}.")
+                failed = message("End the mission here, which counts as failed.")
+                self.step(node.id, indent, message("End the mission here.") if taken == "nominal" else failed)
 
     # --- actions and drives ------------------------------------------------------------------------------------
 
     def _act(self, node: Act, indent: int) -> None:
         doing = say_act(node, self._robot)
         if node.at is not None:
-            number = self.step(node.id, indent, f"At {self._at(node, node.at)}: {doing}.")
+            number = self.step(
+                node.id, indent, message("At {place}: {doing}.", place=self._at(node, node.at), doing=doing)
+            )
             self._arrived(node.label, node.id, number)
         else:
-            number = self.step(node.id, indent, f"{'There' if self._moved else 'At the start'}: {doing}.")
+            there = message("There: {doing}.", doing=doing), message("At the start: {doing}.", doing=doing)
+            number = self.step(node.id, indent, there[0] if self._moved else there[1])
             self._name(node.label, node.id, number)
         self._took(node, number)
 
@@ -157,13 +169,18 @@ class _Writer:
         one = found.one if found else None
         if one is not None:
             place = say_place(one)
-            return place if isinstance(selector, TreeIs | Marker) else f"{place} ({_aside(selector, said)})"
+            return (
+                place
+                if isinstance(selector, TreeIs | Marker)
+                else message("{place} ({words})", place=place, words=_aside(selector, said))
+            )
         if found is None:
             return said
         if found.known:
             ids = say_places(tuple(p.id for visit in found.visits for p in visit))
-            return f"{said} (in turn {ids})"
-        return f"{said} (decided on the way; most likely {say_place(found.places[0])})"
+            return message("{place} (in turn {ids})", place=said, ids=ids)
+        likely = say_place(found.places[0])
+        return message("{place} (decided on the way; most likely {likely})", place=said, likely=likely)
 
     def _arrived(self, label: str, node: str, number: int) -> None:
         """The place in hand is a new one: readings taken before were taken elsewhere."""
@@ -175,7 +192,9 @@ class _Writer:
         if label:
             found = self._found.get(node)
             one = found.one if found else None
-            self._names[label] = say_place(one) if one is not None else f"the place of step {number}"
+            self._names[label] = (
+                say_place(one) if one is not None else message("the place of step {number}", number=number)
+            )
 
     def _took(self, node: Act, number: int) -> None:
         if node.reading:
@@ -184,59 +203,82 @@ class _Writer:
     # --- loops and branches ------------------------------------------------------------------------------------
 
     def _for_each(self, node: ForEach, indent: int) -> None:
-        head = f"{self._visits(node)}:"
+        head = self._visits(node)
         body = node.body
         single = isinstance(body, Act) and body.at is None
         number = self._number + 1
         self._arrived("", node.id, number)
         if node.label:
-            self._names[node.label] = "that place"
+            self._names[node.label] = message("that place")
         if isinstance(body, Act) and single:
-            self.step(node.id, indent, f"{head} {say_act(body, self._robot)}.", (body.id,))
+            doing = say_act(body, self._robot)
+            self.step(node.id, indent, message("{at_places}: {doing}.", at_places=head, doing=doing), (body.id,))
             self._name(body.label, body.id, number)
             self._took(body, number)
         else:
-            self.step(node.id, indent, head)
+            self.step(node.id, indent, message("{at_places}:", at_places=head))
             self.node(body, indent + 1)
         if node.until is not None:
-            self._open(node.id, indent + 1, f"Leave out the rest once {self._condition(node.until)}.")
+            self._open(
+                node.id,
+                indent + 1,
+                message("Leave out the rest once {condition}.", condition=self._condition(node.until)),
+            )
         self._arrived("", node.id, number)
         if node.label:
-            self._names[node.label] = f"the last place of step {number}"
+            self._names[node.label] = message("the last place of step {number}", number=number)
 
     def _visits(self, node: ForEach) -> str:
         """Which places a for-each goes to, and in which order."""
         found = self._found.get(node.id)
         places = (*found.places, *found.shed) if found else ()
         if is_single(node.select) and len(places) < 2:
-            return f"At {self._at(node, node.select)}"
+            return message("At {place}", place=self._at(node, node.select))
         whole = node.optional or node.at_most is None
         count = len(places) if found and found.known and places and whole else None
         said = say_selector(node.select, self._names, count)
         if isinstance(node.select, Trees):
-            said = f"the {count} trees" if count else "all trees"
+            said = counted("the {count} tree", "the {count} trees", count) if count else message("all trees")
         if node.optional:
             return self._optional_visits(node, said, found)
-        each = said if said.startswith("every ") else f"each of {said}"
-        some = f"no more than {node.at_most} of {said}" if node.at_most is not None else each
-        return f"At {some}{_which(node.select, found)}{_order(node, len(places))}"
+        if node.at_most is not None:
+            at = message("At no more than {count} of {trees}", count=node.at_most, trees=said)
+        elif isinstance(node.select, Union) and not said.startswith("trees "):
+            at = message("At {place}", place=said)
+        elif said.startswith("every "):
+            at = message("At {every_tree}", every_tree=said)
+        else:
+            at = message("At each of {trees}", trees=said)
+        return in_order(node, message("{at_places} {ids}", at_places=at, ids=say_ids(node.select, found)), len(places))
 
     def _optional_visits(self, node: ForEach, said: str, found: Found | None) -> str:
-        most = f", at most {node.at_most}" if node.at_most is not None else ""
-        worth = f", preferring high {say_name(node.reward)}" if node.reward else ""
-        return f"At as many of {said} as the budget allows{most}{worth}{_expected_visits(found)}"
+        at = message("At as many of {trees} as the budget allows", trees=said)
+        if node.at_most is not None:
+            at = message("{at_places}, at most {count}", at_places=at, count=node.at_most)
+        if node.reward:
+            at = message("{at_places}, preferring high {reward}", at_places=at, reward=say_name(node.reward))
+        return message("{at_places} {expected}", at_places=at, expected=say_expected_visits(found))
 
     def _repeat(self, node: Repeat, indent: int) -> None:
-        times = "twice" if node.times == 2 else f"{node.times} times"
-        most = f"Do this up to {times}" if node.until is not None else f"Do this {times}"
-        self._open(node.id, indent, f"{most}:" if node.times > 1 else "Do this once:")
+        times = say_times(node.times)
+        most = message("Do this up to {times}:", times=times), message("Do this {times}:", times=times)
+        self._open(node.id, indent, most[0] if node.until is not None and node.times > 1 else most[1])
         self.node(node.body, indent + 1)
         if node.until is not None:
-            self._open(node.id, indent + 1, f"Leave out the rest once {self._condition(node.until)}.")
+            self._open(
+                node.id,
+                indent + 1,
+                message("Leave out the rest once {condition}.", condition=self._condition(node.until)),
+            )
 
     def _optional(self, node: Optional, indent: int) -> None:
-        worth = f", worth {say_number(node.reward)}" if node.reward != 1.0 else ""
-        self._open(node.id, indent, f"If the budget allows{worth}{_expected(self._found.get(node.id))}:")
+        expected = say_expected(self._found.get(node.id))
+        if node.reward == 1.0:
+            head = message("If the budget allows {expected}:", expected=expected)
+        else:
+            worth = say_number(node.reward)
+            head = message("If the budget allows, worth {worth} {expected}:", worth=worth, expected=expected)
+        self._open(node.id, indent, head)
         names, taken, moved = self._names, self._taken, self._moved
         self._names, self._taken = dict(names), dict(taken)
         self.node(node.body, indent + 1)
@@ -246,13 +288,13 @@ class _Writer:
         self._taken = {name: replace(t, there=still[name]) for name, t in taken.items()}
 
     def _if(self, node: If, indent: int) -> None:
-        self._open(node.id, indent, f"If {self._condition(node.condition)}:")
+        self._open(node.id, indent, message("If {condition}:", condition=self._condition(node.condition)))
         names, taken, moved = dict(self._names), dict(self._taken), self._moved
         self.node(node.then, indent + 1)
         then_names, then_taken, then_moved = self._names, self._taken, self._moved
         self._names, self._taken, self._moved = names, taken, moved
         if node.otherwise is not None:
-            self._open(node.id, indent, "Otherwise:")
+            self._open(node.id, indent, message("Otherwise:"))
             self.node(node.otherwise, indent + 1)
         # Whichever branch is taken: what only one of them did cannot be counted on.
         self._names = {**then_names, **self._names}
@@ -262,33 +304,11 @@ class _Writer:
         self._taken = {name: replace(taken, there=name in still) for name, taken in both.items()}
 
     def _condition(self, condition: Condition) -> str:
-        where = {name: "there" if t.there else f"of step {t.step}" for name, t in self._taken.items()}
+        where = {
+            name: message("there", context="reading") if t.there else message("of step {number}", number=t.step)
+            for name, t in self._taken.items()
+        }
         return say_condition(condition, where, self._robot)
-
-
-def _expected(found: Found | None) -> str:
-    """Whether an optional step fits by the estimate; how often, where it comes up more than once."""
-    if found is None:
-        return ""
-    fit, times = sum(bool(visit) for visit in found.visits), len(found.visits)
-    if times > 1 and 0 < fit < times:
-        return f" (about {fit} of {times} times by the estimate)"
-    return " (by the estimate it does)" if fit else " (by the estimate it does not)"
-
-
-def _expected_visits(found: Found | None) -> str:
-    """How many optional visits are made on average, the chance of running short, and the few that go first."""
-    if found is None or found.outlook is None:
-        return ""
-    total = len(found.places) + len(found.shed)
-    said = f"{found.outlook.visits:.0f} of {total} expected, {100 * found.short:.0f} % chance of running short"
-    doubtful = sorted((chance, place) for place, chance in found.outlook.chances.items() if chance < _SURE)
-    if 0 < len(doubtful) <= _NAMED:
-        kinds = {place.kind for place in (*found.places, *found.shed)}
-        name = ("tree " if len(doubtful) == 1 else "trees ") if kinds == {"tree"} else ""
-        goes = "goes" if len(doubtful) == 1 else "go"
-        said += f"; {name}{say_places(tuple(place for _, place in doubtful))} {goes} first"
-    return f" ({said})"
 
 
 def _one_line(text: str) -> str:
@@ -299,23 +319,5 @@ def _one_line(text: str) -> str:
 def _aside(selector: Selector, said: str) -> str:
     """What stands in brackets after a place: "north-west corner", "the tree farthest from tree 3"."""
     if isinstance(selector, Corners) and len(selector.which) == 1 and isinstance(selector.of, Trees):
-        return f"{CORNERS[selector.which[0]]} corner"
+        return message("{north_west} corner", north_west=CORNERS[selector.which[0]])
     return said
-
-
-def _which(selector: Selector, found: Found | None) -> str:
-    """The places by name, where they are few and their names are not said yet."""
-    if found is None:
-        return ""
-    ids = tuple(p.id for p in found.places)
-    named = f"{say_places(ids)}" if len(ids) <= 12 else ""
-    said = say_selector(selector)
-    if found.known:
-        return f" ({named})" if named and not all(i in said.split() for i in ids) else ""
-    return f" (decided on the way; most likely {say_places(ids)})"
-
-
-def _order(node: ForEach, count: int) -> str:
-    if count < 2:
-        return ""
-    return ", in that order" if node.order == "given" else ", in the order that drives least"

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from fieldhand.cli.options import JsonOption, LenientOption, PictureOption, RobotOption, SiteOption
+from fieldhand.cli.options import JsonOption, LangOption, LenientOption, PictureOption, RobotOption, SiteOption
 
 
 def check(
@@ -16,33 +16,44 @@ def check(
     robot: RobotOption = "husky",
     picture: PictureOption = None,
     lenient: LenientOption = False,
+    lang: LangOption = None,
     json: JsonOption = False,
 ) -> None:
     """Check a Task against a site and a robot; exit status 1 if anything forbids approval."""
+    import os
+
     from fieldhand import mission
     from fieldhand.cli import show
     from fieldhand.cli.inputs import open_ground
+    from fieldhand.language import spoken
 
+    language = spoken(lang, os.environ)
     ground = open_ground(site, robot, lenient=lenient)
     read, document = mission.read_task(task, ground.robot)
     review = mission.review(read, ground.site, ground.robot, document=document)
     if picture is not None:
         from fieldhand.cli.pictures import draw_plan
 
-        draw_plan(picture, review, ground)
+        draw_plan(picture, review, ground, language)
     if json:
-        show.print_json(show.review_record(review))
+        show.print_json(show.review_record(review, language))
     else:
-        show.show_review(review)
+        show.show_review(review, language)
         show.out.print()
-        show.out.print(_verdict(len(review.errors), len(review.warnings)))
+        show.out.print(language.say(_verdict(len(review.errors), len(review.warnings))))
     if review.errors:
         raise SystemExit(1)
 
 
 def _verdict(errors: int, warnings: int) -> str:
+    from fieldhand.language import counted, message
+
     if errors:
-        return f"Not ready: {errors} error{'s' if errors > 1 else ''}."
+        return counted("Not ready: {count} error.", "Not ready: {count} errors.", errors)
     if warnings:
-        return f"Ready for approval once {'the warning is' if warnings == 1 else f'{warnings} warnings are'} confirmed."
-    return "Ready for approval."
+        return counted(
+            "Ready for approval once the warning is confirmed.",
+            "Ready for approval once {count} warnings are confirmed.",
+            warnings,
+        )
+    return message("Ready for approval.")

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from fieldhand.cli.options import SeedOption
+from fieldhand.cli.options import LangOption, SeedOption
 
 REQUEST = (
     "Take a thermal picture at the four corner trees, in any order, and where the canopy is hotter than 34 °C measure"
@@ -21,8 +21,10 @@ def demo(
         "out"
     ),
     seed: SeedOption = 7,
+    lang: LangOption = None,
 ) -> None:
     """Plan, approve, drive and judge a mission on the built-in orchard."""
+    import os
     import shutil
 
     from fieldhand.cli import show
@@ -30,11 +32,13 @@ def demo(
     from fieldhand.cli.flight import Orders, fly
     from fieldhand.cli.inputs import open_ground
     from fieldhand.execution.world import World
+    from fieldhand.language import spoken
 
     ground = open_ground("demo", "husky")
     task, document, planner = plan_or_read(REQUEST, ground, "english", None, Replies())
     # Nobody is there to read the warning that the budget is tight; it is shown, and the report says it was confirmed.
-    orders = Orders(ask=False, confirm=True, by="demo", world=World(), seed=seed, folder=output)
+    language = spoken(lang, os.environ)
+    orders = Orders(ask=False, confirm=True, by="demo", world=World(), seed=seed, folder=output, language=language)
     status = fly(ground, task, document, orders, planner=planner)
     show.heading("Try next")
     if shutil.which("fieldhand") is None:

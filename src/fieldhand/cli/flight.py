@@ -15,6 +15,7 @@ from fieldhand import mission
 from fieldhand.cli import show
 from fieldhand.cli.inputs import Ground, may_ask, write_file
 from fieldhand.errors import InputError, NotApprovedError, NotConfirmedError
+from fieldhand.language import ENGLISH, Language, counted, message
 from fieldhand.task.frames import Task
 from fieldhand.task.results import Ended, Event
 
@@ -36,6 +37,7 @@ class Orders:
         log: Where to write the event log beside the one in ``folder``.
         folder: Where to leave Task, map, events and report.
         quiet: Print one JSON object at the end and nothing else.
+        language: In which the plan is read back.
     """
 
     ask: bool
@@ -47,6 +49,7 @@ class Orders:
     log: Path | None = None
     folder: Path | None = None
     quiet: bool = False
+    language: Language = ENGLISH
 
 
 def fly(ground: Ground, task: Task, document: bytes | None, orders: Orders, *, planner: str) -> int:
@@ -89,11 +92,11 @@ def parse_speed(text: str) -> float | None:
 def _review(ground: Ground, task: Task, document: bytes | None, orders: Orders) -> mission.Review:
     review = mission.review(task, ground.site, ground.robot, document=document)
     if not orders.quiet:
-        show.show_review(review)
+        show.show_review(review, orders.language)
         if review.errors:
             raise NotApprovedError("not approved: mend the errors above first")
     elif review.errors:
-        raise NotApprovedError("; ".join(str(p) for p in review.errors))
+        raise NotApprovedError("; ".join(orders.language.say(p.line()) for p in review.errors))
     return review
 
 
@@ -101,16 +104,17 @@ def _approve(ground: Ground, review: mission.Review, orders: Orders) -> Authoriz
     if orders.ask and not may_ask():
         raise NotApprovedError("nobody is here to approve", advice="give --yes if you have read the plan")
     if review.warnings and not orders.confirm:
-        _confirm(review.warnings, orders)
+        _confirm(orders.language.read(review.warnings), orders)
     if orders.ask:
-        _ask("Approve and carry out?")
+        _ask(orders.language.say(message("Approve and carry out?")))
     return mission.authorize(
         review.task,
         ground.site,
         ground.robot,
         by=orders.by or _user(),
         at=datetime.now(UTC),
-        confirmed=review.warnings,
+        confirmed=orders.language.read(review.warnings),
+        language=orders.language.code,
     )
 
 
@@ -123,8 +127,12 @@ def _confirm(warnings: tuple[str, ...], orders: Orders) -> None:
     """
     if not orders.ask:
         raise NotConfirmedError(warnings, advice="give --confirm, too, if the plan is right in spite of that")
-    spite = "the warning above" if len(warnings) == 1 else f"the {len(warnings)} warnings above"
-    _ask(f"Is the plan right in spite of {spite}?")
+    question = counted(
+        "Is the plan right in spite of the warning above?",
+        "Is the plan right in spite of the {count} warnings above?",
+        len(warnings),
+    )
+    _ask(orders.language.say(question))
 
 
 def _ask(question: str) -> None:
@@ -142,7 +150,7 @@ def _leave_plan(ground: Ground, review: mission.Review, document: bytes | None, 
     from fieldhand.task.codec import encode
 
     write_file(orders.folder / "task.xml", document or encode(review.task))
-    draw_plan(orders.folder / "map.png", review, ground)
+    draw_plan(orders.folder / "map.png", review, ground, orders.language)
 
 
 def _carry_out(ground: Ground, authorized: AuthorizedTask, orders: Orders) -> tuple[Event, ...]:

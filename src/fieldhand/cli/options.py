@@ -34,6 +34,10 @@ AssumeOption = Annotated[
     bool, typer.Option("--assume", help="Take the first choice of each question, and say so in the plan.")
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object instead of text.")]
+LangOption = Annotated[
+    str | None,
+    typer.Option("--lang", help="Language to read back in: en, es; else the environment's (LANG) if there is one."),
+]
 PictureOption = Annotated[Path | None, typer.Option("--picture", help="Draw a map to this PNG file.")]
 SeedOption = Annotated[int, typer.Option("--seed", min=0, help="Same seed, same mission.")]
 CpuTimeOption = Annotated[

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldhand.cli.show import note
 from fieldhand.errors import NotApprovedError
+from fieldhand.language import ENGLISH, Language
 from fieldhand.mission import Review
 
 if TYPE_CHECKING:
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from fieldhand.planning.planner import Clarify
 
 
-def draw_plan(path: Path, review: Review, ground: Ground) -> None:
+def draw_plan(path: Path, review: Review, ground: Ground, language: Language = ENGLISH) -> None:
     """The map of a planned mission.
 
     Raises:
@@ -22,11 +23,11 @@ def draw_plan(path: Path, review: Review, ground: Ground) -> None:
         OutputError: The file cannot be written.
     """
     if review.estimate is None:
-        problems = "; ".join(str(p) for p in review.errors)
+        problems = "; ".join(language.say(p.line()) for p in review.errors)
         raise NotApprovedError(f"there is no map of a mission that cannot be driven: {problems}", where=str(path))
     from fieldhand.approval.preview import save_map
 
-    save_map(review.task, ground.site, ground.robot, review.estimate, path)
+    save_map(review.task, ground.site, ground.robot, review.estimate, path, language)
 
 
 def draw_question(path: Path, asked: Clarify, ground: Ground) -> None:

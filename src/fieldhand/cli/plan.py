@@ -12,6 +12,7 @@ from fieldhand.cli.options import (
     AnswerOption,
     AssumeOption,
     JsonOption,
+    LangOption,
     LenientOption,
     PictureOption,
     PlannerOption,
@@ -32,6 +33,7 @@ def plan(
     assume: AssumeOption = False,
     transcript: TranscriptOption = None,
     lenient: LenientOption = False,
+    lang: LangOption = None,
     json: JsonOption = False,
 ) -> None:
     """Plan a request: what was understood, where, and what it will take."""
@@ -42,9 +44,11 @@ def plan(
     from fieldhand.cli.asking import Replies, plan_and_ask
     from fieldhand.cli.inputs import open_ground, write_file
     from fieldhand.cli.pictures import draw_plan, draw_question
+    from fieldhand.language import message, spoken
     from fieldhand.planning.planner import Planned
     from fieldhand.task.codec import encode
 
+    language = spoken(lang, os.environ)
     ground = open_ground(site, robot, lenient=lenient)
     chosen = mission.make_planner(planner, os.environ, transcript)
     replies = Replies(given=tuple(answer or ()), assume=assume, ask=not json)
@@ -61,14 +65,15 @@ def plan(
     if output is not None:
         write_file(output, document)
     if picture is not None:
-        draw_plan(picture, review, ground)
+        draw_plan(picture, review, ground, language)
     if json:
-        record = show.outcome_record(outcome) | show.review_record(review) | {"xml": document.decode()}
+        record = show.outcome_record(outcome) | show.review_record(review, language) | {"xml": document.decode()}
         show.print_json(record)
     else:
-        show.show_review(review)
-        for what, path in (("Task", output), ("Map", picture)):
-            if path is not None:
-                show.out.print(f"{what}: {path}")
+        show.show_review(review, language)
+        if output is not None:
+            show.out.print(language.say(message("Task: {file}", file=str(output))))
+        if picture is not None:
+            show.out.print(language.say(message("Map: {file}", file=str(picture))))
     if review.errors:
         raise SystemExit(1)

@@ -11,6 +11,7 @@ from fieldhand.cli.options import (
     AnswerOption,
     AssumeOption,
     JsonOption,
+    LangOption,
     LenientOption,
     PlannerOption,
     RobotOption,
@@ -42,15 +43,20 @@ def run(
     assume: AssumeOption = False,
     transcript: TranscriptOption = None,
     lenient: LenientOption = False,
+    lang: LangOption = None,
     json: JsonOption = False,
 ) -> None:
     """Plan, approve and carry out a mission in simulation, then judge it."""
+    import os
+
     from fieldhand import mission
     from fieldhand.cli.asking import Replies, plan_or_read
     from fieldhand.cli.flight import Orders, fly, parse_speed
     from fieldhand.cli.inputs import open_ground
     from fieldhand.execution.world import World, load_world
+    from fieldhand.language import spoken
 
+    language = spoken(lang, os.environ)
     pace = parse_speed(speed)
     ground = open_ground(site, robot, lenient=lenient)
     given = World() if world is None else load_world(world)
@@ -67,5 +73,6 @@ def run(
         log=events,
         folder=output,
         quiet=json,
+        language=language,
     )
     raise SystemExit(fly(ground, task, document, orders, planner=planned_by))

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from rich.console import Console
 from rich.text import Text
 
+from fieldhand.language import ENGLISH, Language, message
 from fieldhand.planning.planner import Clarify, Planned, Reason, Refused
 from fieldhand.task.account import NAMES, Role, account, has_ranges
 
@@ -121,16 +122,24 @@ def outcome_record(outcome: Planned | Clarify | Refused) -> dict[str, Any]:
             return {"outcome": "refused", "reasons": reasons}
 
 
-def review_record(review: Review) -> dict[str, Any]:
-    """A review as JSON."""
+def review_record(review: Review, language: Language = ENGLISH) -> dict[str, Any]:
+    """A review as JSON, its words in that language."""
+    words = review.read_back
     return {
         "task": review.task.id,
+        "language": language.code,
         "problems": [
-            {"severity": p.severity, "node": p.node, "where": p.where, "what": p.what, "advice": p.advice}
+            {
+                "severity": p.severity,
+                "node": p.node,
+                "where": language.say(p.where),
+                "what": language.say(p.what),
+                "advice": language.say(p.advice),
+            }
             for p in review.problems
         ],
-        "warnings": list(review.warnings),
-        "read_back": [] if review.read_back is None else list(review.read_back.text_lines()),
+        "warnings": list(language.read(review.warnings)),
+        "read_back": [] if words is None else list(language.read(words.text_lines())),
         "estimate": None if review.estimate is None else review.estimate.as_record(),
     }
 
@@ -152,18 +161,18 @@ def mission_record(
     }
 
 
-def show_request(task: Task) -> None:
+def show_request(task: Task, language: Language = ENGLISH) -> None:
     """The request with what became of its words: in colour, or else word by word behind it."""
     pieces = [piece for piece in account(task) if piece.text.strip()]
     if not pieces:
         return
-    heading("The request")
+    heading(language.say(message("The request")))
     if not has_ranges(task):
         out.print(Text(f"  {task.command.request}"))
         return
     if out.color_system is None or out.no_color:
         out.print(Text(f"  {task.command.request}"))
-        named = [f"{NAMES[p.role]}: {p.text.strip()}" for p in pieces if p.role in NAMES]
+        named = [f"{language.say(NAMES[p.role])}: {p.text.strip()}" for p in pieces if p.role in NAMES]
         out.print(Text(f"  ({'; '.join(named)})"))
         return
     coloured = Text("  ")
@@ -171,26 +180,27 @@ def show_request(task: Task) -> None:
         coloured.append(piece.text, style=WORDS.get(piece.role, ""))
     out.print(coloured)
     used = [role for role in WORDS if any(piece.role == role for piece in pieces)]
-    out.print(Text("  ") + Text("  ").join(Text(NAMES[role], style=WORDS[role]) for role in used))
+    out.print(Text("  ") + Text("  ").join(Text(language.say(NAMES[role]), style=WORDS[role]) for role in used))
 
 
-def show_review(review: Review) -> None:
-    """The read-back, then every problem on its own line."""
-    show_request(review.task)
+def show_review(review: Review, language: Language = ENGLISH) -> None:
+    """The read-back in that language, then every problem on its own line."""
+    show_request(review.task, language)
     if review.read_back is not None:
-        heading("What will be done")
-        for line in review.read_back.text_lines():
+        heading(language.say(message("What will be done")))
+        for line in language.read(review.read_back.text_lines()):
             out.print(Text(line))
-    show_problems(review)
+    show_problems(review, language)
 
 
-def show_problems(review: Review) -> None:
+def show_problems(review: Review, language: Language = ENGLISH) -> None:
     """Every problem on its own line, errors first."""
     if review.problems:
-        heading("Problems")
+        heading(language.say(message("Problems")))
     for problem in sorted(review.problems, key=lambda p: p.severity != "error"):
         style = "red" if problem.severity == "error" else "yellow"
-        out.print(Text(f"{problem.severity}: ", style=style) + Text(str(problem)))
+        kind = message("error: ") if problem.severity == "error" else message("warning: ")
+        out.print(Text(language.say(kind), style=style) + Text(language.say(problem.line())))
 
 
 def show_outcomes(outcomes: Sequence[GoalOutcome], name: Callable[[str], str]) -> None:

@@ -13,10 +13,12 @@ from fieldhand.forecast.branches import branches
 from fieldhand.forecast.drawn import DRAWS
 from fieldhand.forecast.limits import Resource, ResourceKind, resources_of, speed_of
 from fieldhand.forecast.steps import Decision, Walk
+from fieldhand.language import message
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import AnyOrder, ForEach, If, Node, Optional, Repeat, Sequence, Try, is_optional
+from fieldhand.task.words import say_rounded
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -238,22 +240,35 @@ def _problems(
         need = alone * resource.per_metre
         if need > resource.limit * (1 + 1e-9):
             found.append(
-                f"{name} of {resource.limit:.0f} {unit} is too small: driving home from the start alone takes "
-                f"{need:.0f} {unit} on average"
+                message(
+                    "{budget} of {limit} {unit} is too small: driving home from the start alone takes {need} {unit} on"
+                    " average",
+                    budget=name,
+                    limit=say_rounded(resource.limit),
+                    unit=unit,
+                    need=say_rounded(need),
+                )
             )
         elif chance.exceeded and not worst.visits:
             used = {"distance_m": worst.metres, "duration_s": worst.seconds}.get(resource.kind, worst.percent)
             found.append(
-                f"{name} of {resource.limit:.0f} {unit} does not last for what must be done: it takes "
-                f"{used.mean:.0f} {unit} on average, {chance.chance:.0%} chance of running short where "
-                f"{resource.failure_probability:.0%} is accepted"
+                message(
+                    "{budget} of {limit} {unit} does not last for what must be done: it takes {need} {unit} on average,"
+                    " {chance}% chance of running short where {accepted}% is accepted",
+                    budget=name,
+                    limit=say_rounded(resource.limit),
+                    unit=unit,
+                    need=say_rounded(used.mean),
+                    chance=say_rounded(100 * chance.chance),
+                    accepted=say_rounded(100 * resource.failure_probability),
+                )
             )
     return tuple(found)
 
 
 _WORDS: dict[ResourceKind, tuple[str, str]] = {
-    "distance_m": ("the distance budget", "m"),
-    "duration_s": ("the time budget", "s"),
-    "energy_percent": ("the energy budget", "% of the battery"),
-    "reserve": ("the charge above the reserve", "% of the battery"),
+    "distance_m": (message("the distance budget"), "m"),
+    "duration_s": (message("the time budget"), "s"),
+    "energy_percent": (message("the energy budget"), message("% of the battery")),
+    "reserve": (message("the charge above the reserve"), message("% of the battery")),
 }

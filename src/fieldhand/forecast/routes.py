@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fieldhand.errors import PlaceError
+from fieldhand.language import joined, message
 from fieldhand.orienteering.order import shortest_order
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context
@@ -164,7 +165,11 @@ def places_of(node: Node, selector: Selector, site: Site, context: Context) -> t
     except PlaceError as error:
         raise at_node(error, node) from error
     if not places:
-        raise PlaceError("no place of this site is meant", where=node.id, advice="check what the words select")
+        raise PlaceError(
+            message("no place of this site is meant"),
+            where=node.id,
+            advice=message("check what the words select"),
+        )
     return tuple(places)
 
 
@@ -172,7 +177,7 @@ def at_node(error: PlaceError, node: Node) -> PlaceError:
     """The error with the plan node in which the place is named."""
     if error.where == node.id or error.where.startswith(f"{node.id}, "):
         return error
-    where = f"{node.id}, {error.where}" if error.where else node.id
+    where = joined(", ", (node.id, error.where)) if error.where else node.id
     return PlaceError(error.what, where=where, advice=error.advice)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
+from fieldhand.language import message
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.frames import Task
@@ -51,8 +52,14 @@ class Answer:
 
     def __str__(self) -> str:
         """A sentence for the assumptions of a Task."""
-        how = "Taken without asking" if self.assumed else "Answered"
-        return f'Asked: "{self.question}" {how}: "{self.answer}".'
+        return str(self.sentence())
+
+    def sentence(self) -> str:
+        """The same as a message, for other languages."""
+        fills = {"question": self.question, "answer": self.answer}
+        if self.assumed:
+            return message('Asked: "{question}" Taken without asking: "{answer}".', context="assumption", **fills)
+        return message('Asked: "{question}" Answered: "{answer}".', context="assumption", **fills)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -54,6 +54,18 @@ def _choice(value: str) -> str:
     return value
 
 
+def _code(value: str) -> str:
+    if not re.fullmatch(r"[a-z]{2,3}", value):
+        raise ValueError(f"{value!r} is not the code of a language: use two or three lower-case letters, such as es")
+    return value
+
+
+def _label(value: str) -> str:
+    if not value.strip() or not value.isprintable() or len(value) > 80:
+        raise ValueError(f"{value[:80]!r} is not a label: use at most 80 characters on one line")
+    return value.strip()
+
+
 def _each_once(values: tuple[str, ...]) -> tuple[str, ...]:
     twice = sorted({v for v in values if values.count(v) > 1})
     if twice:
@@ -67,6 +79,7 @@ NotNegative = Annotated[Number, Field(ge=0)]
 Name = Annotated[str, AfterValidator(_name)]
 Words = Annotated[tuple[Annotated[str, AfterValidator(_word)], ...], AfterValidator(_each_once)]
 Choice = Annotated[str, AfterValidator(_choice)]
+Labels = dict[Annotated[str, AfterValidator(_code)], Annotated[str, AfterValidator(_label)]]
 
 
 class Keyed(BaseModel):
@@ -110,6 +123,7 @@ class QuantityDocument(Keyed):
     maximum: Number
     typical: Number
     spread: NotNegative
+    labels: Labels = {}
 
     @model_validator(mode="after")
     def _ranges(self) -> QuantityDocument:
@@ -157,6 +171,7 @@ class ParameterDocument(Keyed):
 class ActionDocument(Keyed):
     """Something that the robot does at a place."""
 
+    labels: Labels = {}
     description: str = ""
     words: Annotated[Words, Field(min_length=1)]
     verbs: Words = ()

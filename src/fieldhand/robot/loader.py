@@ -218,6 +218,7 @@ def _quantity(name: str, document: QuantityDocument) -> Quantity:
         maximum=document.maximum,
         typical=document.typical,
         spread=document.spread,
+        labels=document.labels,
     )
 
 
@@ -238,6 +239,7 @@ def _action(name: str, document: ActionDocument) -> Action:
         energy_j=document.energy_j,
         parameters=tuple(_parameter(key, p) for key, p in document.parameters.items()),
         description=document.description,
+        labels=document.labels,
     )
 
 

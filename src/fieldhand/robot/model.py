@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal
 
@@ -27,6 +27,7 @@ class Quantity:
         unit: ``degC``, ``ppm``, ``percent``, or another unit, as readings are reported.
         words: How people say it ("temperature", "canopy temperature").
         levels: Words such as "low" and "high", each with its threshold.
+        labels: Its name with its article in other languages, by their codes.
         minimum, maximum: Range of a believable reading.
         typical, spread: Mean and standard deviation that the simulation draws from where a world file says nothing.
     """
@@ -39,6 +40,7 @@ class Quantity:
     maximum: float
     typical: float
     spread: float
+    labels: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,6 +65,7 @@ class Action:
         verbs: Verbs that by themselves mean this action ("photograph"); take, measure and read need no entry.
         measures: Names of the quantities that one capture yields.
         duration_s, energy_j: Of one capture.
+        labels: What is done, once, in other languages, by their codes ("tomar una fotografía").
     """
 
     name: str
@@ -73,6 +76,7 @@ class Action:
     energy_j: float
     parameters: tuple[Parameter, ...] = ()
     description: str = ""
+    labels: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True)

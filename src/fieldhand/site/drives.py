@@ -16,6 +16,7 @@ import shapely
 from numpy.typing import NDArray
 
 from fieldhand.errors import DriveFault
+from fieldhand.language import message
 from fieldhand.site.driving.layout import Layout
 from fieldhand.site.driving.network import Network, network_of
 from fieldhand.site.driving.reasons import cut_off, no_stand
@@ -24,6 +25,8 @@ from fieldhand.site.driving.sides import Visited, few_lanes, pick
 from fieldhand.site.driving.spots import Spot
 from fieldhand.site.driving.stands import Candidate, Stands
 from fieldhand.site.model import Place, Site
+from fieldhand.site.places.saying import say_marker, say_tree
+from fieldhand.task.words import say_number
 
 XY = tuple[float, float]
 Key = tuple[str, str, XY, XY | None]
@@ -254,10 +257,10 @@ class Drives:
             outside = np.full(len(new), bool(boundaries := self.site.zones_of("boundary")))
             for zone in boundaries:
                 outside &= ~shapely.intersects_xy(zone.polygon, at[:, 0], at[:, 1])
-            reasons = ["outside the boundary" if out else "" for out in outside.tolist()]
+            reasons = [message("outside the boundary") if out else "" for out in outside.tolist()]
             for zone in reversed(self.site.zones_of("keep_out")):
                 for k in np.flatnonzero(shapely.contains_xy(zone.polygon, at[:, 0], at[:, 1])).tolist():
-                    reasons[k] = f"inside the keep-out {zone.name!r}"
+                    reasons[k] = message("inside the keep-out '{zone}'", zone=zone.name)
             for place, reason, able in zip(new, reasons, self._able_of(new), strict=True):
                 self._closed[_key(place)] = reason or ("" if able else self._no_stand(place))
         return [self._closed[_key(p)] for p in places]
@@ -303,17 +306,24 @@ class Drives:
         for place, reason in zip(places, self._impossible(places), strict=True):
             if reason:
                 raise DriveFault(
-                    f"{_called(place)} is {reason}",
+                    message("{place} is {reason}", place=_called(place), reason=reason),
                     where=self.site.name,
-                    advice="choose another place, or correct the site",
+                    advice=message("choose another place, or correct the site"),
                 )
 
     def _no_way(self, a: Place, b: Place) -> DriveFault:
-        why = next((f": {_called(p)} is {reason}" for p in (b, a) if (reason := self._cut_off((p,))[0])), "")
+        way = message(
+            "there is no way from {start} to {goal} for a robot {width} m wide",
+            start=_called(a),
+            goal=_called(b),
+            width=say_number(2 * self.clearance_m),
+        )
+        why = next((message("{place} is {reason}", place=_called(p), reason=reason) for p in (b, a)
+                    if (reason := self._cut_off((p,))[0])), "")  # fmt: skip
         return DriveFault(
-            f"there is no way from {_called(a)} to {_called(b)} for a robot {2 * self.clearance_m:g} m wide{why}",
+            message("{what}: {why}", what=way, why=why) if why else way,
             where=self.site.name,
-            advice="keep-outs, rows or the boundary close it off; choose other places",
+            advice=message("keep-outs, rows or the boundary close it off; choose other places"),
         )
 
 
@@ -322,4 +332,6 @@ def _key(place: Place) -> Key:
 
 
 def _called(place: Place) -> str:
-    return {"tree": f"tree {place.id}", "marker": f"the {place.id} marker"}.get(place.kind, place.id)
+    if place.kind == "tree":
+        return say_tree(place.id)
+    return say_marker(place.id) if place.kind == "marker" else place.id

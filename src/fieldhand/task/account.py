@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import Literal, get_args
 
+from fieldhand.language import message
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import (
     Act,
@@ -35,14 +36,14 @@ ROLES: tuple[Role, ...] = get_args(Role)
 
 #: How each is called; ``between`` has no name, since it is nothing to show.
 NAMES: dict[Role, str] = {
-    "action": "action",
-    "place": "place",
-    "condition": "condition",
-    "limit": "limit",
-    "order": "order",
-    "end": "end",
-    "no_part": "no part in the plan",
-    "nothing": "not in the plan",
+    "action": message("action", context="role"),
+    "place": message("place", context="role"),
+    "condition": message("condition", context="role"),
+    "limit": message("limit", context="role"),
+    "order": message("order", context="role"),
+    "end": message("end", context="role"),
+    "no_part": message("no part in the plan", context="role"),
+    "nothing": message("not in the plan", context="role"),
 }
 #: What the words of a node are, by its kind.
 _OF_NODE: dict[type[Node], Role] = {

@@ -18,7 +18,8 @@ class Authorization:
         by: Who approved.
         at: When, ISO 8601 with time zone.
         task_sha256, site_sha256, robot_sha256: Of the Task document, the site file and the profile that were approved.
-        confirmed: Every warning of the Task there, each shown and accepted.
+        confirmed: Every warning of the Task there, each shown and accepted, as it was shown.
+        language: In which it was read and approved, by its code (ISO 639).
     """
 
     by: str
@@ -27,6 +28,7 @@ class Authorization:
     site_sha256: str
     robot_sha256: str
     confirmed: tuple[str, ...] = ()
+    language: str = "en"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,6 +1,7 @@
-"""How the nouns of a Task are said in English: numbers, units, lists, sides, actions. No grammar of selectors here.
+"""How the nouns of a Task are said: numbers, units, lists, sides, actions. No grammar of selectors here.
 
-Shared by whatever speaks to a person (read-back, map, report), so that one thing has one name everywhere.
+Shared by whatever speaks to a person (read-back, map, report), so that one thing has one name everywhere. What is given
+back is English, as messages that every language of :mod:`fieldhand.language` can say.
 """
 
 from __future__ import annotations
@@ -8,11 +9,34 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from typing import Literal
 
+from fieldhand.language import Message, Number, counted, joined, message, named, shaped
 from fieldhand.task.selectors import CornerName, Side, Test
 
-SIDES: dict[Side, str] = {"north": "northern", "east": "eastern", "south": "southern", "west": "western"}
-CORNERS: dict[CornerName, str] = {"nw": "north-west", "ne": "north-east", "se": "south-east", "sw": "south-west"}
+SIDES: dict[Side, str] = {
+    "north": message("northern"),
+    "east": message("eastern"),
+    "south": message("southern"),
+    "west": message("western"),
+}
+CORNERS: dict[CornerName, str] = {
+    "nw": message("north-west"),
+    "ne": message("north-east"),
+    "se": message("south-east"),
+    "sw": message("south-west"),
+}
+#: Where something is or goes: "from the north". Finer winds as well, since lines run every way.
+COMPASS: dict[str, str] = {
+    "north": message("north", context="compass"),
+    "north-east": message("north-east", context="compass"),
+    "east": message("east", context="compass"),
+    "south-east": message("south-east", context="compass"),
+    "south": message("south", context="compass"),
+    "south-west": message("south-west", context="compass"),
+    "west": message("west", context="compass"),
+    "north-west": message("north-west", context="compass"),
+}
 TESTS: dict[Test, str] = {
     "lt": "below",
     "le": "at most",
@@ -43,23 +67,32 @@ _READING_VERBS = frozenset({"read", "measure", "record", "sense", "monitor", "in
 
 def say_name(name: str) -> str:
     """A name with underscores as words: ``ambient_temperature`` is "ambient temperature", ``co2`` is "CO₂"."""
+    words = _words(name)
+    return named(words, "name", message("“{name}”", context="name", name=words))
+
+
+def _words(name: str) -> str:
     return " ".join(_ACRONYMS.get(part.lower(), part) for part in re.split(r"[_\s]+", name) if part)
 
 
 def say_number(value: float, digits: int = 6) -> str:
     """A number without needless digits: 33.0 is "33", 0.5 is "0.5"."""
     if not math.isfinite(value):
-        return "an unknown number"
+        return message("an unknown number")
     text = f"{value:.{digits}g}"
     if "e" in text:
         text = f"{value:,.0f}" if abs(value) >= 1 else f"{value:.{digits}f}".rstrip("0").rstrip(".")
-    return text.replace("-", _MINUS)
+    return Number(text.replace("-", _MINUS))
+
+
+def say_rounded(value: float, digits: int = 0) -> str:
+    """A number with so many digits after the point: 12.345 with one is "12.3"."""
+    return Number(f"{value:.{digits}f}")
 
 
 def say_quantity(value: float, unit: str) -> str:
     """A value with its unit: "33 °C", "40 %", "400 ppm"."""
-    pretty = UNITS.get(unit, unit.replace("_", " "))
-    return f"{say_number(value)} {pretty}".rstrip()
+    return joined(" ", [part for part in (say_number(value), say_unit(unit)) if part])
 
 
 def say_unit(unit: str) -> str:
@@ -70,16 +103,16 @@ def say_unit(unit: str) -> str:
 def say_value(value: str | float | bool) -> str:
     """An attribute's value: "yellow", "12.5", "yes"."""
     if isinstance(value, bool):
-        return "yes" if value else "no"
+        return message("yes") if value else message("no")
     return value if isinstance(value, str) else say_number(value)
 
 
 def say_duration(seconds: float) -> str:
     """A duration as people say it: "45 s", "12 min", "1 h 05 min". Safe for what no mission lasts."""
     if math.isnan(seconds):
-        return "an unknown time"
+        return message("an unknown time")
     if seconds > _YEARS_S:
-        return "more than ten years"
+        return message("more than ten years")
     if seconds < 90:
         return f"{seconds:.0f} s"
     minutes = round(seconds / 60)
@@ -88,12 +121,14 @@ def say_duration(seconds: float) -> str:
 
 def say_times(count: int) -> str:
     """How often: "once", "twice", "5 times"."""
-    return {1: "once", 2: "twice"}.get(count, f"{count} times")
+    if count == 1:
+        return message("once")
+    return message("twice") if count == 2 else message("{count} times", count=count)
 
 
 def say_count(count: int, noun: str) -> str:
     """A count with its noun: "1 tree", "4 trees"."""
-    return f"{count} {noun if count == 1 else plural(noun)}"
+    return counted(f"{{count}} {noun}", f"{{count}} {plural(noun)}", count)
 
 
 def plural(noun: str) -> str:
@@ -120,34 +155,50 @@ def article(noun: str) -> str:
     return f"{'an' if vowel else 'a'} {noun}"
 
 
-def listed(items: Sequence[str], last: str = "and") -> str:
+def listed(items: Sequence[str], last: Literal["and", "or"] = "and") -> str:
     """A list in words: "81, 12 and 5"."""
     if len(items) < 2:
-        return "".join(items)
-    return f"{', '.join(items[:-1])} {last} {items[-1]}"
+        return joined("", items)
+    held = joined(", ", items[:-1])
+    if last == "or":
+        return message("{items} or {last}", items=held, last=items[-1])
+    return message("{items} and {last}", items=held, last=items[-1])
 
 
 def say_action(name: str, count: int = 1) -> str:
     """An action as a verb phrase: "take a thermal picture", "read the soil moisture twice", "sample 2 leaves"."""
     verb, _, rest = name.strip("_").partition("_")
-    thing = say_name(rest)
+    thing = _words(rest)
     if not thing:
-        return say_name(verb) if count == 1 else f"{say_name(verb)} {say_times(count)}"
+        return _of_action(_words(verb), f"{_words(verb)} {{times}}", count)
     if verb in _READING_VERBS:
         bare = thing if thing in _ACRONYMS.values() else f"the {thing}"
-        return f"{verb} {bare}" if count == 1 else f"{verb} {bare} {say_times(count)}"
-    return f"{verb} {article(thing)}" if count == 1 else f"{verb} {count} {plural(thing)}"
+        return _of_action(f"{verb} {bare}", f"{verb} {bare} {{times}}", count)
+    return _of_action(f"{verb} {article(thing)}", f"{verb} {{count}} {plural(thing)}", count)
 
 
 def say_captures(name: str, count: int) -> str:
     """What an action yields, counted: "3 thermal pictures", "1 reading of CO₂"."""
     verb, _, rest = name.strip("_").partition("_")
-    thing = say_name(rest) or say_name(verb)
-    if verb in _READING_VERBS:
-        return f"{count} {thing} {'reading' if count == 1 else 'readings'}"
-    return f"{count} {thing if count == 1 else plural(thing)}"
+    thing = _words(rest) or _words(verb)
+    one, many = (f"{thing} reading", f"{thing} readings") if verb in _READING_VERBS else (thing, plural(thing))
+    said = counted(f"{{count}} {one}", f"{{count}} {many}", count, context="captures")
+    said.instead = counted("{count} capture of “{name}”", "{count} captures of “{name}”", count, name=thing)
+    return said
+
+
+def _of_action(once: str, often: str, count: int) -> Message:
+    """A verb phrase that a catalogue may know; else it is quoted."""
+    said = counted(once, often, count, context="action", times=say_times(count))
+    quoted = message("do “{action}”", action=once)
+    said.instead = quoted if count == 1 else message("do “{action}” {times}", action=once, times=say_times(count))
+    return said
 
 
 def capitalised(text: str) -> str:
     """The text with its first letter in upper case, the rest as it is."""
+    return shaped(text, _with_capital)
+
+
+def _with_capital(text: str) -> str:
     return text[:1].upper() + text[1:]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fieldhand.language import message
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.hand import ACTS, Hand
@@ -13,6 +14,7 @@ from fieldhand.planning.english.tokens import Term
 from fieldhand.task import conditions as c
 from fieldhand.task import selectors as s
 from fieldhand.task.conditions import readings
+from fieldhand.task.words import say_action
 
 
 class Cases(Hand):
@@ -149,7 +151,12 @@ class Cases(Hand):
         if level != said.level and self._choice in self._sentence_choices:
             names = {cap.action for cap in before}
             known[:] = [cap for cap in known if cap.action in names]
-            self.told.assumptions.append(f"'{text_of(terms)}' is another case of the reading that was tested before.")
+            other = message(
+                "'{said}' is another case of the reading that was tested before.",
+                context="assumption",
+                said=text_of(terms),
+            )
+            self.told.assumptions.append(other)
             return True
         return any(t.kind == "IT" and t.text.lower() in ("that", "that one") for t in terms)
 
@@ -183,9 +190,15 @@ class Cases(Hand):
             self._needs_place(part)
         capture = d.Capture(action=predicate.missing, at=at, said=part.said)
         (self._scope if at is not None else self._here(part, None, False)[0]).add(capture)
-        where = "there" if at is not None else "where the robot is then"
-        action = predicate.missing.replace("_", " ")
-        self.told.assumptions.append(f"'{text_of(part.terms)}' is measured first ({action}), {where}.")
+        said, action = text_of(part.terms), say_action(predicate.missing)
+        there = message("'{said}' is measured first ({action}), there.", context="assumption", said=said, action=action)
+        then = message(
+            "'{said}' is measured first ({action}), where the robot is then.",
+            context="assumption",
+            said=said,
+            action=action,
+        )
+        self.told.assumptions.append(there if at is not None else then)
         return capture
 
     def _block_of_condition(self, captures: list[d.Capture], part: Part) -> d.Block:

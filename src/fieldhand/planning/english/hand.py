@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from fieldhand.language import message
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.attributes import hinted
 from fieldhand.planning.english.counting import Wanted, counted, number_of_objects
@@ -165,7 +166,8 @@ class Hand:
 
     def _ranked_by(self, ranking: Ranking, term: Term) -> str:
         if not ranking.said:
-            self.told.assumptions.append(f"'{term.text}' begins with the lowest.")
+            begins = message("'{said}' begins with the lowest.", context="assumption", said=term.text)
+            self.told.assumptions.append(begins)
         if isinstance(ranking.attribute, str):
             return hinted(ranking.attribute, (term,), self._site)
         if len(ranking.attribute) > 1:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from fieldhand.language import message
 from fieldhand.planning.english.asking import how_many
 from fieldhand.planning.english.attributes import filtered
 from fieldhand.planning.english.bag import Bag
@@ -196,7 +197,9 @@ def ends_of_rows(bag: Bag, group: Group, site: Site) -> Found:
                        terms=bag.phrase.terms, words=_ENDS_IN_WORDS)  # fmt: skip
     if plural or bag.each:
         return Found(selector=s.Union(parts=(first, last)), many=True, each=each, assumed=group.assumed)
-    said_as = f"'{text_of(bag.phrase.terms)}' is the one where the count along the row ends."
+    said_as = message(
+        "'{said}' is the one where the count along the row ends.", context="assumption", said=text_of(bag.phrase.terms)
+    )
     return Found(selector=last, many=several, each=each, assumed=(*group.assumed, said_as))
 
 

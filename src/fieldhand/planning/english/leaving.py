@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fieldhand.language import message
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.motion import Motion
@@ -46,7 +47,10 @@ class Leaving(Motion):
         self._allowing = part
         said = text_of(part.terms)
         if said.lower() in _BUDGET_UNSAID:
-            self.told.assumptions.append(f"'{said}' is taken as: if the battery and the budget allow it.")
+            taken = message(
+                "'{said}' is taken as: if the battery and the budget allow it.", context="assumption", said=said
+            )
+            self.told.assumptions.append(taken)
         if before and (ends or part.bare):
             self._leave_out(list(self._last_steps))
             self._allowing = None
@@ -97,7 +101,11 @@ class Leaving(Motion):
         if any(isinstance(step, d.Loop) for step, _ in placed):
             said = text_of(part.terms)
             self.told.assumptions.append(
-                f"'{said}' is said of all of it: it is done as a whole, or left out as a whole."
+                message(
+                    "'{said}' is said of all of it: it is done as a whole, or left out as a whole.",
+                    context="assumption",
+                    said=said,
+                )
             )
         made = d.Maybe(body=d.Block(), said=part.said)
         del holder.steps[at : at + len(whole)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from fieldhand.language import message
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import text_of, unclear
 from fieldhand.planning.english.found import Found
@@ -118,6 +119,7 @@ class Motion(Until):
                 return "return_to_end", None
             return "stay", selector
         if "start" in self._site.markers or "end" not in self._site.markers:
-            self.told.assumptions.append(f"'{text_of(part.terms)}' means back to the start.")
+            said = text_of(part.terms)
+            self.told.assumptions.append(message("'{said}' means back to the start.", context="assumption", said=said))
             return "return_to_start", None
         return "return_to_end", None

@@ -8,11 +8,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from fieldhand.errors import PlaceError, RequestError, TaskError
-from fieldhand.forecast.homeward import costs_too_much
+from fieldhand.language import message
 from fieldhand.planning.english.arrange import Arranged, arrange, without_filler
 from fieldhand.planning.english.discourse import Discourse
 from fieldhand.planning.english.draft import Halt, node_of
 from fieldhand.planning.english.faults import Question, Unclear
+from fieldhand.planning.english.homeward import exit_of, stays_if_home_is_far
 from fieldhand.planning.english.languages import language_of
 from fieldhand.planning.english.leading import places_of_choices
 from fieldhand.planning.english.leaving import place_unsure
@@ -35,12 +36,8 @@ from fieldhand.site.places import resolve
 from fieldhand.task import plan as p
 from fieldhand.task.build import FAULTED_EXITS, make_task
 from fieldhand.task.codec_text import unwritable_character
-from fieldhand.task.frames import Budget, BudgetKind, Constraints, FaultedExit, Resource, Task, Then
+from fieldhand.task.frames import Budget, BudgetKind, Constraints, FaultedExit, Resource, Then
 
-_HOMEWARD: dict[Then, str] = {
-    "return_to_end": "When all is done the robot drives to the end marker.",
-    "return_to_start": "When all is done the robot drives back to the start marker.",
-}
 NAME = "english"
 #: A request longer than this is no request. Nothing but reading it takes time, and that grows with its length.
 LONGEST_REQUEST = 8_000
@@ -220,9 +217,13 @@ def _told(arranged: Arranged, request: str, robot: RobotProfile, site: Site) -> 
         )
     settle(discourse.told)
     for reason in arranged.reasons:
-        discourse.told.assumptions.append(f"'{reason}' is taken as a reason, not as something to do.")
+        discourse.told.assumptions.append(
+            message("'{said}' is taken as a reason, not as something to do.", context="assumption", said=reason)
+        )
     for remark in arranged.remarks:
-        discourse.told.assumptions.append(f"'{remark}' is taken as a remark: nothing is done about it.")
+        discourse.told.assumptions.append(
+            message("'{said}' is taken as a remark: nothing is done about it.", context="assumption", said=remark)
+        )
     discourse.told.assumptions.extend(arranged.notes)
     return discourse.told
 
@@ -244,7 +245,7 @@ def _planned(request: str, read_as: str, told: Told, site: Site, robot: RobotPro
             what="the request asks for nothing to be done", advice="say what to take or measure, and at which trees"
         )
         return Refused(reasons=(reason,), planner=NAME)
-    nominal, assumptions = _exit(told, site)
+    nominal, assumptions = exit_of(told, site)
     plan = node_of(told.root)
     if isinstance(plan, p.Sequence):
         plan = replace(plan, said=tuple(told.joints))
@@ -270,37 +271,8 @@ def _planned(request: str, read_as: str, told: Told, site: Site, robot: RobotPro
     if problems:
         return Refused(reasons=problems, planner=NAME)
     if told.nominal is None:
-        task = _stays_if_home_is_far(task, site, robot)
+        task = stays_if_home_is_far(task, site, robot)
     return Planned(task=task, planner=NAME)
-
-
-def _exit(told: Told, site: Site) -> tuple[Then, list[str]]:
-    if told.nominal is not None:
-        return told.nominal, []
-    if "end" in site.markers:
-        return "return_to_end", [_HOMEWARD["return_to_end"]]
-    if "start" in site.markers:
-        return "return_to_start", [_HOMEWARD["return_to_start"]]
-    return "stay", ["The site has no start or end marker: the robot stays where it is when all is done."]
-
-
-def _stays_if_home_is_far(task: Task, site: Site, robot: RobotProfile) -> Task:
-    """Without the way home that nobody asked for, where that would take most of the budget for optional visits."""
-    then = task.composition.nominal
-    metres = costs_too_much(task, site, robot, then)
-    if metres is None:
-        return task
-    where = "the end marker" if then == "return_to_end" else "the start"
-    said = (
-        f"The way to {where} alone is {metres:.0f} m, most of what may be used: the robot stays where its last visit"
-        " was. Ask for the return if it is wanted."
-    )
-    kept = tuple(a for a in task.command.assumptions if a != _HOMEWARD.get(then))
-    return replace(
-        task,
-        command=replace(task.command, assumptions=(*kept, said)),
-        composition=replace(task.composition, nominal="stay"),
-    )
 
 
 def _faulted(nominal: Then) -> tuple[FaultedExit, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from fieldhand.language import message
 from fieldhand.planning.english.asking import how_many
 from fieldhand.planning.english.attributes import filtered
 from fieldhand.planning.english.bag import Bag
@@ -135,15 +136,22 @@ def _over(bag: Bag, group: Group, site: Site) -> Found:
     bag.any = False
     origin = group.row_of or s.Here()
     ways = {block.runs_east_west for block in blocks_named(origin, site)}
-    rows, assumed = over.rows, ""
+    rows = over.rows
+    assumed: str = ""
     if over.side:
         check_over(bag, over.side, origin, site, f"no row lies further {over.side}")
         if len(ways) > 1:  # the selection counts rows by their numbers: a side along them would be lost
             raise bag.fault("the rows of this site run different ways", "name the row, or say 'the next row'")
         rows = -rows if over.side in ("west", "north") else rows
     else:
-        higher = "higher" if rows > 0 else "lower"
-        assumed = f"'{text_of(bag.phrase.terms)}' is counted towards {higher} row numbers ({_way(rows, ways)})."
+        words, way = text_of(bag.phrase.terms), _way(rows, ways)
+        higher = message(
+            "'{said}' is counted towards higher row numbers ({compass}).", context="assumption", said=words, compass=way
+        )
+        lower = message(
+            "'{said}' is counted towards lower row numbers ({compass}).", context="assumption", said=words, compass=way
+        )
+        assumed = higher if rows > 0 else lower
     selector = s.RowOf(origin=origin, over=rows, of=group.area)
     return Found(selector=selector, many=True, region=True, rows=True, assumed=(assumed,) if assumed else ())
 

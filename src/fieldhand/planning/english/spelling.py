@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from fieldhand.language import message
 from fieldhand.planning.english.lexicon import Lexicon
 from fieldhand.planning.english.tokens import Word
 
@@ -26,7 +27,7 @@ def respelt(words: Sequence[Word], lexicon: Lexicon) -> tuple[list[Word], list[s
             made.append(word)
             continue
         made.append(replace(word, norm=meant, text=meant))
-        notes.append(f"'{word.text}' is read as '{meant}'.")
+        notes.append(message("'{said}' is read as '{meant}'.", context="assumption", said=word.text, meant=meant))
     return made, notes
 
 

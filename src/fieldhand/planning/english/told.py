@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from fieldhand.language import message
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.limits import Limit
 from fieldhand.task import selectors as s
@@ -66,11 +67,15 @@ def settle(told: Told) -> None:
     if told.nominal is None and told.ends_differ:
         told.nominal = "stay"
         told.assumptions.append(
-            "Where the mission ends depends on the case; in a case that says nothing of it, the robot stays."
+            message(
+                "Where the mission ends depends on the case; in a case that says nothing of it, the robot stays.",
+                context="assumption",
+            )
         )
     if told.nominal is None and told.in_case is not None:
         told.nominal = told.in_case
-        told.assumptions.append(f"The mission ends there in any case ({told.in_case.replace('_', ' ')}).")
+        way = message(told.in_case.replace("_", " "), context="way")
+        told.assumptions.append(message("The mission ends there in any case ({way}).", context="assumption", way=way))
     while len(steps) > 1 and type(last := steps[-1]) is d.Halt:
         if last.here and told.nominal is None:
             told.nominal = "stay"  # "drive to the charger and finish there"
@@ -86,5 +91,8 @@ def _without_questions(told: Told, block: d.Block) -> None:
             block.steps.remove(step)
             told.no_part += step.said
             told.assumptions.append(
-                "What is asked about a reading is answered by the reading; nothing is done about it."
+                message(
+                    "What is asked about a reading is answered by the reading; nothing is done about it.",
+                    context="assumption",
+                )
             )

@@ -15,6 +15,7 @@ from shapely.geometry import LineString, Point, Polygon, box
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
+from fieldhand.language import message
 from fieldhand.site.model import Gate, Site, Zone
 
 Points = NDArray[np.float64]
@@ -73,8 +74,8 @@ class Free:
         """What closes a line or an area: "keep-out 'pond'" or "the boundary"; empty if nothing does."""
         for zone in self.keep_outs:
             if zone.polygon.distance(shape) < self.clearance_m * 1.001:
-                return f"keep-out {zone.name!r}"
-        return "" if self._area(soft=True).covers(shape)[0] else "the boundary"
+                return message("keep-out '{zone}'", zone=zone.name)
+        return "" if self._area(soft=True).covers(shape)[0] else message("the boundary")
 
     def _area(self, soft: bool) -> Area:
         return self._soft if soft else self._hard

@@ -7,6 +7,7 @@ from typing import Literal
 
 import shapely
 
+from fieldhand.language import Number, counted, message
 from fieldhand.site.driving.graph import Points
 from fieldhand.site.driving.layout import Layout
 from fieldhand.site.driving.spots import Spot
@@ -17,40 +18,62 @@ def no_stand(candidates: Sequence[Candidate], robot_m: float) -> str:
     """Why a robot of this width can stand at none of the candidates."""
     widths = [c.aisle_m for c in candidates]
     if all(width is not None for width in widths):
-        return f"out of reach: {_narrow(widths, robot_m)}"
+        return message("out of reach: {reason}", reason=_narrow(widths, robot_m))
     reasons = [c.why_not if c.aisle_m is None else _narrow([c.aisle_m], robot_m) for c in candidates]
-    return f"out of reach: {' and '.join(dict.fromkeys(reasons))}"
+    return message("out of reach: {reason}", reason=_together(tuple(dict.fromkeys(reasons))))
 
 
 def cut_off(layout: Layout, spots: Sequence[Spot], start: Spot) -> str:
     """Why no way leads from the start to any of the spots at which the robot could be at a place."""
     for spot in spots:
         if spot.aisle is not None and not len(spot.links.nodes):
-            return f"out of reach: no way out of its aisle: {_ends(layout, spot)}"
+            return message("out of reach: no way out of its aisle: {ends}", ends=_ends(layout, spot))
     line = shapely.LineString([spots[0].xy, start.xy])
     between = layout.free.in_the_way(line) if layout.free.bounded else ""
-    return f"cut off from where the robot starts{f' by {between}' if between else ''}"
+    if between:
+        return message("cut off from where the robot starts by {obstacle}", obstacle=between)
+    return message("cut off from where the robot starts")
 
 
 def _narrow(widths: Sequence[float | None], robot_m: float) -> str:
-    found = sorted({f"{max(width, 0.0):.2g} m" for width in widths if width is not None})
-    aisles = "the aisles beside it are" if len(widths) > 1 else "the aisle beside it is"
-    return f"{aisles} {' and '.join(found)} wide, the robot is {robot_m:.2g} m"
+    found = sorted({max(width, 0.0) for width in widths if width is not None})
+    said = _together(tuple(dict.fromkeys(message("{number} m", number=_metres(width)) for width in found)))
+    return counted(
+        "the aisle beside it is {width} wide, the robot is {robot} m",
+        "the aisles beside it are {width} wide, the robot is {robot} m",
+        len(widths),
+        width=said,
+        robot=_metres(robot_m),
+    )
+
+
+def _metres(value: float) -> str:
+    return Number(f"{value:.2g}")
+
+
+def _together(parts: Sequence[str]) -> str:
+    """Each of the parts holds."""
+    said = parts[0]
+    for part in parts[1:]:
+        said = message("{clause} and {other}", clause=said, other=part)
+    return said
 
 
 def _ends(layout: Layout, spot: Spot) -> str:
     """What closes either end of the aisle in which a spot lies."""
     one, two = _closed_by(layout, spot, 0), _closed_by(layout, spot, 1)
-    return f"{one} closes both ends" if one == two else f"{one} closes one end and {two} the other"
+    if one == two:
+        return message("{obstacle} closes both ends", obstacle=one)
+    return message("{obstacle} closes one end and {other} the other", obstacle=one, other=two)
 
 
 def _closed_by(layout: Layout, spot: Spot, end: Literal[0, 1]) -> str:
     aisle, uv = spot.aisle, spot.uv
     if aisle is None or uv is None:
-        return "nothing"
+        return message("nothing")
     middle = aisle.middle_line
     ahead: Points = middle[middle[:, 0] > uv[0]] if end == 1 else middle[middle[:, 0] < uv[0]][::-1]
     if not len(ahead):
         ahead = middle[[-end]]
     line = shapely.LineString([spot.xy, *aisle.body.frame.world(ahead)])
-    return layout.free.in_the_way(line) or "another row"
+    return layout.free.in_the_way(line) or message("another row")

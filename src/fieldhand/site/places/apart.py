@@ -8,10 +8,11 @@ from math import dist
 import numpy as np
 
 from fieldhand.errors import PlaceError
+from fieldhand.language import message
 from fieldhand.site.places.spots import Spots
 from fieldhand.site.places.tell import Tell
 from fieldhand.task.selectors import Apart
-from fieldhand.task.words import say_number
+from fieldhand.task.words import say_number, say_rounded
 
 #: A tree whose distance differs by more than this share of what was asked for is not "so far apart".
 TOLERANCE = 0.25
@@ -39,8 +40,10 @@ def apart(of: Spots, selector: Apart, tell: Tell) -> Spots:
     found = of.keep(chosen)
     if count > 1:
         legs = [dist(a.xy, b.xy) for a, b in pairwise(found.places)]
-        near, far = f"{min(legs):.1f}", f"{max(legs):.1f}"
-        tell.note(f"trees stand where they stand: these are {near if near == far else f'{near} to {far}'} m apart")
+        near, far = say_rounded(min(legs), 1), say_rounded(max(legs), 1)
+        alike = message("trees stand where they stand: these are {metres} m apart", metres=near)
+        differ = message("trees stand where they stand: these are {near} to {far} m apart", near=near, far=far)
+        tell.note(alike if near == far else differ)
     return found
 
 

@@ -11,6 +11,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldhand.language import counted
 from fieldhand.site.kinds import phrase
 from fieldhand.site.model import Site
 from fieldhand.site.places.faults import no_such_attribute, no_such_value, not_a_number
@@ -69,8 +70,14 @@ def where(spots: Spots, selector: Where, tell: Tell) -> Spots:
 def tell_lacking(count: int, attribute: str, tell: Tell) -> None:
     """Say how many could not be judged since the file says nothing of them."""
     if count:
-        have = "has no" if count == 1 else "have no"
-        tell.note(f"{count} {have} {attribute} and {'is' if count == 1 else 'are'} left out")
+        tell.note(
+            counted(
+                "{count} has no {attribute} and is left out",
+                "{count} have no {attribute} and are left out",
+                count,
+                attribute=attribute,
+            )
+        )
 
 
 def with_number(spots: Spots, selector: Top) -> tuple[Spots, NDArray[np.float64]]:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.errors import PlaceError
+from fieldhand.language import counted, message
 from fieldhand.site.model import Site
 from fieldhand.site.places.counted import (
     bare_name,
@@ -137,11 +138,17 @@ def every_nth(spots: Spots, selector: EveryNth, tell: Tell) -> Spots:
     tell.rule = f"the trees that stand are counted, in each row from {side}"
     outside = int((number == 0).sum())
     if outside:
-        tell.note(f"{outside} {'tree stands' if outside == 1 else 'trees stand'} in no row and cannot be counted")
+        tell.note(
+            counted(
+                "{count} tree stands in no row and cannot be counted",
+                "{count} trees stand in no row and cannot be counted",
+                outside,
+            )
+        )
     if 0 < number.max(initial=0) < selector.nth:
         number = _row_by_row(spots, number)
         tell.rule = f"the trees that stand are counted row by row, in each row from {side}"
-        tell.note(f"no row has {selector.nth} of them, so the count goes on from row to row")
+        tell.note(message("no row has {count} of them, so the count goes on from row to row", count=selector.nth))
     return spots.keep((number >= selector.start) & ((number - selector.start) % selector.nth == 0))
 
 
@@ -262,5 +269,8 @@ def _tell_short_rows(spots: Spots, last: int, count: Indices, tell: Tell) -> Non
     short_rows = np.unique(spots.row[(count > 0) & (count < last)]).tolist()
     if short_rows and tell.rule.startswith("trees in a row count"):
         names = [row_words(spots.site, spots.site.planting.rows[k]) for k in short_rows]
-        has = "has" if len(names) == 1 else "have"
-        tell.note(f"{listed(names)} {has} fewer than {last} {'tree' if last == 1 else 'trees'} to choose from")
+        trees = counted("{count} tree", "{count} trees", last)
+        if len(names) == 1:
+            tell.note(message("{row} has fewer than {trees} to choose from", row=names[0], trees=trees))
+        else:
+            tell.note(message("{rows} have fewer than {trees} to choose from", rows=listed(names), trees=trees))

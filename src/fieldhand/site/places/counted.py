@@ -11,9 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.errors import PlaceError
+from fieldhand.language import message
 from fieldhand.site.kinds import phrase
 from fieldhand.site.model import Site
 from fieldhand.site.places.faults import no_rows
+from fieldhand.site.places.row_words import say_block
 from fieldhand.site.places.spots import Spots
 from fieldhand.site.planting import Block, Indices, Planting, Row
 from fieldhand.task.selectors import CountedFrom, Side
@@ -180,12 +182,13 @@ def row_words(site: Site, row: Row) -> str:
     """A row as people say it: "row 3", and of which block where there are several."""
     name = bare_name(row.name) if phrase(row.name).startswith("row ") else row.name
     blocks = site.planting.blocks
-    return f"row {name}" + (f" of {block_words(blocks[row.block])}" if len(blocks) > 1 else "")
+    said = message("row {name}", name=name)
+    return message("{rows} of {block}", rows=said, block=block_words(blocks[row.block])) if len(blocks) > 1 else said
 
 
 def block_words(block: Block) -> str:
     """A block as people say it: "block B"."""
-    return block.name if phrase(block.name).startswith("block ") else f"block {block.name}"
+    return say_block(block.name)
 
 
 def _those(site: Site, block: Block) -> str:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from typing import Literal
 
 from fieldhand.errors import PlaceError
+from fieldhand.language import counted, joined, message, shaped
 from fieldhand.site.features import clean
 from fieldhand.site.kinds import number_text
 from fieldhand.site.model import Site
@@ -22,9 +23,15 @@ def no_such_tree(site: Site, tree: str) -> PlaceError:
     near = _alike(tree, [t.place.id for t in site.trees[:5000]])
     first, last = site.trees[0].place.id, site.trees[-1].place.id
     return PlaceError(
-        f"there is no tree {short(tree)!r}",
+        message("there is no tree '{id}'", id=short(tree)),
         where=site.name,
-        advice=f"{near}the {len(site.trees)} trees are {short(first)} to {short(last)}",
+        advice=message(
+            "{did_you_mean} the {count} trees are {first} to {last}",
+            did_you_mean=near,
+            count=len(site.trees),
+            first=short(first),
+            last=short(last),
+        ),
     )
 
 
@@ -41,9 +48,12 @@ def no_such_block(site: Site, block: str) -> PlaceError:
 def no_rows(site: Site) -> PlaceError:
     """The trees of this site stand in no rows."""
     return PlaceError(
-        "this site has no rows",
+        message("this site has no rows"),
         where=site.name,
-        advice=f"{site.planting.why or 'the trees stand in no rows'}; ask by ids, by the compass or by zones",
+        advice=message(
+            "{why}; ask by ids, by the compass or by zones",
+            why=site.planting.why or message("the trees stand in no rows"),
+        ),
     )
 
 
@@ -52,35 +62,51 @@ def no_such_row(site: Site, blocks: Sequence[Block], said: str) -> PlaceError:
     from fieldhand.site.places.counted import block_words
 
     names = list(dict.fromkeys(row.name for block in blocks for row in block.rows))
-    of = f" in {listed([block_words(b) for b in blocks])}" if len(site.planting.blocks) > 1 else ""
-    has = f"there are {len(names)} rows" if len(names) > 1 else "there is 1 row"
-    span = f": {listed(names)}" if len(names) <= _MOST else f", {short(names[0])} to {short(names[-1])}"
-    return PlaceError(
-        f"there is no row {short(said)!r}{of}",
-        where=site.name,
-        advice=("" if said.lstrip("-").isdecimal() else _alike(said, names)) + has + span,
-    )
+    has = counted("there is {count} row", "there are {count} rows", len(names))
+    if len(names) <= _MOST:
+        has = message("{rows}: {names}", rows=has, names=listed(names))
+    else:
+        has = message("{rows}, {first} to {last}", rows=has, first=short(names[0]), last=short(names[-1]))
+    near = "" if said.lstrip("-").isdecimal() else _alike(said, names)
+    what = message("there is no row '{name}'", name=short(said))
+    if len(site.planting.blocks) > 1:
+        what = message("{what} in {blocks}", what=what, blocks=listed([block_words(b) for b in blocks]))
+    return PlaceError(what, where=site.name, advice=joined(" ", (near, has)) if near else has)
 
 
 def row_in_several_blocks(site: Site, selector: Rows, blocks: Sequence[str]) -> PlaceError:
     """Rows are called the same in several blocks."""
     one = selector.first == selector.last or not (selector.first and selector.last)
-    said = f"row {short(selector.first or selector.last)}"
-    rows = said if one else f"rows {short(selector.first)} to {short(selector.last)}"
+    if one:
+        rows = message("row {name}", name=short(selector.first or selector.last))
+    else:
+        rows = message(
+            "rows {first} to {last} {from_side}", first=short(selector.first), last=short(selector.last), from_side=""
+        )
     return PlaceError(
-        f"{rows} {'is' if one else 'are'} in {len(blocks)} blocks: {listed(blocks)}",
+        counted(
+            "{rows} is in {blocks} blocks: {names}",
+            "{rows} are in {blocks} blocks: {names}",
+            1 if one else 2,
+            rows=rows,
+            blocks=len(blocks),
+            names=listed(blocks),
+        ),
         where=site.name,
-        advice=f'say of which block: "{rows} of {short(blocks[-1])}"',
+        advice=message('say of which block: "{rows} of {block}"', rows=rows, block=short(blocks[-1])),
     )
 
 
 def no_such_attribute(site: Site, attribute: str) -> PlaceError:
     """The trees have no attribute of that name."""
     names = list(site.attributes)
-    has = f"the trees have {listed(names)}" if names else "the trees of this site have no attributes"
-    return PlaceError(
-        f"no tree has an attribute {short(attribute)!r}", where=site.name, advice=_alike(attribute, names) + has
-    )
+    if names:
+        has = message(
+            "{did_you_mean} the trees have {names}", did_you_mean=_alike(attribute, names), names=listed(names)
+        )
+    else:
+        has = message("the trees of this site have no attributes")
+    return PlaceError(message("no tree has an attribute '{name}'", name=short(attribute)), where=site.name, advice=has)
 
 
 def no_such_value(site: Site, selector: Where) -> PlaceError:
@@ -91,13 +117,14 @@ def no_such_value(site: Site, selector: Where) -> PlaceError:
     values = [value_text(v) for v in site.attributes[name]]
     numbers = [v for v in site.attributes[name] if isinstance(v, float)]
     if numbers and len(numbers) == len(values) > _MOST:
-        has = f"it goes from {number_text(min(numbers))} to {number_text(max(numbers))}"
+        has = message("it goes from {low} to {high}", low=number_text(min(numbers)), high=number_text(max(numbers)))
     else:
-        has = f"the values are {listed(values)}"
+        has = message("the values are {values}", values=listed(values))
+    near = _alike(value_text(selector.value), values)
     return PlaceError(
-        f"no tree has {short(name)} {short(value_text(selector.value))}",
+        message("no tree has {name} {value}", name=short(name), value=short(value_text(selector.value))),
         where=site.name,
-        advice=_alike(value_text(selector.value), values) + has,
+        advice=joined(" ", (near, has)) if near else has,
     )
 
 
@@ -105,11 +132,16 @@ def not_a_number(selector: Where | Top, which: Literal["value", "attribute"]) ->
     """A comparison that needs numbers has something else."""
     if which == "value" and isinstance(selector, Where):
         return PlaceError(
-            f"{short(selector.attribute)} cannot be above or below {short(value_text(selector.value))!r}",
-            advice="compare with a number, or ask whether it is equal",
+            message(
+                "{name} cannot be above or below '{value}'",
+                name=short(selector.attribute),
+                value=short(value_text(selector.value)),
+            ),
+            advice=message("compare with a number, or ask whether it is equal"),
         )
     return PlaceError(
-        f"{short(selector.attribute)} is not a number", advice="it can be equal to a value, not above, below or highest"
+        message("{name} is not a number", name=short(selector.attribute)),
+        advice=message("it can be equal to a value, not above, below or highest"),
     )
 
 
@@ -117,10 +149,11 @@ def nothing(site: Site, selector: Selector, of: str = "") -> PlaceError:
     """This part of the selector leaves nothing."""
     from fieldhand.site.places.words import say_selector
 
+    what = message("nothing on this site matches {trees}", trees=_shortened(say_selector(selector)))
     return PlaceError(
-        f"nothing on this site matches {short(say_selector(selector), 160)}" + (f" ({of})" if of else ""),
+        message("{what} ({why})", what=what, why=of) if of else what,
         where=site.name,
-        advice="ask for other trees",
+        advice=message("ask for other trees"),
     )
 
 
@@ -128,18 +161,38 @@ def too_few(site: Site, selector: Selector, wanted: int, there_are: int) -> Plac
     """Fewer than were asked for."""
     from fieldhand.site.places.words import say_selector
 
-    only = f"there {'is' if there_are == 1 else 'are'} only {there_are}" if there_are else "there are none"
+    if there_are:
+        only = counted("there is only {count}", "there are only {count}", there_are)
+    else:
+        only = message("there are none")
     return PlaceError(
-        f"{wanted} {'is' if wanted == 1 else 'are'} asked for and {only}: {short(say_selector(selector), 160)}",
+        counted(
+            "{count} is asked for and {there_are}: {trees}",
+            "{count} are asked for and {there_are}: {trees}",
+            wanted,
+            there_are=only,
+            trees=_shortened(say_selector(selector)),
+        ),
         where=site.name,
-        advice=f"ask for at most {there_are}" if there_are else "ask for other trees",
+        advice=message("ask for at most {count}", count=there_are) if there_are else message("ask for other trees"),
     )
+
+
+def _shortened(text: str) -> str:
+    """A phrase on one line and not too long, in whichever language."""
+    return shaped(text, _within_a_line)
+
+
+def _within_a_line(text: str) -> str:
+    return short(text, 160)
 
 
 def listed(names: Sequence[str]) -> str:
     """The first few, and how many more."""
-    shown = ", ".join(short(n) for n in names[:_MOST])
-    return shown + (f" and {len(names) - _MOST} more" if len(names) > _MOST else "")
+    shown = joined(", ", (short(n) for n in names[:_MOST]))
+    if len(names) <= _MOST:
+        return shown
+    return message("{places} and {count} more", places=shown, count=len(names) - _MOST)
 
 
 def short(text: str, longest: int = _LONGEST) -> str:
@@ -158,20 +211,23 @@ def value_text(value: Value) -> str:
 def _no_such_area(site: Site, kind: Literal["zone", "block"], name: str) -> PlaceError:
     zones = list(dict.fromkeys(z.name for z in site.zones))
     blocks = [b.name for b in site.planting.blocks]
-    has = {
-        "zone": f"its zones are {listed(zones)}" if zones else "it has no zones",
-        "block": f"its blocks are {listed(blocks)}" if blocks else "it has no blocks",
-    }
-    other = {"zone": blocks, "block": zones}[kind]
-    others = f", its {'blocks' if kind == 'zone' else 'zones'} {listed(other)}" if other and len(blocks) != 1 else ""
-    return PlaceError(
-        f"there is no {kind} {short(name)!r}",
-        where=site.name,
-        advice=_alike(name, [*zones, *blocks] if kind == "zone" else [*blocks, *zones]) + has[kind] + others,
-    )
+    near = _alike(name, [*zones, *blocks] if kind == "zone" else [*blocks, *zones])
+    has_zones = message("its zones are {names}", names=listed(zones)) if zones else message("it has no zones")
+    has_blocks = message("its blocks are {names}", names=listed(blocks)) if blocks else message("it has no blocks")
+    if kind == "zone":
+        has = has_zones
+        if len(blocks) > 1:
+            has = message("{zones}, its blocks {names}", zones=has, names=listed(blocks))
+        what = message("there is no zone '{name}'", name=short(name))
+    else:
+        has = has_blocks
+        if zones and len(blocks) != 1:
+            has = message("{blocks}, its zones {names}", blocks=has, names=listed(zones))
+        what = message("there is no block '{name}'", name=short(name))
+    return PlaceError(what, where=site.name, advice=joined(" ", (near, has)) if near else has)
 
 
 def _alike(name: str, names: Iterable[str]) -> str:
     by_lower = {n.lower()[:_LONGEST]: n for n in names}
     near = difflib.get_close_matches(name.lower()[:_LONGEST], list(by_lower)[:5000], n=1, cutoff=0.6)
-    return f"did you mean {short(by_lower[near[0]])!r}? " if near else ""
+    return message("did you mean '{name}'?", name=short(by_lower[near[0]])) if near else ""

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
+from fieldhand import language
 from fieldhand.errors import PlaceError
+from fieldhand.language import message
 from fieldhand.site.model import Site
 from fieldhand.site.places import counted
 from fieldhand.site.places.counted import need_rows, row_words, wind
+from fieldhand.site.places.saying import say_tree
 from fieldhand.site.places.spots import Spots
 from fieldhand.site.places.tell import Tell
 from fieldhand.site.planting import Row
 from fieldhand.task.selectors import Across, AlongRow, Side, Successive, Towards
+from fieldhand.task.words import say_rounded
 
 
 def tree_in_hand(origin: Spots, tell: Tell) -> int:
@@ -29,8 +33,14 @@ def tree_in_hand(origin: Spots, tell: Tell) -> int:
     away = np.round(np.hypot(*(site.xy[in_rows] - origin.xy[0]).T), 4)
     tree = int(in_rows[np.argmin(away)])
     place = origin.places[0]
-    called = f"tree {place.id}" if place.kind == "tree" else place.id
-    tell.note(f"{called} stands in no row, so it counts from the nearest tree that does, {site.trees[tree].place.id}")
+    called = say_tree(place.id) if place.kind == "tree" else place.id
+    tell.note(
+        message(
+            "{place} stands in no row, so it counts from the nearest tree that does, {id}",
+            place=called,
+            id=site.trees[tree].place.id,
+        )
+    )
     return tree
 
 
@@ -48,8 +58,19 @@ def along_row(origin: Spots, selector: AlongRow, tell: Tell) -> Spots:
     tell.candidates = left
     found = int(row.trees[at + way * min(selector.trees, left)])
     if left < selector.trees:
-        ends = f"ends after {left} {'tree' if left == 1 else 'trees'}" if left else "ends here"
-        tell.note(f"{row_words(site, row)} {ends}; its last tree that way is {site.trees[found].place.id}")
+        said, tree_id = row_words(site, row), site.trees[found].place.id
+        if left:
+            tell.note(
+                language.counted(
+                    "{row} ends after {count} tree; its last tree that way is {id}",
+                    "{row} ends after {count} trees; its last tree that way is {id}",
+                    left,
+                    row=said,
+                    id=tree_id,
+                )
+            )
+        else:
+            tell.note(message("{row} ends here; its last tree that way is {id}", row=said, id=tree_id))
     return Spots(site=site, index=np.array([found], dtype=np.intp))
 
 
@@ -80,7 +101,13 @@ def across(origin: Spots, selector: Across, tell: Tell) -> Spots:
     tell.rule = f"that is in {row_words(site, other)}"
     aside = abs(float((site.xy[found.index[0]] - site.xy[tree]) @ counted.along(block)))
     if aside > 0.75 * block.tree_spacing_m:
-        tell.note(f"{row_words(site, other)} has no tree abreast of it; the nearest one is {aside:.0f} m along the row")
+        tell.note(
+            message(
+                "{row} has no tree abreast of it; the nearest one is {metres} m along the row",
+                row=row_words(site, other),
+                metres=say_rounded(aside),
+            )
+        )
     return found
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from fieldhand.task.words import say_count
+from fieldhand.language import counted, joined, message, named, shaped
 
 #: No phrase is longer than this, however often a Task says a group within a group.
 _LONGEST = 20_000
@@ -67,34 +67,57 @@ class Phrase:
 
     def say(self, count: int | None = None) -> str:
         """The phrase with its article, and how many there are where that is known."""
-        return f"{self._unordered(count)}, {self.order}" if self.order else self._unordered(count)
+        said = self._unordered(count)
+        return message("{trees}, {order}", trees=said, order=self.order) if self.order else said
 
     def _unordered(self, count: int | None = None) -> str:
         text = self._whole(count)
-        return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}…"
+        return text if len(text) <= _LONGEST else shaped(text, _cut)
 
     def _whole(self, count: int | None) -> str:
         if self.closed:
             return self.closed
         if self.plain:
-            return "every tree" if count is None else f"all {say_count(count, 'tree')}"
-        number = () if count is None else (str(count),)
-        noun = "tree" if count == 1 else "trees"
-        return " ".join(("the", *number, *self.before, noun, *clauses(self)))
+            return message("every tree") if count is None else counted("all {count} tree", "all {count} trees", count)
+        after, adjectives = clauses(self), self.adjectives(count)
+        if count is None:
+            return message("the {adjectives} trees {clauses}", adjectives=adjectives, clauses=after)
+        return counted(
+            "the {count} {adjectives} tree {clauses}",
+            "the {count} {adjectives} trees {clauses}",
+            count,
+            adjectives=adjectives,
+            clauses=after,
+        )
 
     def group(self) -> str:
         """The phrase as something to pick from, whatever its order: "the yellow trees"."""
-        return "the trees" if self.plain else self._unordered()
+        return message("the trees") if self.plain else self._unordered()
+
+    def adjectives(self, count: int | None = None) -> str:
+        """What is said of so many trees with an adjective; of several where the count is not known."""
+        return joined(" ", (named(word, "tree" if count == 1 else "trees") for word in self.before))
 
     @property
     def of_what(self) -> str:
-        """Of which rows, of which block: " of row 3 of block B"; empty for the whole site."""
-        return "".join(f" of {part}" for part in (self.row, self.block) if part)
+        """Of which rows, of which block: "of row 3 of block B"; empty for the whole site."""
+        return joined(" ", [message("of {part}", part=part) for part in (self.row, self.block) if part])
+
+    @property
+    def whose(self) -> str:
+        """The rows and the block without the preposition: "row 3 of block B"; empty for the whole site."""
+        if self.row and self.block:
+            return message("{rows} of {block}", rows=self.row, block=self.block)
+        return self.row or self.block
 
 
-def clauses(phrase: Phrase) -> tuple[str, ...]:
+def clauses(phrase: Phrase, *more: str) -> str:
     """What follows the noun; a comma keeps a second clause from being read as part of the first."""
-    among = (f"among {phrase.among}",) if phrase.among else ()
+    among = (message("among {trees}", trees=phrase.among),) if phrase.among else ()
     clauses = (*sorted(phrase.after, key=lambda a: not a.startswith("whose ")), *among)
-    rows = (phrase.of_what.strip(),) if phrase.of_what else ()
-    return (*rows, *(f"{clause}," for clause in clauses[:-1]), *clauses[-1:])
+    parted = joined(", ", clauses)
+    return joined(" ", [part for part in (phrase.of_what, parted, *more) if part])
+
+
+def _cut(text: str) -> str:
+    return f"{text[:_LONGEST]}…"

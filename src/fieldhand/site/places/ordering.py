@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.errors import PlaceError
+from fieldhand.language import counted
 from fieldhand.site.model import Site
 from fieldhand.site.places.attributes import column_of, column_rows
 from fieldhand.site.places.counted import need_rows, rows_from
@@ -27,9 +28,23 @@ def ordered(spots: Spots, selector: Ordered, here: NDArray[np.float64], tell: Te
     key, lacking = _key(spots, selector, here, tell)
     if lacking.any():
         count = int(lacking.sum())
-        why = f"lack {selector.attribute}" if selector.by == "attribute" else "stand in no row"
-        one = f"lacks {selector.attribute}" if selector.by == "attribute" else "stands in no row"
-        tell.note(f"{count} {'place' if count == 1 else 'places'} {one if count == 1 else why} and come last")
+        if selector.by == "attribute":
+            tell.note(
+                counted(
+                    "{count} place lacks {attribute} and comes last",
+                    "{count} places lack {attribute} and come last",
+                    count,
+                    attribute=selector.attribute,
+                )
+            )
+        else:
+            tell.note(
+                counted(
+                    "{count} place stands in no row and comes last",
+                    "{count} places stand in no row and come last",
+                    count,
+                )
+            )
     rounded = np.round(-key if selector.descending else key, 4)
     return spots.keep(np.lexsort((spots.file_order, rounded, lacking)))
 

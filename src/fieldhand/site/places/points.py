@@ -13,6 +13,7 @@ from shapely.geometry import LineString, Point
 from shapely.geometry.base import BaseGeometry
 
 from fieldhand.errors import PlaceError
+from fieldhand.language import message
 from fieldhand.site.model import Place, Site
 from fieldhand.site.places import counted
 from fieldhand.site.places.counted import row_words, wind
@@ -24,7 +25,7 @@ from fieldhand.site.places.spots import Spots
 from fieldhand.site.places.tell import Tell
 from fieldhand.site.planting import Row
 from fieldhand.task.selectors import PointsIn, Spaced
-from fieldhand.task.words import say_number
+from fieldhand.task.words import COMPASS, say_number, say_rounded
 
 Floats = NDArray[np.float64]
 
@@ -77,9 +78,19 @@ def spaced(spots: Spots, near: Spots, selector: Spaced, tell: Tell) -> Spots:
     ends = np.array(piece.coords)[[0, -1]]
     step = (ends[1] - ends[0]) / np.hypot(*(ends[1] - ends[0]))
     xy = ends[0] + np.arange(count or fit)[:, None] * apart * step
-    tell.note(f"the line runs {wind(step)} {line.words}, {piece.length:.0f} m long")
-    name = f"{say_number(apart)} m point"
-    return _places(site, xy, [f"{name} {k} {line.where}" for k in range(1, len(xy) + 1)])
+    tell.note(
+        message(
+            "the line runs {north} {beside_row}, {metres} m long",
+            north=COMPASS[wind(step)],
+            beside_row=line.words,
+            metres=say_rounded(piece.length),
+        )
+    )
+    names = [
+        message("{distance} m point {number} {beside_row}", distance=say_number(apart), number=k, beside_row=line.where)
+        for k in range(1, len(xy) + 1)
+    ]
+    return _places(site, xy, names)
 
 
 def points_in(site: Site, selector: PointsIn, tell: Tell) -> Spots:
@@ -104,12 +115,20 @@ def points_in(site: Site, selector: PointsIn, tell: Tell) -> Spots:
         tell.rule = "the free place nearest to the middle of its area"
         middle = np.array(area.centroid.coords[0])
         if shapely.intersects_xy(free, *middle) and off_trees(site, middle[None, :])[0] >= OFF_TREES_M:
-            return _places(site, middle[None, :], [f"the middle of {selector.zone}"])
-        return _places(site, raster[_nearest(raster, middle)][None, :], [f"the middle of {selector.zone}"])
+            return _places(site, middle[None, :], [message("the middle of {zone}", context="name", zone=selector.zone)])
+        return _places(
+            site,
+            raster[_nearest(raster, middle)][None, :],
+            [message("the middle of {zone}", context="name", zone=selector.zone)],
+        )
     tell.rule = "each has a like share of the area"
     xy = _spread(raster, count)
     xy = xy[np.lexsort((-xy[:, 1], np.round(xy[:, 0], 3)))]
-    return _places(site, xy, [f"point {k} of {count} in {selector.zone}" for k in range(1, count + 1)])
+    names = [
+        message("point {number} of {count} in {zone}", number=k, count=count, zone=selector.zone)
+        for k in range(1, count + 1)
+    ]
+    return _places(site, xy, names)
 
 
 def _places(site: Site, xy: Floats, ids: Sequence[str]) -> Spots:
@@ -131,7 +150,11 @@ def _fitting(lines: Iterator[_Line], near: Floats, apart: float, count: int, tel
         pieces = sorted((_begun(p, near) for p in line.pieces), key=lambda p: round(Point(near).distance(p), 3))
         if len(pieces) > 1:
             tell.note(
-                f"keep-outs or the boundary cut the line {line.words} into {len(pieces)} pieces; one of them is used"
+                message(
+                    "keep-outs or the boundary cut the line {beside_row} into {count} pieces; one of them is used",
+                    beside_row=line.words,
+                    count=len(pieces),
+                )
             )
         for piece in pieces:
             if longest is None or piece.length > longest[1].length + 1e-6:
@@ -187,7 +210,9 @@ def _beside_row(in_row: Spots, near: Spots, tell: Tell) -> Iterator[_Line]:
         line = LineString(ends) if end - begin > 1e-6 else LineString([ends[0], ends[0] + 1e-3 * u])
         words = row_words(site, row)
         yield _Line(
-            pieces=segments(free_part(site, line)), where=f"{wind(side * v)} of {words}", words=f"beside {words}"
+            pieces=segments(free_part(site, line)),
+            where=message("{north} of {row}", context="beside", north=COMPASS[wind(side * v)], row=words),
+            words=message("beside {row}", row=words),
         )
 
 
@@ -220,9 +245,11 @@ def _across_area(spots: Spots, zone: str, tell: Tell) -> Iterator[_Line]:
         if pieces:
             found.append((-_clear(site, pieces), abs(offset), offset, pieces))
     found.sort(key=lambda f: f[:3])
-    where = f"in {zone}" if zone else "through the trees"
+    through = message("through the trees")
+    where = message("in {zone}", zone=zone) if zone else through
+    words = message("inside {zone}", zone=short(zone)) if zone else through
     for _, _, _, pieces in found:
-        yield _Line(pieces=pieces, where=where, words=f"inside {short(zone)}" if zone else where)
+        yield _Line(pieces=pieces, where=where, words=words)
 
 
 def _long_way(site: Site, area: BaseGeometry) -> Floats:

@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 
 from fieldhand.errors import PlaceError
+from fieldhand.language import message
 from fieldhand.site.context import Context
 from fieldhand.site.kinds import phrase
 from fieldhand.site.model import Place, Site
@@ -16,8 +17,9 @@ from fieldhand.site.places import attributes, byrow, extent, hand, neighbours, o
 from fieldhand.site.places.apart import apart
 from fieldhand.site.places.faults import listed, no_such_block, no_such_tree, no_such_zone, nothing, short, too_few
 from fieldhand.site.places.nesting import bare_ground
+from fieldhand.site.places.pick_words import the_highest, the_middle_of_edge, the_most, the_nearest_to_marker
 from fieldhand.site.places.spots import Spots, joined
-from fieldhand.site.places.tell import Tell, rank
+from fieldhand.site.places.tell import Tell, rank, tell_passed_over
 from fieldhand.site.places.words import say_selector
 from fieldhand.task import selectors as s
 
@@ -210,7 +212,7 @@ class Resolution:
                 if marker is not None:
                     tell.rule = f"that is the tree nearest to the {end} marker"
                     away = neighbours.distance_to(of, Spots.of(self.site, [marker]))
-                    return rank(of, away, 1, tell, f"the nearest to the {end} marker")
+                    return rank(of, away, 1, tell, the_nearest_to_marker(end))
                 order = of.file_order
                 tell.rule = f"the site has no {end} marker, so the file's order counts"
                 return of.keep([int(order.argmin() if isinstance(selector, s.First) else order.argmax())])
@@ -229,24 +231,25 @@ class Resolution:
             raise too_few(self.site, selector, count, len(candidates))
         match selector:
             case s.Extreme(side=side):
-                return rank(candidates, -extent.outward(candidates.xy, side), count, tell, f"the {side}ernmost")
+                inward = -extent.outward(candidates.xy, side)
+                return rank(candidates, inward, count, tell, the_most(f"{side}ernmost"))
             case s.Middle():
                 away = extent.from_centre(candidates, self._ground(selector.of, of, picks_too=False))
-                return rank(candidates, away, count, tell, "the nearest to the middle")
+                return rank(candidates, away, count, tell, message("the nearest to the middle"))
             case s.EdgeMiddle(side=side):
                 away = extent.from_edge_middle(candidates, side, self._ground(selector.of, of))
-                return rank(candidates, away, count, tell, f"the nearest to the middle of the {side} edge")
+                return rank(candidates, away, count, tell, the_middle_of_edge(side))
             case s.Nearest(adjacent=True):
                 tell.rule = "of the nearest ones those in the same row come first"
                 return neighbours.next_to(candidates, to, count)
-            case s.Nearest():
-                return rank(candidates, neighbours.distance_to(candidates, to), count, tell, "the nearest")
-            case s.Farthest():
-                return rank(candidates, -neighbours.distance_to(candidates, to), count, tell, "the farthest")
+            case s.Nearest() | s.Farthest():
+                away, far = neighbours.distance_to(candidates, to), isinstance(selector, s.Farthest)
+                most = the_most("farthest" if far else "nearest")
+                return rank(candidates, -away if far else away, count, tell, most)
             case s.Top(attribute=name, lowest=lowest):
                 known, numbers = attributes.with_number(candidates, selector)
                 attributes.tell_lacking(len(of) - len(known), name, tell)
-                return rank(known, numbers, count, tell, f"the {'lowest' if lowest else 'highest'} {phrase(name)}")
+                return rank(known, numbers, count, tell, the_highest(name, lowest=lowest))
 
     def _candidates(self, selector: _Ranked, of: Spots) -> tuple[Spots, Spots]:
         """What may be chosen from, and what it is measured from (of no meaning where it is not)."""
@@ -293,7 +296,7 @@ class Resolution:
             shapely.prepare(zone.polygon)
             closed |= shapely.contains_xy(zone.polygon, of.xy[:, 0], of.xy[:, 1])
         if closed.any():
-            tell.note(f"{closed.sum()} of them {'stands' if closed.sum() == 1 else 'stand'} in a keep-out: passed over")
+            tell_passed_over(int(closed.sum()), tell)
         return of.keep(~closed)
 
     def _marker(self, name: str) -> Place:

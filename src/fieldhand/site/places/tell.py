@@ -7,7 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldhand.language import counted, joined, message
 from fieldhand.site.places.spots import Spots
+from fieldhand.task.words import listed
 
 _FEW = 4
 
@@ -52,11 +54,13 @@ def rank(candidates: Spots, key: NDArray[np.float64], count: int, tell: Tell, wh
     before = int((rounded < worst).sum())
     if before + len(tied) > count:
         taken = found.keep(slice(before, None))
-        tell.note(
-            f"{len(tied)} {'trees' if candidates.is_tree.all() else 'places'} tie for {what}: "
-            f"{ids_of(candidates.keep(tied[: _FEW + 1]), len(tied))}; "
-            f"{ids_of(taken, len(taken))} {'comes' if len(taken) == 1 else 'come'} first in the file"
-        )
+        ids, taken_ids = ids_of(candidates.keep(tied[: _FEW + 1]), len(tied)), ids_of(taken, len(taken))
+        first = counted("{ids} comes first in the file", "{ids} come first in the file", len(taken), ids=taken_ids)
+        tied_for: dict[str, str] = {"northernmost": what, "ids": ids, "first": first}
+        if candidates.is_tree.all():
+            tell.note(message("{count} trees tie for {northernmost}: {ids}; {first}", count=len(tied), **tied_for))
+        else:
+            tell.note(message("{count} places tie for {northernmost}: {ids}; {first}", count=len(tied), **tied_for))
     return found
 
 
@@ -65,5 +69,16 @@ def ids_of(spots: Spots, there_are: int | None = None) -> str:
     total = len(spots) if there_are is None else there_are
     shown = [p.id for p in spots.keep(slice(_FEW if total > _FEW else total)).places]
     if total > len(shown):
-        return f"{', '.join(shown)} and {total - len(shown)} more"
-    return " and ".join([", ".join(shown[:-1]), shown[-1]]) if len(shown) > 1 else "".join(shown)
+        return message("{places} and {count} more", places=joined(", ", shown), count=total - len(shown))
+    return listed(shown)
+
+
+def tell_passed_over(count: int, tell: Tell) -> None:
+    """Say how many stand where no robot may drive."""
+    tell.note(
+        counted(
+            "{count} of them stands in a keep-out: passed over",
+            "{count} of them stand in a keep-out: passed over",
+            count,
+        )
+    )

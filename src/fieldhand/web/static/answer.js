@@ -13,7 +13,7 @@ export function render(answer, request, map, reply) {
   if (answer.outcome === "clarify") return question(answer, map, reply);
   if (answer.outcome === "refused") return refusal(answer, request);
   const parts = [...words(answer), ...problems(answer)];
-  if (answer.read_back) parts.push(steps(answer, map), ...rest(answer.read_back), totals(answer.read_back.totals));
+  if (answer.read_back) parts.push(steps(answer, map), ...rest(answer), totals(answer));
   parts.push(document_(answer));
   return parts;
 }
@@ -122,28 +122,28 @@ function badges(stops) {
 
 const badge = (stop) => el("span", { class: stop.branch ? "badge other" : "badge" }, String(stop.number));
 
-function rest(back) {
+function rest({ read_back: back, headings }) {
   const part = (name, lines) =>
     lines.length ? [el("h3", {}, name), el("ul", { class: "plain" }, lines.map((line) => el("li", {}, sentence(line))))] : [];
-  return [...part("Assumed", back.assumptions), ...part("To note", back.notes), ...part("Limits", back.limits), ...part("When something goes wrong", back.faults)];
+  return ["assumptions", "notes", "limits", "faults"].flatMap((kind) => part(headings[kind], back[kind]));
 }
 
-function totals({ metres, seconds, percent, captures, branches }) {
+function totals({ read_back: back, headings }) {
+  const { metres, seconds, percent, captures } = back.totals;
   const row = (name, mean, high) =>
     el("tr", {}, el("th", { scope: "row" }, name), el("td", {}, mean), el("td", {}, high));
-  const caption = branches > 1 ? `What it takes on the most demanding of ${branches} branches` : "What it takes";
   return el(
     "table",
     { class: "totals" },
-    el("caption", {}, caption),
-    el("thead", {}, el("tr", {}, el("td", {}), el("th", { scope: "col" }, "on average"), el("th", { scope: "col" }, "9 times in 10 below"))),
+    el("caption", {}, headings.totals),
+    el("thead", {}, el("tr", {}, el("td", {}), el("th", { scope: "col" }, headings.mean), el("th", { scope: "col" }, headings.p90))),
     el(
       "tbody",
       {},
-      row("Driving", `${Math.round(metres.mean)} m`, `${Math.round(metres.p90)} m`),
-      row("Time", minutes(seconds.mean), minutes(seconds.p90)),
-      row("Battery", `${percent.mean.toFixed(0)} %`, `${percent.p90.toFixed(0)} %`),
-      row("Captures", String(captures), ""),
+      row(headings.driving, `${Math.round(metres.mean)} m`, `${Math.round(metres.p90)} m`),
+      row(headings.time, minutes(seconds.mean), minutes(seconds.p90)),
+      row(headings.battery, `${percent.mean.toFixed(0)} %`, `${percent.p90.toFixed(0)} %`),
+      row(headings.captures, String(captures), ""),
     ),
   );
 }

@@ -42,12 +42,16 @@ async function begin() {
   });
   $("robot").addEventListener("change", () => (showRobot(), outdate()));
   $("site").addEventListener("change", () => (outdate(), showSite()));
+  $("language").addEventListener("change", () => (localStorage.setItem("fieldhand.language", $("language").value), outdate()));
   $("file").addEventListener("change", readFile);
   $("request").addEventListener("input", outdate);
   try {
     robots = await get("/api/robots");
     $("robot").append(...robots.map((robot) => el("option", { value: robot.name, selected: robot.name === "husky" }, robot.name)));
     showRobot();
+    const spoken = await get("/api/languages");
+    const wanted = localStorage.getItem("fieldhand.language") ?? navigator.language.slice(0, 2);
+    $("language").append(...spoken.map(({ code, name }) => el("option", { value: code, lang: code, selected: code === wanted }, name)));
     await showSite();
   } catch (problem) {
     $("plan-notice").replaceChildren(problemNotice(problem));
@@ -124,7 +128,7 @@ async function planRequest() {
   outdate();
   answers = given;
   await during($("plan-button"), $("plan-notice"), async (signal) => {
-    const body = { request, site, robot, planner: $("planner").value, answers };
+    const body = { request, site, robot, planner: $("planner").value, lang: $("language").value || "en", answers };
     const answer = await post("/api/plan", body, signal);
     // Words that were changed meanwhile have another plan.
     if ($("request").value !== request || chosenSite() !== site || $("robot").value !== robot) return;
@@ -160,7 +164,8 @@ async function simulate() {
   localStorage.setItem("fieldhand.by", by);
   flight?.pause();
   const confirmed = [...$("ticks").querySelectorAll("input:checked")].map((box) => box.value);
-  const body = { xml: answer.xml, site, robot, approved_by: by, confirmed, seed: Number($("seed").value || 0) };
+  const lang = answer.language;
+  const body = { xml: answer.xml, site, robot, lang, approved_by: by, confirmed, seed: Number($("seed").value || 0) };
   await during($("run-button"), $("run-notice"), async (signal) => {
     const run = await post("/api/run", body, signal);
     flight = new Flight(run, map);

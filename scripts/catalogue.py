@@ -1,0 +1,147 @@
+"""The messages of the source, and each language's catalogue brought up to date with them.
+
+    python scripts/catalogue.py
+
+adds what is new to every ``src/fieldhand/language/locale/*/LC_MESSAGES/fieldhand.po`` with an empty translation, takes
+out what the source does not say any more, and names what is still to be translated; exit status 1 if anything is.
+"""
+
+from __future__ import annotations
+
+import ast
+import json
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+SOURCE = Path(__file__).parents[1] / "src" / "fieldhand"
+sys.path.insert(0, str(SOURCE.parent))
+
+from fieldhand.language.message import Message  # noqa: E402
+from fieldhand.language.po import Entry, read_entries  # noqa: E402
+from fieldhand.robot.loader import builtin_names, load_robot  # noqa: E402
+from fieldhand.site.places.attribute_words import say_attribute, say_with_article  # noqa: E402
+from fieldhand.task.words import say_action, say_captures, say_name  # noqa: E402
+
+#: Words of the built-in orchard, of site files everywhere, and of Tasks: they come from data, not from the source.
+ATTRIBUTES = (
+    *("variety", "cultivar", "species", "rootstock", "age_years", "yield_kg", "reward", "leaf_color", "color"),
+    *("height_m", "diameter_cm", "health", "status", "condition", "planted", "priority", "row", "block"),
+)
+COLOURS = ("yellow", "green", "brown", "red", "healthy", "sick", "dead", "young", "old")
+
+
+def source_entries() -> dict[tuple[str, str], Entry]:
+    """Every message of the source, by its context and its English, without translations."""
+    found: dict[tuple[str, str], Entry] = {}
+    for file in sorted(SOURCE.rglob("*.py")):
+        for entry in _of_file(ast.parse(file.read_text(encoding="utf-8"))):
+            found.setdefault(entry.key, entry)
+    for entry in _of_data():
+        found.setdefault(entry.key, entry)
+    return found
+
+
+def _of_file(tree: ast.Module) -> Iterator[Entry]:
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Call):
+            continue
+        called = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+        texts = [a.value for a in node.args if isinstance(a, ast.Constant) and isinstance(a.value, str)]
+        given = {k.arg: k.value for k in node.keywords}.get("context")
+        context = given.value if isinstance(given, ast.Constant) else ""
+        contexts = _ORDINALS if isinstance(given, ast.Name) else (context,)
+        if called == "message" and texts:
+            for one in contexts:
+                yield Entry(template=texts[0], context=str(one), said=())
+        elif called == "counted" and len(texts) > 1:
+            yield Entry(template=texts[0], many=texts[1], context=str(context), said=())
+
+
+#: Contexts of ordinals (`fieldhand.site.places.row_words`).
+_ORDINALS = ("tree", "row", "one")
+
+
+def _of_data() -> Iterator[Entry]:
+    robots = [load_robot(name) for name in builtin_names()]
+    for robot in robots:
+        for action in robot.actions:
+            yield _entry(say_action(action.name, 2))
+            yield _entry(say_captures(action.name, 2))
+            for parameter in action.parameters:
+                yield _entry(say_name(parameter.name))
+        for quantity in robot.quantities:
+            yield _entry(say_with_article(quantity.name))
+            yield _entry(say_name(quantity.name))
+            for level in quantity.levels:
+                yield Entry(template=level, context="level", said=())
+    for attribute in ATTRIBUTES:
+        words = say_attribute(attribute)[0]
+        yield _entry(words)
+        yield Entry(template=str(words), context="of the tree", said=())
+        yield _entry(say_name(attribute))
+    for colour in COLOURS:
+        yield Entry(template=colour, context="tree", said=())
+        yield Entry(template=colour, context="trees", said=())
+        yield Entry(template=colour, context="value", said=())
+    for fault in ("action_failed", "drive_failed", "low_budget", "aborted"):
+        yield Entry(template=fault, context="fault", said=())
+    for way in ("return to end", "return to start", "stay"):
+        yield Entry(template=way, context="way", said=())
+
+
+def _entry(said: str) -> Entry:
+    if not isinstance(said, Message):
+        raise TypeError(f"'{said}' is no message")
+    return Entry(template=said.template, many=said.many, context=said.context, said=())
+
+
+def catalogues() -> Iterator[Path]:
+    """The catalogue of each language."""
+    yield from sorted((SOURCE / "language" / "locale").glob("*/LC_MESSAGES/*.po"))
+
+
+def updated(text: str) -> tuple[str, list[Entry]]:
+    """A catalogue brought up to date, and what it does not translate."""
+    known = {entry.key: entry for entry in read_entries(text)}
+    header = text.split("\n\n", 1)[0]
+    parts, missing = [header], []
+    for key, entry in sorted(source_entries().items(), key=lambda one: (one[0][1], one[0][0])):
+        old = known.get(key)
+        said = old.said if old is not None and old.many == entry.many else ("", "") if entry.many else ("",)
+        whole = Entry(template=entry.template, many=entry.many, context=entry.context, said=said)
+        if not all(whole.said):
+            missing.append(whole)
+        parts.append(_written(whole))
+    return "\n\n".join(parts) + "\n", missing
+
+
+def _written(entry: Entry) -> str:
+    lines = [f"msgctxt {_quoted(entry.context)}"] if entry.context else []
+    lines.append(f"msgid {_quoted(entry.template)}")
+    if entry.many:
+        lines.append(f"msgid_plural {_quoted(entry.many)}")
+        lines += [f"msgstr[{k}] {_quoted(text)}" for k, text in enumerate(entry.said)]
+    else:
+        lines.append(f"msgstr {_quoted(entry.said[0])}")
+    return "\n".join(lines)
+
+
+def _quoted(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False)
+
+
+def main() -> int:
+    """Bring every catalogue up to date."""
+    status = 0
+    for file in catalogues():
+        text, missing = updated(file.read_text(encoding="utf-8"))
+        file.write_text(text, encoding="utf-8")
+        for entry in missing:
+            print(f"{file.parts[-3]}: {entry.context + ': ' if entry.context else ''}{entry.template}")  # noqa: T201
+            status = 1
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())

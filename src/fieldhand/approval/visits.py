@@ -1,0 +1,65 @@
+"""What a line says of the places that it goes to: by name, in which order, and how many of them to expect."""
+
+from __future__ import annotations
+
+from fieldhand.approval.resolved import Found
+from fieldhand.language import counted, message
+from fieldhand.site.places.words import say_places, say_selector
+from fieldhand.task.plan import ForEach
+from fieldhand.task.selectors import Selector
+from fieldhand.task.words import say_rounded
+
+#: Optional visits that are less likely than this are named as those that go first, where they are no more than so many.
+_SURE, _NAMED = 0.9, 6
+
+
+def say_expected(found: Found | None) -> str:
+    """Whether an optional step fits by the estimate; how often, where it comes up more than once."""
+    if found is None:
+        return ""
+    fit, times = sum(bool(visit) for visit in found.visits), len(found.visits)
+    if times > 1 and 0 < fit < times:
+        return message("(about {count} of {total} times by the estimate)", count=fit, total=times)
+    return message("(by the estimate it does)") if fit else message("(by the estimate it does not)")
+
+
+def say_expected_visits(found: Found | None) -> str:
+    """How many optional visits are made on average, the chance of running short, and the few that go first."""
+    if found is None or found.outlook is None:
+        return ""
+    chance = message(
+        "{expected} of {total} expected, {chance} % chance of running short",
+        expected=say_rounded(found.outlook.visits),
+        total=len(found.places) + len(found.shed),
+        chance=say_rounded(100 * found.short),
+    )
+    doubtful = sorted((chance, place) for place, chance in found.outlook.chances.items() if chance < _SURE)
+    if not 0 < len(doubtful) <= _NAMED:
+        return message("({expectation})", expectation=chance)
+    ids, count = say_places(tuple(place for _, place in doubtful)), len(doubtful)
+    if {place.kind for place in (*found.places, *found.shed)} == {"tree"}:
+        first = counted("tree {ids} goes first", "trees {ids} go first", count, ids=ids)
+    else:
+        first = counted("{ids} goes first", "{ids} go first", count, ids=ids)
+    return message("({expectation}; {gone_first})", expectation=chance, gone_first=first)
+
+
+def say_ids(selector: Selector, found: Found | None) -> str:
+    """The places by name, where they are few and their names are not said yet."""
+    if found is None:
+        return ""
+    ids = tuple(p.id for p in found.places)
+    said = say_selector(selector)
+    if not found.known:
+        return message("(decided on the way; most likely {ids})", ids=say_places(ids))
+    new = 0 < len(ids) <= 12 and not all(i in said.split() for i in ids)
+    return message("({ids})", ids=say_places(ids)) if new else ""
+
+
+def in_order(node: ForEach, at: str, count: int) -> str:
+    """The places with the order in which they are visited, where there are several."""
+    if count < 2:
+        return at
+    if node.order == "given":
+        return message("{at_places}, in that order", at_places=at)
+    return message("{at_places}, in the order that drives least", at_places=at)

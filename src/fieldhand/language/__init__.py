@@ -1,0 +1,35 @@
+"""What is said to people, as messages that can be said in any language: the catalogues, numbers, the joints of words.
+
+A message is its English text, and remembers the sentence and what fills it. Nothing below the edges of the program
+knows a language; whoever prints asks a :class:`Language` for the words.
+"""
+
+from fieldhand.language.catalogue import ENGLISH, Language, languages, open_language, spoken
+from fieldhand.language.message import (
+    Message,
+    Number,
+    counted,
+    joined,
+    labelled,
+    message,
+    named,
+    recalled,
+    shaped,
+)
+
+__all__ = [
+    "ENGLISH",
+    "Language",
+    "Message",
+    "Number",
+    "counted",
+    "joined",
+    "labelled",
+    "languages",
+    "message",
+    "named",
+    "open_language",
+    "recalled",
+    "shaped",
+    "spoken",
+]

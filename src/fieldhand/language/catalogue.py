@@ -1,0 +1,243 @@
+"""Languages: catalogues of translations as gettext keeps them, read from their ``.po`` files as they stand.
+
+A language is one file, ``locale/<code>/LC_MESSAGES/fieldhand.po``. What else a language needs stands in the file's
+header: ``X-Decimal`` and ``X-Thousands`` are the signs in numbers, ``X-Melts`` says which two words melt into one
+("de el=del").
+"""
+
+from __future__ import annotations
+
+import gettext
+import io
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import lru_cache
+from importlib import resources
+from typing import Any, TypeVar, cast
+
+from fieldhand.errors import InputError
+from fieldhand.language.message import Fill, Joined, Message, Number, Shaped, fill, message, named
+from fieldhand.language.po import Entry, compiled, read_entries
+
+_Said = TypeVar("_Said")
+
+SOURCE = "en"
+_DOMAIN = "fieldhand"
+_MISSING = "\x00"
+#: Placeholders of assumptions that hold numbers in figures.
+_FIGURES = frozenset({"metres", "least", "most"})
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Language:
+    """How messages are said in one language.
+
+    Attributes:
+        code: As ISO 639 has it: ``es``.
+        name: What the language calls itself.
+        decimal, thousands: The signs in numbers.
+        melts: Two words that melt into one where a fill follows them, and that one.
+        patterns: By context, sentences that are known again in text from a file.
+    """
+
+    code: str
+    name: str
+    translations: gettext.NullTranslations
+    decimal: str = "."
+    thousands: str = ","
+    melts: Mapping[tuple[str, str], str]
+    patterns: Mapping[str, tuple[tuple[re.Pattern[str], str], ...]]
+
+    def say(self, text: str) -> str:
+        """A message in this language; text that is none stays as it is."""
+        if self.code == SOURCE:
+            return str(text)
+        match text:
+            case Joined():
+                return text.sign.join(self.say(part) for part in text.parts)
+            case Shaped():
+                return text.through(self.say(text.inner))
+            case Message():
+                return self._message(text)
+            case Number():
+                return text.translate({ord("."): self.decimal, ord(","): self.thousands})
+            case _:
+                return str(text)
+
+    def read(self, value: _Said) -> _Said:
+        """Whatever holds messages (a dataclass, a tuple, a mapping), with each message in this language."""
+        if isinstance(value, str):
+            return cast(_Said, self.say(value))
+        if isinstance(value, tuple | list):
+            return cast(_Said, type(value)(self.read(part) for part in value))
+        if isinstance(value, dict):
+            return cast(_Said, {key: self.read(part) for key, part in value.items()})
+        if is_dataclass(value) and not isinstance(value, type):
+            changed = {f.name: self.read(getattr(value, f.name)) for f in fields(value) if f.init}
+            return cast(_Said, replace(cast(Any, value), **changed))
+        return value
+
+    def _message(self, text: Message) -> str:
+        if self.code in text.labels:
+            return self.say(text.labels[self.code])
+        found = self._looked_up(text)
+        if found is not None:
+            return self._filled(found, text.fills)
+        known = self._known_again(text)
+        if known is not None:
+            return self._message(known)
+        if text.instead is not None:
+            return self._message(text.instead)
+        if text.fills:
+            return self._filled(text.template if text.number == 1 or not text.many else text.many, text.fills)
+        return str(text)
+
+    def _looked_up(self, text: Message) -> str | None:
+        """What the catalogue has for it; None where it has nothing."""
+        context, own = text.context, self.translations
+        if text.many:
+            found = (
+                own.npgettext(context, text.template, text.many, text.number)
+                if context
+                else own.ngettext(text.template, text.many, text.number)
+            )
+        else:
+            found = own.pgettext(context, text.template) if context else own.gettext(text.template)
+        return None if found == _MISSING else found
+
+    def _known_again(self, text: Message) -> Message | None:
+        for pattern, template in self.patterns.get(text.context, ()):
+            match = pattern.fullmatch(str(text))
+            if match is not None:
+                fills = match.groupdict().items()
+                return message(
+                    template, context=text.context, **{name: _recalled_fill(name, text) for name, text in fills}
+                )
+        return None
+
+    def _filled(self, template: str, fills: Mapping[str, Fill]) -> str:
+        said: dict[str, Fill] = {
+            name: self.say(value) if isinstance(value, str) else value for name, value in fills.items()
+        }
+        return fill(template, said, self._melted if self.melts else None)
+
+    def _melted(self, before: str, after: str) -> str:
+        """What follows put behind what stands there: "de" and "el árbol" become "del árbol"."""
+        for (first, second), one in self.melts.items():
+            if after.startswith(f"{second} ") and re.search(rf"(?<!\w){first} $", before, re.IGNORECASE):
+                kept = before[: -len(first) - 1]
+                large = before[len(kept)].isupper()
+                return f"{kept}{one[0].upper() if large else one[0]}{one[1:]}{after[len(second) :]}"
+        return before + after
+
+
+class _Missing(gettext.NullTranslations):
+    """What is asked where a catalogue has no translation: a translation may well be the English."""
+
+    def gettext(self, message: str) -> str:  # noqa: ARG002
+        return _MISSING
+
+    def ngettext(self, msgid1: str, msgid2: str, n: int) -> str:  # noqa: ARG002
+        return _MISSING
+
+    def pgettext(self, context: str, message: str) -> str:  # noqa: ARG002
+        return _MISSING
+
+    def npgettext(self, context: str, msgid1: str, msgid2: str, n: int) -> str:  # noqa: ARG002
+        return _MISSING
+
+
+#: The language of the source.
+ENGLISH = Language(code=SOURCE, name="English", translations=_Missing(), melts={}, patterns={})
+
+
+def _translations(entries: Iterable[Entry]) -> gettext.NullTranslations:
+    found = gettext.GNUTranslations(io.BytesIO(compiled(entries)))
+    found.add_fallback(_Missing())
+    return found
+
+
+def _recalled_fill(name: str, text: str) -> str:
+    """What filled a placeholder of a sentence that is known again: a number, or a word of the context of that name."""
+    return Number(text) if name in _FIGURES else named(text, name)
+
+
+def languages() -> Mapping[str, str]:
+    """The languages that there are: what each calls itself, by its code; English first."""
+    found = {SOURCE: "English"}
+    for code in sorted(folder.name for folder in _locale().iterdir() if folder.is_dir()):
+        found[code] = open_language(code).name
+    return found
+
+
+@lru_cache
+def open_language(code: str) -> Language:
+    """The language of a code.
+
+    Raises:
+        InputError: There is no catalogue of it.
+    """
+    if code == SOURCE:
+        return ENGLISH
+    file = _locale() / code / "LC_MESSAGES" / f"{_DOMAIN}.po"
+    if not re.fullmatch(r"[a-z]{2,3}", code) or not file.is_file():
+        there = ", ".join(languages())
+        raise InputError(f"there is no language '{code[:40]}'", where="--lang", advice=f"choose one of {there}")
+    entries = read_entries(file.read_text(encoding="utf-8"))
+    header = _header(entries)
+    return Language(
+        code=code,
+        name=header.get("X-Language-Name", code),
+        translations=_translations(entries),
+        decimal=header.get("X-Decimal", ".").strip('"'),
+        thousands=header.get("X-Thousands", ",").strip('"'),
+        melts=_melts(header.get("X-Melts", "")),
+        patterns=_patterns(entries),
+    )
+
+
+def spoken(wanted: str | None, environ: Mapping[str, str]) -> Language:
+    """The language to speak: the one that was asked for, else that of the environment if there is one, else English.
+
+    Raises:
+        InputError: The one that was asked for does not exist.
+    """
+    if wanted is not None:
+        return open_language(wanted.strip().lower())
+    said = next((environ[name] for name in ("LC_ALL", "LC_MESSAGES", "LANG") if environ.get(name)), "")
+    code = re.split(r"[_.@-]", said.lower())[0]
+    return open_language(code if code in languages() else SOURCE)
+
+
+def _locale() -> Any:
+    return resources.files("fieldhand.language") / "locale"
+
+
+def _header(entries: Iterable[Entry]) -> dict[str, str]:
+    text = next((e.said[0] for e in entries if not e.template), "")
+    pairs = (line.partition(":") for line in text.splitlines())
+    return {name.strip(): value.strip() for name, _, value in pairs}
+
+
+def _melts(text: str) -> dict[tuple[str, str], str]:
+    found = {}
+    for pair in filter(None, (part.strip() for part in text.split(","))):
+        words, _, one = pair.partition("=")
+        first, second = words.split()
+        found[first, second] = one.strip()
+    return found
+
+
+def _patterns(entries: Iterable[Entry]) -> dict[str, tuple[tuple[re.Pattern[str], str], ...]]:
+    """Sentences of a context as patterns, those with the most words of their own first."""
+    found: dict[str, list[tuple[re.Pattern[str], str]]] = {}
+    for entry in entries:
+        if entry.context == "assumption":
+            parts = re.split(r"\{(\w+)\}", entry.template)
+            pattern = "".join(re.escape(p) if k % 2 == 0 else f"(?P<{p}>.*?)" for k, p in enumerate(parts))
+            found.setdefault(entry.context, []).append((re.compile(pattern, re.DOTALL), entry.template))
+    return {
+        context: tuple(sorted(pairs, key=lambda p: -len(re.sub(r"\{\w+\}", "", p[1]))))
+        for context, pairs in found.items()
+    }

@@ -1,0 +1,103 @@
+"""Catalogues of translations in gettext's ``.po`` form, read, and put into the form that the standard library takes."""
+
+from __future__ import annotations
+
+import ast
+import re
+import struct
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from fieldhand.errors import InputError
+
+_KEYWORD = re.compile(r'(msgctxt|msgid_plural|msgid|msgstr(?:\[(\d)\])?)\s+(".*")')
+
+
+@dataclass(frozen=True, kw_only=True)
+class Entry:
+    """A message and what a language says for it.
+
+    Attributes:
+        template, many: As English says it, of one and of more; ``many`` is empty where it does not count.
+        context: Tells apart messages that are the same in English only.
+        said: The translation, one for each plural form.
+    """
+
+    template: str
+    said: tuple[str, ...]
+    many: str = ""
+    context: str = ""
+
+    @property
+    def key(self) -> tuple[str, str]:
+        """What a catalogue finds it by."""
+        return self.context, self.template
+
+
+def read_entries(text: str) -> tuple[Entry, ...]:
+    """Every entry of a ``.po`` file; the header is the one with an empty template.
+
+    Raises:
+        InputError: A line is none of such a file.
+    """
+    found: list[Entry] = []
+    held: dict[str, str] = {}
+    last = ""
+    for number, line in enumerate([*text.splitlines(), ""], start=1):
+        stripped = line.strip()
+        if stripped.startswith("#"):
+            continue
+        if not stripped:
+            if held:
+                found.append(_entry(held))
+            held, last = {}, ""
+            continue
+        match = _KEYWORD.fullmatch(stripped)
+        if match:
+            last = "msgstr[0]" if match[1] == "msgstr" else match[1]
+            held[last] = _unquoted(match[3], number)
+        elif stripped.startswith('"') and last:
+            held[last] += _unquoted(stripped, number)
+        else:
+            raise InputError("this is no line of a .po file", where=f"line {number}", advice="see docs/languages.md")
+    return tuple(found)
+
+
+def compiled(entries: Iterable[Entry]) -> bytes:
+    """The entries as the bytes of a ``.mo`` file, which :class:`gettext.GNUTranslations` reads; without empty ones."""
+    pairs: dict[bytes, bytes] = {}
+    for entry in entries:
+        if any(entry.said):
+            key = f"{entry.context}\x04{entry.template}" if entry.context else entry.template
+            full = f"{key}\x00{entry.many}" if entry.many else key
+            pairs[full.encode()] = "\x00".join(entry.said).encode()
+    keys = sorted(pairs)
+    start = 28 + 16 * len(keys)
+    ids = b"".join(key + b"\x00" for key in keys)
+    texts = b"".join(pairs[key] + b"\x00" for key in keys)
+    table, at = [], start
+    for piece in (*keys, *(pairs[key] for key in keys)):
+        table += [len(piece), at]
+        at += len(piece) + 1
+    head = struct.pack("<7I", 0x950412DE, 0, len(keys), 28, 28 + 8 * len(keys), 0, start)
+    return head + struct.pack(f"<{len(table)}I", *table) + ids + texts
+
+
+def _entry(held: dict[str, str]) -> Entry:
+    said = tuple(text for key, text in sorted(held.items()) if key.startswith("msgstr"))
+    return Entry(
+        template=held.get("msgid", ""),
+        many=held.get("msgid_plural", ""),
+        context=held.get("msgctxt", ""),
+        said=said or ("",),
+    )
+
+
+def _unquoted(text: str, number: int) -> str:
+    try:
+        value = ast.literal_eval(text)
+    except (SyntaxError, ValueError):
+        value = None
+    if not isinstance(value, str):
+        raise InputError("the quotes do not match", where=f"line {number}", advice="see docs/languages.md")
+    return value
