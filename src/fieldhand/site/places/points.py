@@ -58,6 +58,10 @@ class _Line:
     words: str
 
 
+#: How far from its row towards the next one a line of points lies: nearer to its own row, whose ground is meant.
+_BESIDE = 0.4
+
+
 def spaced(spots: Spots, near: Spots, selector: Spaced, tell: Tell) -> Spots:
     """Points at exactly that spacing on one straight line, from its end that is nearer to ``near``.
 
@@ -203,7 +207,7 @@ def _beside_row(in_row: Spots, near: Spots, tell: Tell) -> Iterator[_Line]:
     for side in sides:
         if side in inner:
             c, s = _course(site, block.rows[at + side], u, v)
-            middle, tilt = (centre + c) / 2, (slope + s) / 2
+            middle, tilt = centre + _BESIDE * (c - centre), slope + _BESIDE * (s - slope)
         else:
             middle, tilt = centre + side * block.tree_spacing_m / 2, slope
         ends = [t * u + (middle + tilt * t) * v for t in (begin, end)]

@@ -256,8 +256,7 @@ class Resolution:
         match selector:
             case s.Nearest(to=origin) | s.Farthest(origin=origin):
                 to = self.spots(origin)
-                left = neighbours.apart_from(of, to)
-                left = left.once(selector.count) if selector.count > 1 else left
+                left = neighbours.apart_from(of, to).once(selector.count if selector.count > 1 else len(of))
                 fresh = isinstance(selector, s.Nearest) and selector.fresh
                 return (left.without(self._visited()) if fresh else left), to
             case s.EdgeMiddle(side=side):
