@@ -119,8 +119,8 @@ def test_what_does_not_fit_is_counted() -> None:
 
 
 def test_a_robot_line_names_levels_bounds_and_words() -> None:
+    assert "co2 in ppm; low is below 400" in "\n".join(robot_lines(load_robot("husky")))
     lines = "\n".join(robot_lines(load_robot("amiga")))
-    assert "soil_moisture in percent; low is below 15; high is above 35" in lines
     assert "parameter depth_cm: 5 to 60 cm" in lines
     assert "parameter view: one of canopy, trunk, ground" in lines
 

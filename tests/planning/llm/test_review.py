@@ -66,7 +66,8 @@ def test_a_wrong_namespace_is_not_passed_over() -> None:
         ('<act><take_picture zoom="3"/></act>', "schema", "line 4", "zoom"),
         ("<sequence>\n<act><take_picture></act></sequence>", "schema", "line 5", "well-formed"),
         (
-            '<if><condition><level reading="r"><soil_moisture level="low"/></level></condition>'
+            '<if><condition><compare reading="r" test="lt"><soil_moisture value="15" unit="percent"/></compare>'
+            "</condition>"
             "<then><act><take_picture/></act></then></if>",
             "reference",
             "",

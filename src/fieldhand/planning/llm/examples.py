@@ -61,12 +61,14 @@ _AGAIN = f"""\
       <sequence>
         <act reading="first"><read_soil_moisture/><at><last/></at></act>
         <if>
-          <condition><level reading="first"><soil_moisture level="low"/></level></condition>
+          <condition><compare reading="first" test="lt"><soil_moisture value="15" unit="percent"/></compare></condition>
           <then>
             <sequence>
               <act reading="second"><read_soil_moisture/><at><farthest><origin><here/></origin></farthest></at></act>
               <if>
-                <condition><level reading="second"><soil_moisture level="low"/></level></condition>
+                <condition>
+                  <compare reading="second" test="lt"><soil_moisture value="15" unit="percent"/></compare>
+                </condition>
                 <then><act><take_picture/></act></then>
               </if>
             </sequence>
@@ -101,8 +103,8 @@ EXAMPLES: tuple[tuple[str, str], ...] = (
         _EACH,
     ),
     (
-        "Check the moisture at the last tree. If it is low, do the same at a far away tree, and if that is low too, "
-        "take a picture there. In any case photograph another tree at the end.",
+        "Check the moisture at the last tree. If it is below 15 %, do the same at a far away tree, and if that is "
+        "below 15 % too, take a picture there. In any case photograph another tree at the end.",
         _AGAIN,
     ),
     ("Take a picture at the corner.", _QUESTION),

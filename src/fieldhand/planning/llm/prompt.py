@@ -29,7 +29,7 @@ from fieldhand.task.selectors import Selector
 
 #: Most characters of the summary of a robot, of the summary of a site, and of one line of either.
 MOST_DATA = 4_000
-MOST_OF_SITE = 1_000
+MOST_OF_SITE = 950
 LONGEST_LINE = 400
 #: Words that are shown for one action or quantity.
 SAID_WORDS = 6
