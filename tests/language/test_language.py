@@ -86,7 +86,7 @@ def test_a_sentence_from_a_file_is_known_again() -> None:
     said = "'come back' means back to the start."
     assert SPANISH.say(recalled(said, "assumption")) == "«come back» significa volver al inicio."
     far = (
-        "The way to the start alone is 1,250 m, most of what may be used: the robot stays where its last visit was."
+        "The way to the start alone is 1,250 m, much of what may be used: the robot stays where its last visit was."
         " Ask for the return if it is wanted."
     )
     assert SPANISH.say(recalled(far, "assumption")).startswith("Solo el camino al inicio son 1.250 m,")

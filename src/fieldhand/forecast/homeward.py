@@ -11,11 +11,11 @@ from fieldhand.task.frames import Task, Then
 from fieldhand.task.plan import ForEach, walk
 
 #: The way home may take this part of a budget before it is left out of a mission that did not ask for it.
-MOST = 0.5
+MOST = 0.25
 
 
 def costs_too_much(task: Task, site: Site, robot: RobotProfile, then: Then) -> float | None:
-    """Metres of the way home from the start, where that alone takes most of a budget for optional visits.
+    """Metres of the way home from the start, where that alone takes much of a budget for optional visits.
 
     A mission that visits as many trees as a budget allows would spend the budget on the way home in place of trees.
 

@@ -40,14 +40,14 @@ def stays_if_home_is_far(task: Task, site: Site, robot: RobotProfile) -> Task:
         return task
     if then == "return_to_end":
         said = message(
-            "The way to the end marker alone is {metres} m, most of what may be used: the robot stays where its last"
+            "The way to the end marker alone is {metres} m, much of what may be used: the robot stays where its last"
             " visit was. Ask for the return if it is wanted.",
             context="assumption",
             metres=say_rounded(metres),
         )
     else:
         said = message(
-            "The way to the start alone is {metres} m, most of what may be used: the robot stays where its last visit"
+            "The way to the start alone is {metres} m, much of what may be used: the robot stays where its last visit"
             " was. Ask for the return if it is wanted.",
             context="assumption",
             metres=say_rounded(metres),
