@@ -8,6 +8,88 @@ Longer than other files because it is a table.
 PLANNED = [
     (
         "husky",
+        "Photograph every tree within 7 metres of the start and then come back to it.",
+        "for Within(7, Marker(start)): [picture] | return_to_start",
+    ),
+    (
+        "husky",
+        "Take two CO2 readings at the south-west corner tree and then one at the tree that is farthest from it.",
+        "co2 x2 @ Corners(sw); co2 @ Farthest(Here)",
+    ),
+    (
+        "husky",
+        "Take a thermal picture of any 4 trees in the south-east quarter. If one of them is too hot, meaning over 40 degrees C, take an air temperature reading at that tree too.",
+        "for Take(4, of Quarter(se)): [picture = r1; if r1 > 40 degC: [air]]",
+    ),
+    (
+        "husky",
+        "Measure CO2 at the tree nearest the middle. If it's at least 410 ppm, photograph each of the two trees beside it, otherwise take one of the tree itself.",
+        "co2 @ Middle = r1; if r1 >= 410 ppm: [for Nearest(Here, 2, True): [picture]] else [picture]",
+    ),
+    ("amiga", "Measure soil moisture three times, 30 feet apart.", "for Spaced(9.144, 3): [moisture]"),
+    (
+        "amiga",
+        "Starting from its south end, go along row 3 tree by tree and measure the soil moisture, until a tree has less than 15 percent.",
+        "for Ordered(south_to_north, of Rows(3, 3)) given until r1 < 15 percent: [moisture = r1]",
+    ),
+    (
+        "husky",
+        "Measure the CO2 at a tree in the middle. In case of a low reading, drive to three different trees nearby and take a picture of each. At the end take a temperature reading at one of the easternmost trees.",
+        "co2 @ Middle = r1; if r1 low: [for Nearest(Here, 3, True, of Other): [picture]]; air @ Take(1, of AmongExtreme(east))",
+    ),
+    (
+        "husky",
+        "Measure co2 at three trees in the north-east quarter. For each of them: if the co2 is 500 ppm or more, take a picture too.",
+        "for Take(3, of Quarter(ne)): [co2 = r1; if r1 >= 500 ppm: [picture]]",
+    ),
+    (
+        "amiga",
+        "Sample leaves from three Carmel trees in the southern half, one leaf sample per tree.",
+        "for Take(3, of Where(variety, eq, Carmel, of Half(south))): [sample_leaf]",
+    ),
+    (
+        "husky",
+        "CO2 readings at the corners: first the south-west corner, then the north-west, then the north-east and the south-east last.",
+        "for Union(Corners(sw)+Corners(nw)+Corners(ne)+Corners(se)) given: [co2]",
+    ),
+    (
+        "husky",
+        "Measure CO2 at a tree in the middle. Then measure CO2 at another tree, the farthest one from there.",
+        "co2 @ Middle; co2 @ Farthest(Here)",
+    ),
+    (
+        "husky",
+        "Measure CO2 at the first tree. If it is below 400, take a picture, then drive to a far away tree and repeat the process.",
+        "co2 @ First = r1; if r1 < 400 ppm: [picture; go Farthest(Here); co2 = r2; if r2 < 400 ppm: [picture]]",
+    ),
+    (
+        "husky",
+        "In the northern half, photograph the oldest tree and measure CO2 at the youngest",
+        "picture @ Top(age_years, 1, of Half(north)); co2 @ Top(age_years, 1, True, of Half(north))",
+    ),
+    ("husky", "Check the air temp. at tree 4.", "air @ TreeIs(4)"),
+    (
+        "husky",
+        "Take the air temperature at tree 4. If it's between 70 and 80 °F, read CO2 as well; otherwise make a thermal image of it.",
+        "air @ TreeIs(4) = r1; if 21.1111 <= r1 <= 26.6667 degC: [co2] else [picture]",
+    ),
+    (
+        "husky",
+        "Take a thermal picture of every yellow tree in row 4. Those hotter than 35 degrees should get a CO2 reading, the others an air temperature.",
+        "for Where(leaf_color, eq, yellow, of Rows(4, 4)): [picture = r1; if r1 > 35 degC: [co2] else [air]]",
+    ),
+    (
+        "amiga",
+        "Please collect leaves from any 6 Carmel trees for the lab, one sample per tree.",
+        "for Take(6, of Where(variety, eq, Carmel)): [sample_leaf]",
+    ),
+    (
+        "husky",
+        "Read the co2 at tree 4 and, if it is four hundred and fifty ppm or more, take two pictures, otherwise just one.",
+        "co2 @ TreeIs(4) = r1; if r1 >= 450 ppm: [picture x2] else [picture]",
+    ),
+    (
+        "husky",
         "Air temp at the northernmost tree, then at the southernmost. If both are under 30 come back to the start. Otherwise take a co2 at the southern one and finish at the end marker.",
         "air @ Extreme(north) = r1; air @ Extreme(south) = r2; if r1 < 30 degC and r2 < 30 degC: [go Marker(start)] else [co2 @ Extreme(south, of Union(Extreme(north)+Extreme(south))); go Marker(end)] | stay",
     ),
@@ -572,11 +654,6 @@ PLANNED = [
     ("amiga", "Take a leaf sample at each of the 5 oldest trees.", "for Top(age_years, 5): [sample_leaf]"),
     ("amiga", "Sample a leaf at tree 4", "sample_leaf @ TreeIs(4)"),
     ("amiga", "clip a leaf from tree 4", "sample_leaf @ TreeIs(4)"),
-    (
-        "amiga",
-        "if the soil moisture at tree 9 is dry, take a picture",
-        "moisture @ TreeIs(9) = r1; if r1 low: [picture]",
-    ),
     ("husky", "Take a picture of every tree whose age is more than 8 years.", "for Where(age_years, gt, 8): [picture]"),
     ("husky", "Take pictures of trees with a yield of more than 3 kg.", "for Where(yield_kg, gt, 3): [picture]"),
     (
@@ -718,6 +795,11 @@ PLANNED = [
 ]
 
 ASKED = [
+    (
+        "amiga",
+        "if the soil moisture at tree 9 is dry, take a picture",
+        "what is a low soil moisture? amiga gives no such word for it; say a threshold in percent",
+    ),
     (
         "husky",
         "Take a picture of tree 4, if the battery allows, and measure CO2 at tree 5.",
@@ -922,11 +1004,6 @@ REFUSED = [
         "husky",
         "Take a picture every 5 minutes.",
         "'every' does not fit where it stands in 'Take a picture every 5 minutes'",
-    ),
-    (
-        "husky",
-        "Take a CO2 reading at the north-east corner, then at the tree farthest from it.",
-        "'from it' does not fit where it stands in 'Take a CO2 reading at the north-east corner, then at the tree farthest from it'",
     ),
     (
         "husky",

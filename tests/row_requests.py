@@ -6,6 +6,27 @@
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
+    ("husky", "take a picture of tree 3 from the south in row 3", "picture @ InRow(3, 3, south, of Rows(3, 3))"),
+    (
+        "husky",
+        "for every tree in the wet corner, take a picture, and if it is above 36 °C read CO2",
+        "for InZone(wet corner): [picture = r1; if r1 > 36 degC: [co2]]",
+    ),
+    (
+        "husky",
+        "in the first row photograph every tree and in the second row read CO2 at every tree",
+        "for Rows(1, 1): [picture]; for Rows(2, 2): [co2]",
+    ),
+    (
+        "amiga",
+        "In row 6 take soil moisture readings at the first and at the last tree. Then do the same in row 8.",
+        "moisture @ InRow(1, 1, of Rows(6, 6)); moisture @ InRow(-1, -1, of Rows(6, 6)); moisture @ InRow(1, 1, of Rows(8, 8)); moisture @ InRow(-1, -1, of Rows(8, 8))",
+    ),
+    (
+        "husky",
+        "In rows 2, 5 and 8, photograph the northernmost tree of the row.",
+        "for Union(Extreme(north, of Rows(2, 2))+Extreme(north, of Rows(5, 5))+Extreme(north, of Rows(8, 8))): [picture]",
+    ),
     ("husky", "Take three CO2 readings at least 15 m apart.", "for Spaced(15, 3): [co2]"),
     ("husky", "Take three pictures of trees 15 m apart.", "for Apart(15, 3): [picture]"),
     (
@@ -911,6 +932,7 @@ PLANNED = [
 ]
 
 ASKED = [
+    ("husky", "repeat the same in the next row", "'repeat the same in the next row': which row?"),
     (
         "husky",
         "take a picture of row 3 of block 1",
@@ -1006,7 +1028,7 @@ ASKED = [
     (
         "husky",
         "Photograph every third tree, from south to north, of row 3.",
-        "'from south to north': is it counted from there, or only visited from there?",
+        "'of row 3': at every tree, or at how many?",
     ),
     ("husky", "Take a picture of trees in a different row.", "'a different row': which row?"),
     ("husky", "Take a picture of the trees in rows 2 and 3 nearest to the charger.", "'the trees': how many?"),
@@ -1165,11 +1187,6 @@ REFUSED = [
     ),
     (
         "husky",
-        "repeat the same in the next row",
-        "'repeat the same in the next row': there is nothing before it to repeat",
-    ),
-    (
-        "husky",
         "take a picture of all trees in row 3 except the first two",
         "'two' does not fit where it stands in 'take a picture of all trees in row 3 except the first two'",
     ),
@@ -1177,11 +1194,6 @@ REFUSED = [
         "husky",
         "read co2 at the tree of row 5 farthest from the charger",
         "'farthest' could not be placed in 'row 5 farthest'",
-    ),
-    (
-        "husky",
-        "take a picture of tree 3 from the south in row 3",
-        "'tree 3 from the south in row 3': 'tree 3' is one place: nothing more can be said of it",
     ),
     (
         "husky",
@@ -1207,7 +1219,7 @@ REFUSED = [
         "'Walk down row 3': it does not say what to do along the row",
     ),
     ("husky", "Take a picture of tree 40. Turn around and go 3 trees back.", "'trees back' is not possible yet"),
-    ("husky", "Take a picture of the neighbours of tree 40 in the same row.", "not understood: 'neighbours'"),
+    ("husky", "Take a picture of the neighbours of tree 40 in the same row.", "not understood: 'neighbour'"),
     ("husky", "Read CO2 at four evenly spaced trees in row 5.", "not understood: 'evenly'"),
     (
         "husky",
@@ -1255,11 +1267,6 @@ REFUSED = [
         "'the last one': the first or last of which trees?",
     ),
     ("husky", "Take a picture of every row's first tree.", "not understood: 'row's'"),
-    (
-        "husky",
-        "Take a picture of the 3 trees in row 2 nearest to the charger.for every tree in the wet corner, take a picture, and if it is above 36 °C read CO2",
-        "'36 °C': that unit does not fit what is measured",
-    ),
     ("husky", "drive down row 3 to tree 5 and take a picture", "'to tree 5': of which row is not clear"),
     (
         "husky",
@@ -1322,11 +1329,6 @@ REFUSED = [
     ("husky", "photograph the row ends", "'ends' could not be placed in 'the row ends'"),
     (
         "husky",
-        "in the first row photograph every tree and in the second row read CO2 at every tree",
-        "'read CO2' does not fit where it stands in 'in the first row photograph every tree and in the second row read CO2 at every tree'",
-    ),
-    (
-        "husky",
         "go to tree 30, photograph it and the two trees on either side",
         "'either side': which side is meant does not stand there",
     ),
@@ -1335,7 +1337,7 @@ REFUSED = [
     (
         "husky",
         "take a picture of the trees in row 3 between 5 and 10 years old",
-        "'row 3 between 5 and 10 years old': which attribute is compared does not stand there",
+        "nothing on this site matches the trees of row 3 whose age is at least 5 years, whose age is at most 10 years",
     ),
     (
         "husky",

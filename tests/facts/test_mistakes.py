@@ -31,8 +31,8 @@ LEAST = {
     "tree": 1.0,
     "budget invented": 1.0,
     "step dropped": 0.6,
-    "row": 0.5,
-    "side": 0.7,
+    "row": 0.4,
+    "side": 0.45,
 }
 
 

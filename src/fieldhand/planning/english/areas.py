@@ -36,6 +36,12 @@ def with_areas(parts: tuple[Part, ...], site: Site) -> tuple[Part, ...]:
                 made[made.index(lead)] = stop
                 area = lead
                 continue
+        goes_on = part.kind == "lead" and area is not None and any(m.kind in ACTS for m in made)
+        if goes_on and area is not None and area.places is not None and _open(part, ids=False):
+            found = None if part.places is None else find(part.places, site)
+            if part.places is not None and found is not None and not found.region:  # "..., and at the last tree"
+                made.append(replace(part, places=_in_area(part.places, area, area.places.chains[0])))
+                continue
         if part.kind not in ACTS:
             area = None if part.kind in _ELSEWHERE else area
             made.append(part)
@@ -44,7 +50,7 @@ def with_areas(parts: tuple[Part, ...], site: Site) -> tuple[Part, ...]:
             merged = _merged(lead, part, site)
             if merged is not None:
                 del made[at]
-                area = lead if lead.kind != "lead" else None
+                area = lead
                 made.append(merged)
                 continue
             if _goes_along(lead, site) and any(_is_each(t) for t in part.tails):

@@ -185,7 +185,8 @@ def _sentence(terms: list[Term]) -> tuple[Sentence, list[Span]]:
 def _ranks_go_on(terms: list[Term]) -> bool:
     """Whether another rank and its tree follow ("... and at the last tree")."""
     kinds = [t.kind for t in terms if t.kind not in ("AND", "COMMA", "DET", "AT", "OF")]
-    return len(kinds) > 1 and kinds[0] in ("ORD", "LAST") and kinds[1] == "TREE"
+    apart = any(t.kind in ("AT", "OF") for t in terms[:2])  # without it they are ranks of one noun
+    return apart and len(kinds) > 1 and kinds[0] in ("ORD", "LAST") and kinds[1] == "TREE"
 
 
 def _tersely(terms: list[Term]) -> list[Term]:
@@ -223,6 +224,11 @@ def _with_heads(terms: list[Term]) -> list[Term]:
         if term is headed:
             continue
         ahead_kinds = [*(t.kind for t in terms[index + 1 : index + 3]), "", ""]
+        apart = term.kind == "THERE" and term.text.lower() in ("from it", "of it") and index
+        if apart and terms[index - 1].kind in ("FARTHEST", "NEAREST", "FAR"):
+            cut = term.start + len(term.text.split()[0])
+            found += [replace(term, kind="FROM", end=cut), replace(term, kind="IT", text="it", start=cut)]
+            continue
         described = ahead_kinds[0] in ("FARTHEST", "FAR", "NEARBY") and ahead_kinds[1] not in _NAMED
         if term.kind == "COMMA" and described and index and terms[index - 1].kind in ("TREE", "PLACE"):
             found.append(replace(term, kind="WHICH"))  # "another tree, as far away as possible"

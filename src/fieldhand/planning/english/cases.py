@@ -9,7 +9,7 @@ from fieldhand.planning.english.hand import ACTS, Hand
 from fieldhand.planning.english.places import find
 from fieldhand.planning.english.several import Share, one_after_another, share_of
 from fieldhand.planning.english.syntax import Part, parse_places
-from fieldhand.planning.english.tested import Predicate, place_in, read_condition
+from fieldhand.planning.english.tested import Predicate, place_in, quantities_of, read_condition
 from fieldhand.planning.english.tokens import Term
 from fieldhand.task import conditions as c
 from fieldhand.task import selectors as s
@@ -130,7 +130,8 @@ class Cases(Hand):
         if says_which or self._choice is None or not readings(self._choice.condition):
             return
         inside = [cap for cap in known if any(cap is st for st, _ in d.walk(self._choice.then))]
-        inside = [cap for cap in inside if self._robot.action[cap.action].measures]
+        wanted = set(quantities_of(terms, (), self._robot))
+        inside = [cap for cap in inside if set(self._robot.action[cap.action].measures) & wanted]
         before = [cap for cap in known if cap.reading in readings(self._choice.condition)]
         if inside and before and not any(t.kind == "CMP" and t.value[1] for t in terms):
             if self._continues(terms, known, before):

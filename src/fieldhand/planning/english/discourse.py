@@ -64,7 +64,6 @@ class Discourse(Elliptic):
         if parts[0].kind not in ("otherwise", "failing", "so"):
             self._scope = self.told.root
         self._sentence_steps = []
-        self._before_case = frozenset()
         self._sentence_acts = False
         if parts[0].kind != "otherwise":
             self._sentence_choices = []
@@ -79,12 +78,11 @@ class Discourse(Elliptic):
                     before = [p for p in parts[:index] if p.kind in COMMANDS and p.kind != "lead"]
                     ahead = next((p.kind for p in following if p.kind not in ("budget", "order")), "")
                     outer, trailing = self._scope, bool(before) and (ahead in ("", "otherwise") or part.bare)
-                    self._before_case = self._known()
                     self._condition(part, trailing=trailing)
                     if trailing and ahead not in ("", "otherwise"):
                         self._scope = outer  # "take a picture if it is low and then return": the return is for all
                 case "until":
-                    self._until(part, following)
+                    self._until(part)
                 case "question":
                     self._condition(part, trailing=False)
                     if self._choice is not None:
@@ -131,6 +129,8 @@ class Discourse(Elliptic):
 
     def _command(self, part: Part) -> None:
         match part.kind:
+            case "more_objects" if self._says_again(part, self._wanted(part.objects, part)):
+                pass
             case "act_on_objects" | "more_objects":
                 self._act(part, self._wanted(part.objects, part))
             case "act_on_places":
@@ -167,6 +167,8 @@ class Discourse(Elliptic):
 
     def _more_places(self, part: Part) -> None:
         """ "..., then the north-east corner": what was done before, there."""
+        if self._at_each_of_them(part) or self._lists(part):
+            return
         if self._last_verb in ("go", "visit"):
             self._go(part)
             return
@@ -273,12 +275,34 @@ class Discourse(Elliptic):
                 self._pending = part.terms[0]
             return
         if self._loop is not None:
-            self._loop.order = "given" if part.terms[0].kind == "INORDER" else "best"
+            self._loop.order = "best"
+            if part.terms[0].kind == "INORDER":
+                self._one_after_the_other(self._loop)
             self._loop.said += part.said
+
+    def _gone_to(self, part: Part) -> set[int]:
+        """The steps of this sentence from the last place on that it goes to: what is done again comes before them."""
+        said_where = part.places is not None and not self._related(part).here
+        placed = [k for k, st in enumerate(self._sentence_steps) if repeating.has_place(st)]
+        if said_where or not placed:
+            return set()
+        last = self._sentence_steps[placed[-1]]
+        if any(t.kind == "COUNT" for t in part.tails) and not isinstance(last, d.Go):
+            return set()
+        return {id(step) for step in self._sentence_steps[placed[-1] :]}
+
+    def _in_another_area(self, old: list[d.Step], found: Found) -> bool:
+        """ "Do the same in row 8" behind what was done at several places of row 6. Whether it is that."""
+        passage = repeating.passage_in_area(old, found.selector)
+        made = repeating.copied(passage, lambda _: True, self._fresh)
+        if not passage.steps or not repeating.in_area(made, found.selector):
+            return False
+        repeating.append(made, self._scope)
+        return True
 
     def _repeat(self, part: Part) -> None:
         """ "Do the same": what was done at the last place, at the place that this sentence has gone to."""
-        sentence = {id(step) for step in self._sentence_steps if id(step) not in self._before_case}
+        sentence = self._gone_to(part)
         old = [st for st in self.told.root.steps if id(st) not in sentence]
         if not old:  # "take a picture at A, then go to B and do the same": B is all that is new
             steps = self.told.root.steps
@@ -293,8 +317,7 @@ class Discourse(Elliptic):
         made = repeating.copied(passage, lambda st: id(st) not in sentence, self._fresh)
         found = None if part.places is None else self._related(part)
         if found is not None and not found.here:
-            if found.region and repeating.in_area(made, found.selector):
-                repeating.append(made, self._scope)
+            if found.region and self._in_another_area(old, found):
                 return
             found = repeating.as_many_as(old, found)
             repeating.without_place(made, part)

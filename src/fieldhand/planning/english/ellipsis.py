@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.counting import Wanted
 from fieldhand.planning.english.faults import Question, text_of, unclear
+from fieldhand.planning.english.hand import ACTS
 from fieldhand.planning.english.leaving import Leaving
 from fieldhand.planning.english.places import find
 from fieldhand.planning.english.syntax import Part
+from fieldhand.task import selectors as s
 
 
 class Elliptic(Leaving):
@@ -34,6 +37,53 @@ class Elliptic(Leaving):
         rest = replace(first, phrases=first.phrases[1:], relations=first.relations[1:])
         places = replace(part.places, chains=(rest,))
         return replace(part, places=places, relation=first.relations[0]), objects
+
+    def _at_each_of_them(self, part: Part) -> bool:
+        """ "For each of them: ...": what follows is done at each of the places that were spoken of. Whether it is."""
+        if part.places is None or not any(p.kind in (*ACTS, "condition") for p in self._following[:1]):
+            return False
+        found = find(part.places, self._site)
+        if not (found.here and found.these):
+            return False
+        self._gather(part)
+        if self._loop is None or not self._within(self._loop.body, self.told.root):
+            return False
+        self._loop.said += part.said
+        self._scope = self._loop.body
+        return True
+
+    def _lists(self, part: Part) -> bool:
+        """ "At the corners: first the south-west one, then ...": the places one by one that were named together."""
+        loop = self._loop
+        if loop is None or loop not in self._sentence_steps or part.places is None:
+            return False
+        if part.listed and isinstance(loop.select, s.Corners | s.Take):
+            self._listing, loop.select = loop, s.Union(parts=())
+        if self._listing is not loop or not isinstance(loop.select, s.Union):
+            return False
+        found = self._related(part)
+        if found.here or found.object_only or found.optional or found.at_most is not None:
+            raise unclear(part.terms, "is that one of the places?", "name the places in one list")
+        named = found.selector.parts if isinstance(found.selector, s.Union) else (found.selector,)
+        loop.select = s.Union(parts=(*loop.select.parts, *named))
+        loop.said += part.said
+        if part.then:
+            loop.order = "given"
+        return True
+
+    def _says_again(self, part: Part, wanted: Wanted) -> bool:
+        """ "..., one leaf sample per tree": what the command before it asks for already. Whether it is."""
+        last = self._loop.body.steps[-1] if self._loop is not None and self._loop.body.steps else None
+        each = self._loop is not None and self._loop in self._sentence_steps
+        if not each or not isinstance(last, d.Capture) or wanted not in (((last.action, 1),), ((last.action, None),)):
+            return False
+        there = any(t.kind in ("THERE", "EACHTAIL") for t in part.tails) or (
+            part.places is not None and [t.kind for t in part.places.terms] == ["EACH", "TREE"]
+        )
+        if there and last.count == 1 and not any(t.kind in ("COUNT", "AGAIN") for t in part.tails):
+            last.said += part.said
+            return True
+        return False
 
     def _captured_next(self) -> bool:
         """Whether what follows in the sentence is captured at the places that have just been named."""

@@ -11,6 +11,7 @@ from fieldhand.planning.english.counting import Wanted, counted, number_of_objec
 from fieldhand.planning.english.faults import Question, spans_of, text_of, unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.naming import Naming
+from fieldhand.planning.english.onebyone import counted_from
 from fieldhand.planning.english.pick import is_spot
 from fieldhand.planning.english.places import are_several, beyond, find
 from fieldhand.planning.english.spacing import Ranking
@@ -62,16 +63,18 @@ class Hand:
         self._last_verb = ""
         self._aside: list[d.Capture] = []  # held by an "if" behind them: a later "if it" does not mean them
         self._choice: d.Choice | None = None
-        self._found_one: d.Choice | None = None  # what is done where a round ends that "until" ends
+        self._ended: d.Choice | None = None  # holds what is done where a round ends that "until" ends
+        self._ended_round: d.Loop | d.Times | None = None
+        self._found_one: d.Choice | None = None  # the same once it holds something
         self._following: tuple[Part, ...] = ()  # what follows in the sentence
         self._sentence_choices: list[d.Step] = []
         self._pending: Term | None = None  # an order said before the places that it is about
         self._area_gone_to = ""  # the same of another area
         self._rows_gone_to = ""  # rows that a "go to" has named: of these, or of all, may "every tree" be said
         self._loop: d.Loop | None = None  # the places that "each of them" and "there" may mean
+        self._listing: d.Loop | None = None  # whose places are named one by one behind a colon
         self._sentence_steps: list[d.Step] = []
         self._sentence_acts = False
-        self._before_case: frozenset[int] = frozenset()  # the steps before the last "if" of the sentence
         self._last_steps: list[d.Step] = []
         self._allowing: Part | None = None  # "if the battery allows", until all that it is said of has been read
         self._allowed_after: frozenset[int] = frozenset()  # the steps that were there before
@@ -139,6 +142,8 @@ class Hand:
             at_most=found.at_most,
             said=said_of_places(part),
         )
+        if given:
+            self._one_after_the_other(loop)
         if self._pending is not None:
             loop.said = (*loop.said, self._pending.span)
             self._in_order(loop, self._pending)
@@ -147,6 +152,12 @@ class Hand:
         self._loop = loop
         return loop
 
+    def _one_after_the_other(self, loop: d.Loop) -> None:
+        """Visit the places of a loop as they are named; those of "the row" from where the robot is."""
+        loop.order = "given"
+        if isinstance(loop.select, s.RowOf) and loop.select.origin == s.Here():
+            loop.select = s.Ordered(by="nearest_first", of=loop.select)
+
     def _in_order(self, loop: d.Loop, term: Term) -> None:
         """Visit the places of a loop in an order that was said."""
         by, ranking, descending = term.value
@@ -154,8 +165,15 @@ class Hand:
             raise unclear([term], "an order and a choice of how many do not go together", "leave one of them out")
         if isinstance(loop.select, s.Ordered):
             raise unclear([term], "two orders cannot be kept", "say one")
-        side = str(by).partition("_")[0]
+        side: s.Side = "south" if str(by).startswith("south") else "east" if str(by).startswith("east") else "north"
         if side in ("south", "east") and any(_counts(part, side) for part in s.walk(loop.select)):
+            if not any(isinstance(part, s.Rows) and part.every > 1 for part in s.walk(loop.select)):
+                loop.select = counted_from(loop.select, side)
+                counts = message("'{said}': they are counted from there, too.", context="assumption", said=term.text)
+                self.told.assumptions.append(counts)
+                loop.select = s.Ordered(by=by, descending=descending, of=loop.select)
+                loop.order = "given"
+                return
             choices = (f"counted from the {side}", f"visited from the {side}")
             raise Question(f"'{term.text}': is it counted from there, or only visited from there?", choices)
         attribute = ""
@@ -193,6 +211,12 @@ class Hand:
         if part.places is None:
             raise unclear(part.terms, "a place was expected")
         found = self._one_of_two(part) or find(part.places, self._site)
+        beside = isinstance(found.selector, s.Adjacent) and found.selector.near == s.Here()
+        beside = beside and bool(self._sentence_steps) and not part.then
+        if beside and isinstance(found.selector, s.Adjacent) and any(t.kind == "NEARBY" for t in part.places.terms):
+            # "Tree 60 and two neighbouring trees": neighbours of it, not of each other.
+            nearest = s.Nearest(to=s.Here(), count=found.selector.count, fresh=True, of=found.selector.of)
+            found = replace(found, selector=nearest)
         relation = part.relation
         self._check_rows(found, part)
         if relation is not None and relation.kind == "ALONG" and not (found.rows or isinstance(found.selector, s.Edge)):
@@ -272,8 +296,10 @@ class Hand:
         verb = part.verb
         if verb is not None and isinstance(verb.value, Naming):
             return ((verb.value.actions[0], None),)
-        if self._objects:
-            return tuple((action, None) for action, _ in self._objects)
+        one = any(t.kind == "NUM" and t.value == 1 for t in part.terms)
+        before = self._objects or (self._objects_of_case if one else ())  # "..., otherwise take one there"
+        if before:
+            return tuple((action, None) for action, _ in before)
         if len(self._robot.actions) == 1:
             return ((self._robot.actions[0].name, None),)
         names = tuple(a.words[0] for a in self._robot.actions if a.words)

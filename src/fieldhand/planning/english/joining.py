@@ -105,3 +105,32 @@ def is_apposition(chain: Chain) -> bool:
     """Whether a chain says again what stands before it ("another tree, a different one")."""
     words = {t.kind for t in chain.terms}
     return bool(words & {"OTHER", "ANOTHER"}) and words <= {"OTHER", "ANOTHER", "DET", "PLACE", "IT", "NUM"}
+
+
+def without_appositions(places: Places) -> Places:
+    """ "Another tree, the farthest one from there": one tree, of which the second phrase says which."""
+    chains, joins = [places.chains[0]], []
+    for join, chain in zip(places.joins, places.chains[1:], strict=True):
+        if set(join.text) <= set(", ") and _is_vague(chains[-1]) and _says_which(chain):
+            chains[-1] = chain
+        else:
+            chains.append(chain)
+            joins.append(join)
+    return replace(places, chains=tuple(chains), joins=tuple(joins))
+
+
+def _is_vague(chain: Chain) -> bool:
+    """Whether a chain is one tree, whichever ("a tree", "another one")."""
+    phrase = chain.phrases[0]
+    kinds = {t.kind for group in phrase.nominals for t in group}
+    some = any(t.kind in ("ANOTHER", "ANY") or t.text.lower() in ("a", "an") for t in phrase.quantity)
+    plural = any(t.plural for t in phrase.terms) or any(t.kind in ("NUM", "EACH") for t in phrase.quantity)
+    return some and not plural and len(chain.phrases) == 1 and kinds <= {"TREE", "PLACE", "OTHER", "WHICH"}
+
+
+def _says_which(chain: Chain) -> bool:
+    """Whether a chain is one certain tree ("the farthest one from there", "tree 9")."""
+    phrase = chain.phrases[0]
+    kinds = {t.kind for group in phrase.nominals for t in group}
+    several = any(t.plural for t in phrase.terms) or any(t.kind in ("NUM", "EACH", "ANOTHER") for t in phrase.quantity)
+    return not several and bool(kinds & {"FARTHEST", "FAR", "NEAREST", "MOST", "SUPER", "IDS", "STEP", "LAST"})

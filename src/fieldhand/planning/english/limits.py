@@ -41,7 +41,7 @@ class Limit:
 _LESS = r"(?:<CMP\.(?:lt|le)>|<UPTO>)"
 _OF_WHAT = r"(?:(?:<AT>|<OF>)?(?:<DET>)?(?:<BATTERY>|<LIMIT>))*"
 _ANY_UNIT = r"(<AMOUNT\.(?:metres|seconds|percent)>)"
-_NOT_A_PLACE = r"(?!<OF>|<FROM>|<AT>)"
+_NOT_A_PLACE = r"(?!<OF>|<FROM>|<AT>|<THERE>)"
 #: How limits are said, over the kinds of the terms, and whether the amount is to be left rather than used.
 _PATTERNS: tuple[tuple[re.Pattern[str], bool], ...] = (
     # "without driving more than 100 m", "never use over 30 %"
@@ -83,6 +83,7 @@ def with_amounts(terms: list[Term]) -> list[Term]:
             found[-1] = replace(found[-1], text=f"{found[-1].text}{dash.text}", end=dash.end)
         last = found[-1] if found else None
         if term.kind == "UNIT" and last is not None and last.kind == "NUM":
+            _share_unit(found, term)
             unit, factor, offset = term.value
             value = Amount(number=round(last.value * factor + offset, 6), unit=unit)
             text = f"{last.text} {term.text}"
@@ -99,6 +100,17 @@ def with_amounts(terms: list[Term]) -> list[Term]:
         else:
             found.append(term)
     return found
+
+
+def _share_unit(found: list[Term], unit: Term) -> None:
+    """ "Between 70 and 80 °F": the first number has the unit of the second. ``found`` is changed."""
+    run = [t.kind for t in found[-4:]]
+    joined = len(found) > 3 and found[-2].kind in ("AND", "DASH", "AT")
+    if joined and run[0] == "BETWEEN" and run[1] == "NUM":
+        name, factor, offset = unit.value
+        first = found[-3]
+        value = Amount(number=round(first.value * factor + offset, 6), unit=name)
+        found[-3] = replace(first, kind="AMOUNT", value=value)
 
 
 def _is_whole(terms: list[Term]) -> bool:

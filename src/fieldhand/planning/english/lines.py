@@ -12,12 +12,16 @@ from fieldhand.planning.english.syntax import Part
 from fieldhand.site.model import Site
 from fieldhand.task import selectors as s
 
+#: Rows that are left to the planner.
+_ANY_ROW = (["a", "row"], ["any", "row"], ["one", "row"], ["some", "row"], ["one of", "rows"])
 _LINE = "say along which row, or in which zone: 'every 20 m along row 4'"
 
 
 def as_stops(part: Part, wanted: Wanted) -> tuple[Part, Wanted]:
     """ "In four spots 20 m apart": so many captures, each at a stop of its own."""
     chain = part.places.chains[0] if part.places is not None and len(part.places.chains) == 1 else None
+    if part.spacing is not None and chain is not None and [t.text.lower() for t in chain.terms] in _ANY_ROW:
+        return replace(part, places=None, relation=None), wanted  # the nearest one will do
     if part.spacing is None or chain is None or any(number is not None for _, number in wanted):
         return part, wanted
     head = chain.phrases[0]

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from fieldhand.language import message
 from fieldhand.planning.english import draft as d
+from fieldhand.planning.english import repeating
 from fieldhand.planning.english.faults import text_of, unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.places import find
@@ -110,6 +111,12 @@ class Motion(Until):
                 self._scope.add(d.Go(place=marker, said=part.said))
         self._loop = None
 
+    def _marker_spoken_of(self) -> str:
+        """The marker that the request named last; empty if it named none."""
+        names = [part.name for step, _ in d.walk(self.told.root) for at in (repeating.selects(step),) if at is not None
+                 for part in s.walk(at) if isinstance(part, s.Marker)]  # fmt: skip
+        return names[-1] if names else ""
+
     def _home(self, part: Part) -> tuple[Then, s.Selector | None]:
         if part.places is not None:
             selector = find(part.places, self._site).selector
@@ -117,6 +124,8 @@ class Motion(Until):
                 return "return_to_start", None
             if selector == s.Marker(name="end"):
                 return "return_to_end", None
+            if selector == s.Here():  # "come back to it": to the marker that was spoken of, else to the start
+                return ("return_to_end" if self._marker_spoken_of() == "end" else "return_to_start"), None
             return "stay", selector
         if "start" in self._site.markers or "end" not in self._site.markers:
             said = text_of(part.terms)

@@ -50,7 +50,8 @@ def robot_entries(robot: RobotProfile) -> Iterator[tuple[Phrase, Entry]]:
     actions: dict[Phrase, list[str]] = {}
     quantities: dict[Phrase, list[str]] = {}
     for action in robot.actions:
-        for word in (*action.words, action.name):
+        # "read_co2" is a verb and a noun: as one noun it would be none behind "if it is low, read CO2 ...".
+        for word in (*action.words, *(() if "_" in action.name and action.words else (action.name,))):
             actions.setdefault(split(word), []).append(action.name)
     for quantity in robot.quantities:
         for word in (*quantity.words, quantity.name):

@@ -78,6 +78,14 @@ def spread_over(selector: s.Selector, area: s.Selector, ones: Iterable[s.Selecto
     return parts[0] if len(parts) == 1 else s.Union(parts=parts)
 
 
+def counted_from(selector: s.Selector, side: s.Side) -> s.Selector:
+    """A selection whose every so many-th tree is counted from a side."""
+    for part in s.walk(selector):
+        if isinstance(part, s.EveryNth):
+            return swapped(selector, part, replace(part, counted_from=side))
+    return selector
+
+
 def _picks_from(selector: s.Selector, area: s.Selector) -> bool:
     if selector == area:
         return False

@@ -126,7 +126,7 @@ def _trees(bag: Bag, group: Group, site: Site) -> Found:
     found = _by_nearness(bag, of, group, plural)
     if found is not None:
         return found
-    if bag.has("ORD", "LAST"):
+    if bag.has("ORD", "LAST") and (tree is not None or bag.definite):
         return _first_or_last(bag, of, site)
     plot = bag.take("PLOT")
     if bag.take("EVERYWHERE") is not None:

@@ -21,6 +21,7 @@ from fieldhand.planning.english.joining import (
     is_apposition,
     one_each,
     only_compares,
+    without_appositions,
     without_both,
 )
 from fieldhand.planning.english.pick import picked
@@ -74,7 +75,7 @@ def find(places: Places, site: Site) -> Found:
         choices = tuple(text_of(chain.terms) for chain in places.chains)
         raise Question(f"'{text_of(places.terms)}': which of them?", choices, terms=places.terms)
     found: list[Found] = []
-    places = one_each(places)
+    places = one_each(without_appositions(places))
     for chain, excepted in _chains(places):
         if found and is_apposition(chain):
             continue  # "another tree, a different one": the same tree, said again

@@ -203,7 +203,7 @@ def _told(arranged: Arranged, request: str, robot: RobotProfile, site: Site) -> 
     discourse = Discourse(robot, site)
     discourse.told.no_part += arranged.filler
     for sentence in arranged.sentences:
-        discourse.told.joints += [t.span for t in sentence.terms if t.kind == "SEP" and t.text.lower() not in _NO_WORDS]
+        discourse.told.joints += [t.span for t in sentence.terms if t.kind == "SEP" and _says_more(t)]
         parts = parse(sentence)
         if isinstance(parts, NotParsed):
             raise Unclear(_misfit(parts, request))
@@ -226,6 +226,11 @@ def _told(arranged: Arranged, request: str, robot: RobotProfile, site: Site) -> 
         )
     discourse.told.assumptions.extend(arranged.notes)
     return discourse.told
+
+
+def _says_more(link: Term) -> bool:
+    """Whether what stands between two parts says something of their order, or stands for a whole turn of phrase."""
+    return link.text.lower() not in _NO_WORDS or link.end - link.start > len(link.text) + 2
 
 
 def _misfit(wrong: NotParsed, request: str) -> Reason:

@@ -15,7 +15,7 @@ from fieldhand.task import selectors as s
 
 def last_passage(steps: list[d.Step]) -> d.Block:
     """What was done at the last place: from the last step that goes somewhere."""
-    start = next((k for k in range(len(steps) - 1, -1, -1) if _has_place(steps[k])), 0)
+    start = next((k for k in range(len(steps) - 1, -1, -1) if has_place(steps[k])), 0)
     return d.Block(steps=steps[start:])
 
 
@@ -23,18 +23,19 @@ def as_many_as(steps: list[d.Step], found: Found) -> Found:
     """An area in which something is done again: at as many trees of it as there were of the area before."""
     if not (found.many and found.region) or found.each or found.counted:
         return found
-    last = next((s_ for s_ in reversed(steps) if _selects(s_) is not None), None)
-    before = None if last is None else _selects(last)
+    last = next((s_ for s_ in reversed(steps) if selects(s_) is not None), None)
+    before = None if last is None else selects(last)
     if isinstance(before, s.Union) and any(isinstance(part, s.Here) for part in s.parts(before)):
         # "Photograph it and the one beside it": the place was come to before.
-        before = next((at for step in reversed(steps) if isinstance(at := _selects(step), s.Take)), before)
+        before = next((at for step in reversed(steps) if isinstance(at := selects(step), s.Take)), before)
     if not isinstance(before, s.Take):
         return found
     fresh = s.Other(of=found.selector)
     return replace(found, selector=replace(before, of=fresh), many=before.count > 1, counted=before.count)
 
 
-def _selects(step: d.Step) -> s.Selector | None:
+def selects(step: d.Step) -> s.Selector | None:
+    """The place or places that a step names."""
     match step:
         case d.Go(place=place):
             return place
@@ -51,6 +52,21 @@ _OF_ROWS = (s.Rows, s.RowOf, s.InBlock)
 _OF_GROUND = (s.Half, s.Quarter, s.Edge, s.InZone)
 
 
+def passage_in_area(steps: list[d.Step], area: s.Selector) -> d.Block:
+    """What was done last in one area of the same kind: from its first place on."""
+    kind = next((kinds for kinds in (_OF_ROWS, _OF_GROUND) if isinstance(area, kinds)), ())
+    begin, known = len(steps), None
+    for k in range(len(steps) - 1, -1, -1):
+        at = selects(steps[k])
+        if at is None:
+            continue
+        inside = {part for part in s.walk(at) if isinstance(part, kind)}
+        if len(inside) != 1 or (known is not None and inside != known):
+            break
+        begin, known = k, inside
+    return d.Block(steps=steps[begin:])
+
+
 def in_area(passage: d.Block, area: s.Selector) -> bool:
     """Say a passage of another area ("at the first and the last tree of row 6 ... the same in row 8"). Whether it was.
 
@@ -61,7 +77,7 @@ def in_area(passage: d.Block, area: s.Selector) -> bool:
         return False
     held = [step for step, _ in d.walk(passage) if isinstance(step, d.Go | d.Capture | d.Loop)]
     inside = {
-        part for step in held if (at := _selects(step)) is not None for part in s.walk(at) if isinstance(part, kind)
+        part for step in held if (at := selects(step)) is not None for part in s.walk(at) if isinstance(part, kind)
     }
     if len(inside) != 1 or getattr(old := next(iter(inside)), "of", None) != s.Trees():
         return False
@@ -123,13 +139,14 @@ def copied(passage: d.Block, keep: Callable[[d.Step], bool], fresh: Callable[[],
     return d.copy_block(passage, keep, {}, fresh)
 
 
-def _has_place(step: d.Step) -> bool:
+def has_place(step: d.Step) -> bool:
+    """Whether a step goes somewhere."""
     match step:
         case d.Go() | d.Loop():
             return True
         case d.Capture(at=at):
             return at is not None
         case d.Attempt(body=body):
-            return bool(body.steps) and _has_place(body.steps[0])
+            return bool(body.steps) and has_place(body.steps[0])
         case _:
             return False

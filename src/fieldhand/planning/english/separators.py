@@ -21,10 +21,11 @@ _TESTS = frozenset({"NUM", "AMOUNT", "LEVEL", "CMP", "BETWEEN", "ATTRVAL"})
 
 @dataclass(frozen=True, kw_only=True)
 class Break:
-    """What separates two parts: whether "then" or "and" was said."""
+    """What separates two parts: whether "then" or "and" was said, or a colon stands there."""
 
     then: bool = False
     joined: bool = False
+    listed: bool = False
 
 
 def separated(terms: list[Term]) -> tuple[list[Term], bool, list[Span]]:
@@ -85,12 +86,15 @@ def _break_at(place: int) -> Term:
 
 def _separator(run: list[Term], before: list[Term], after: list[Term], opened: bool) -> Term:
     kinds = {t.kind for t in run}
+    listed = any(t.text == ":" for t in run)
     text, end = " ".join(t.text for t in run), run[-1].end
-    if "THEN" not in kinds and _joins(before, after, opened):
+    if "THEN" not in kinds and not listed and _joins(before, after, opened):
         return replace(run[0], kind="JOIN", text=text, end=end, value="or" if "OR" in kinds else "and")
     if "OR" in kinds:
         return replace(run[0], kind="OR", text=text, end=end)  # "take a picture or measure CO2": no grammar takes it
-    return replace(run[0], kind="SEP", text=text, end=end, value=Break(then="THEN" in kinds, joined="AND" in kinds))
+    return replace(
+        run[0], kind="SEP", text=text, end=end, value=Break(then="THEN" in kinds, joined="AND" in kinds, listed=listed)
+    )
 
 
 def _joins(before: list[Term], after: list[Term], opened: bool) -> bool:
@@ -105,7 +109,7 @@ def _joins(before: list[Term], after: list[Term], opened: bool) -> bool:
             and tests
             and not any(t.kind in ("TREE", "IDS") for t in clause[:4])
         )
-    if after[0].kind in RELATIONS:
+    if after[0].kind in RELATIONS or (after[0].kind == "THERE" and len(after) > 1):
         return False
     counted = next((t for t in after if t.kind not in QUANTITY), None)
     if counted is not None and counted.kind in RELATIONS and after[0].kind in QUANTITY:
@@ -139,7 +143,11 @@ def _trimmed(terms: list[Term]) -> tuple[list[Term], bool]:
     for term in terms:
         if term.kind == "SEP" and found and found[-1].kind == "SEP":
             last: Break = found[-1].value
-            both = Break(then=last.then or term.value.then, joined=last.joined or term.value.joined)
+            both = Break(
+                then=last.then or term.value.then,
+                joined=last.joined or term.value.joined,
+                listed=last.listed or term.value.listed,
+            )
             found[-1] = replace(found[-1], value=both, end=max(found[-1].end, term.end))
         else:
             found.append(term)

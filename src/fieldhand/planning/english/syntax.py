@@ -80,6 +80,7 @@ class Part:
         then: "then" stands before it.
         bare: No comma, "and" or "then" stands before it.
         joined: "and" stands before it.
+        listed: A colon stands before it.
         verb: Its verb, if it has one.
         objects: What to capture.
         places: Where.
@@ -94,6 +95,7 @@ class Part:
     then: bool = False
     bare: bool = False
     joined: bool = False
+    listed: bool = False
     verb: Term | None = None
     objects: tuple[Object, ...] = ()
     places: Places | None = None
@@ -131,14 +133,14 @@ def parse(sentence: Sentence) -> tuple[Part, ...] | NotParsed:
         term = token.value if token is not None and isinstance(token.value, Term) else terms[-1]
         return NotParsed(term=term, said=whole)
     parts: list[Part] = []
-    then, bare, joined = sentence.then, False, False
+    then, bare, joined, listed = sentence.then, False, False, False
     for child in tree.children:
         if isinstance(child, Token):
             brk: Break = child.value.value
-            then, bare, joined = brk.then, not child.value.text, brk.joined
+            then, bare, joined, listed = brk.then, not child.value.text, brk.joined, brk.listed
             continue
-        parts.append(replace(_part(child, then), bare=bare, joined=joined))
-        then = bare = joined = False
+        parts.append(replace(_part(child, then), bare=bare, joined=joined, listed=listed))
+        then = bare = joined = listed = False
     return tuple(parts)
 
 

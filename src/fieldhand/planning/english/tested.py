@@ -162,7 +162,7 @@ def _tree_predicate(group: Sequence[Term], attribute: str) -> Predicate:
 def _reading_predicate(
     group: Sequence[Term], subject: Sequence[Term], captures: Sequence[Capture], robot: RobotProfile
 ) -> Predicate:
-    wanted = _quantities(group, subject, robot)
+    wanted = quantities_of(group, subject, robot)
     capture = _latest(group, subject, captures, wanted, robot)
     if capture is None:
         quantity, missing = _measurable(wanted, group, robot)
@@ -173,7 +173,7 @@ def _reading_predicate(
     return Predicate(made=made, negated=negated, capture=capture, missing=missing, quantity=quantity)
 
 
-def _quantities(group: Sequence[Term], subject: Sequence[Term], robot: RobotProfile) -> list[str]:
+def quantities_of(group: Sequence[Term], subject: Sequence[Term], robot: RobotProfile) -> list[str]:
     """The quantities that a predicate may be about, by its noun, its unit and its adjectives."""
     wanted = [q.name for q in robot.quantities]
     for term in subject:
@@ -184,6 +184,9 @@ def _quantities(group: Sequence[Term], subject: Sequence[Term], robot: RobotProf
             wanted = [q for q in wanted if q in named]
     if any(t.kind in ("CMP", "LEVEL") and any(w in t.text.lower() for w in _TEMPERATURE_WORDS) for t in group):
         wanted = [q for q in wanted if robot.quantity[q].unit == "degC"]
+    numbers = [t.value for t in group if t.kind == "NUM"] if any(t.kind in ("CMP", "BETWEEN") for t in group) else []
+    possible = [q for q in wanted if all(_can_be(robot, q, number) for number in numbers)]
+    wanted = possible or wanted
     amount = next((t for t in group if t.kind == "AMOUNT"), None)
     if amount is not None:
         fitting = [q for q in wanted if robot.quantity[q].unit == amount.value.unit]
@@ -191,6 +194,13 @@ def _quantities(group: Sequence[Term], subject: Sequence[Term], robot: RobotProf
             raise unclear([amount], "that unit does not fit what is measured", _reports(robot, wanted))
         wanted = fitting
     return wanted
+
+
+def _can_be(robot: RobotProfile, quantity: str, number: float) -> bool:
+    """Whether a quantity can have a value: no temperature is 400."""
+    known = robot.quantity[quantity]
+    low, high = known.minimum, known.maximum
+    return (low is None or number >= low) and (high is None or number <= high)
 
 
 def _reports(robot: RobotProfile, wanted: Sequence[str] = ()) -> str:

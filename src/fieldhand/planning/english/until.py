@@ -15,7 +15,7 @@ from fieldhand.task import selectors as s
 class Until(Cases):
     """Reads what ends a round early."""
 
-    def _until(self, part: Part, following: tuple[Part, ...]) -> None:
+    def _until(self, part: Part) -> None:
         """ "Until one is above 38 °C": said of the round whose reading it tests.
 
         What follows without a place of its own is done where that reading was taken, and nowhere if none was.
@@ -36,11 +36,8 @@ class Until(Cases):
         condition = tested.condition([self._bound(capture) for capture in captures])
         round_.until = condition
         round_.said += part.said
-        if following and following[0].kind in (*ACTS, "stop") and self._has_no_place(following[0]):
-            choice = d.Choice(condition=condition, then=d.Block(), said=part.said)
-            round_.body.add(choice)
-            self._choice, self._scope = choice, choice.then
-            self._found_one = choice
+        self._ended = d.Choice(condition=condition, then=d.Block(), said=part.said)
+        self._ended_round, self._found_one = round_, None
 
     def _has_no_place(self, part: Part) -> bool:
         if part.kind == "stop":
@@ -48,11 +45,21 @@ class Until(Cases):
         return part.places is None or self._related(part).here
 
     def _after_until(self, part: Part) -> None:
-        """Whether a command still belongs to the place where a round ended."""
-        if self._found_one is not None and not (part.kind in ACTS and self._has_no_place(part)):
-            if self._scope is self._found_one.then:
-                self._scope = self.told.root
-            self._found_one, self._loop = None, None
+        """Do what has no place of its own where a round ended, and nowhere if it ended without a reading as asked."""
+        how_many = part.kind == "more_places" and any(t.kind == "UPTO" for t in part.terms)
+        if self._ended is None or self._ended_round is None or how_many:
+            return
+        if part.kind in ACTS and self._has_no_place(part):
+            if self._found_one is None:
+                self._found_one = self._ended
+                self._ended_round.body.add(self._ended)
+            self._choice, self._scope = self._ended, self._ended.then
+            return
+        if self._found_one is not None and self._scope is self._found_one.then:
+            self._scope = self.told.root
+        if self._loop is self._ended_round:
+            self._loop = None
+        self._ended = self._ended_round = self._found_one = None
 
     def _at_most_of_them(self, part: Part) -> bool:
         """ "..., but at most 8 trees": said of the round before it. Whether it is."""

@@ -81,7 +81,7 @@ def _that(term: Term, before: str, after: str) -> Term | None:
     if term.kind == "WHICH" and term.text.lower() in ("that", "which"):
         if after in ("NOUN", "READING", "TREE", "PLOT", "CORNER", "PLACE", "MIDDLE", "NUM"):
             return replace(term, kind="DET")
-        if before in ("AT", "OF", "IF", "WHETHER"):
+        if before in ("AT", "OF", "IF", "WHETHER") or (before in VERBS and after in _CLAUSE_ENDS):
             return replace(term, kind="IT")
     return None
 
@@ -135,32 +135,26 @@ def _noun_as_verb(term: Term, before: str, after: str) -> Term | None:
 
 def _first(term: Term, before: str, after: str) -> Term | None:
     starts = before in ("", "COMMA", "AND")
-    if term.kind == "ORD" and term.value == 1 and starts and after in (*VERBS, "COMMA", "AT"):
+    if term.kind == "ORD" and term.value == 1 and starts and after in (*VERBS, "COMMA", "AT", "DET"):
         return replace(term, kind="THEN")
+    if term.kind == "LAST" and before in ("COMMA", "AND", "THEN") and after in VERBS:
+        return replace(term, kind="THEN")  # "..., and last read the air temperature"
     return None
 
 
 def _first_of_several(term: Term, before: str, after: str) -> Term | None:
     """ "The south-east corner first, then ...": it says when, not which."""
     ends = after in ("COMMA", "THEN", "AND", "STOPMARK", "")
-    if (
-        term.kind == "ORD"
-        and term.value == 1
-        and ends
-        and before in ("CORNER", "TREE", "IDS", "EDGE", "MIDDLE", "PLACE")
-    ):
+    said = (term.kind == "ORD" and term.value == 1) or (term.kind == "LAST" and after not in ("AND", "THEN"))
+    if said and ends and before in ("CORNER", "TREE", "IDS", "EDGE", "MIDDLE", "PLACE", "DIR"):
         return replace(term, kind="THEN")
     return None
 
 
 def _reading(term: Term, before: str, after: str) -> Term | None:
     """ "..., reading the CO2 at each tree": the verb."""
-    if (
-        term.kind == "READING"
-        and term.text.lower() == "reading"
-        and before in _CLAUSE_STARTS
-        and after in ("DET", "NOUN")
-    ):
+    verb = before not in _BEFORE_NOUN | {"MEASURE", "TAKE", "FROM", "AT"}
+    if term.kind == "READING" and term.text.lower() == "reading" and verb and after in ("DET", "NOUN"):
         return replace(term, kind="MEASURE", plural=False)
     return None
 

@@ -20,10 +20,51 @@ _KEPT = re.compile(r"\$(\d)")
 
 def reworded(words: Sequence[Word]) -> list[Word]:
     """The words after every rule, in the order of the file, each as often as it fits."""
-    found = list(words)
+    found = _in_digits(words)
     for pattern, said in _rules():
         found = _applied(pattern, said, found)
     return found
+
+
+_TEENS = ["ten", "eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen", "seventeen", "eighteen", "nineteen"]
+_TENS = ["twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety"]
+_ONES = ["one", "two", "three", "four", "five", "six", "seven", "eight", "nine"]
+_SMALL = {
+    **{word: k for k, word in enumerate(_ONES, start=1)},
+    **{word: k for k, word in enumerate(_TEENS, start=10)},
+    **{word: 10 * k for k, word in enumerate(_TENS, start=2)},
+}
+
+
+def _in_digits(words: Sequence[Word]) -> list[Word]:
+    """ "Four hundred and fifty" as one number."""
+    found: list[Word] = []
+    at = 0
+    while at < len(words):
+        used, number = _hundreds([w.norm for w in words[at : at + 5]])
+        if not used:
+            found.append(words[at])
+            at += 1
+            continue
+        group = words[at : at + used]
+        text = " ".join(w.text for w in group)
+        found.append(Word(kind="number", text=text, norm=str(number), start=group[0].start, end=group[-1].end))
+        at += used
+    return found
+
+
+def _hundreds(said: Sequence[str]) -> tuple[int, int]:
+    """How many words make a number of hundreds, and the number; 0 words if they make none."""
+    if len(said) < 2 or said[1] != "hundred" or said[0] not in (*_ONES, "a"):
+        return 0, 0
+    total, used = 100 * _SMALL.get(said[0], 1), 2
+    link = 1 if said[2:3] == ["and"] else 0
+    rest = said[2 + link :]
+    if rest and rest[0] in _SMALL:
+        total, used = total + _SMALL[rest[0]], used + link + 1
+        if rest[0] in _TENS and rest[1:2] and rest[1] in _ONES:
+            total, used = total + _SMALL[rest[1]], used + 1
+    return used, total
 
 
 def _applied(pattern: re.Pattern[str], said: str, words: list[Word]) -> list[Word]:
