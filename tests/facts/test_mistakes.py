@@ -15,6 +15,8 @@ from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
+from fieldhand.task import plan as p
+from fieldhand.task import selectors as s
 from fieldhand.task.build import make_task
 from fieldhand.task.frames import Task
 from plan_mutants import mutants
@@ -140,6 +142,38 @@ def test_a_plan_for_other_words_is_doubted(said: str, planned_as: str, kind: str
     found = mismatches(said_of(plan(planned_as), said), DEMO, ROBOTS["husky"])
     assert kind in {m.kind for m in found}, found
     assert all(m.message and "\n" not in m.message for m in found)
+
+
+def drives_to(*places: s.Selector, then: s.Selector | None = None) -> p.Node:
+    """A drive to each place, and at the end a picture at another if there is one."""
+    steps: list[p.Node] = [p.GoTo(id="", place=place) for place in places]
+    picture = p.Act(id="", action="take_thermal_picture", at=then)
+    return p.Sequence(id="", steps=(*steps, picture))
+
+
+ROW = s.Rows(first="1", last="1")
+NORTH, SOUTH = s.Extreme(side="north", of=ROW), s.Extreme(side="south", of=ROW)
+
+
+@pytest.mark.parametrize(
+    ("said", "node"),
+    [
+        ("Drive along row 1 and take a picture.", drives_to(NORTH)),
+        ("Drive along row 1 and take a picture.", drives_to(NORTH, s.Extreme(side="east", of=ROW))),
+        ("Drive along row 1 and take a picture.", drives_to(NORTH, s.Extreme(side="south"))),
+        ("Drive along row 1 and take a picture.", drives_to(NORTH, SOUTH, then=s.Extreme(side="north"))),
+        ("Drive to the north end of row 1 and take a picture.", drives_to(NORTH, SOUTH)),
+    ],
+    ids=["one end", "no way", "ends of other trees", "and a place at a side", "one end is asked for"],
+)
+def test_a_side_that_nobody_spoke_of_is_doubted_unless_it_tells_apart_the_ends_of_a_way(
+    said: str, node: p.Node
+) -> None:
+    assert "side" in {
+        m.kind for m in mismatches(make_task(request=said, plan=node, measures={}), DEMO, ROBOTS["husky"])
+    }
+    ends = make_task(request="Drive along row 1 and take a picture.", plan=drives_to(NORTH, SOUTH), measures={})
+    assert mismatches(ends, DEMO, ROBOTS["husky"]) == ()
 
 
 def test_planted_mistakes_are_caught_in_the_share_that_is_promised() -> None:

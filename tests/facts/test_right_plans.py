@@ -161,7 +161,9 @@ def test_a_right_plan_in_another_form_is_not_doubted(rewrite: Callable[[Any], An
     assert changed >= 4
 
 
-#: Requests that the built-in planner refuses, and plans for them as a careful reader writes them.
+#: Five trees in a row, the ends of which only a side of the compass tells apart.
+FIVE = '<successive count="5"><near><marker name="start"/></near></successive>'
+#: Requests that the built-in planner refuses or reads otherwise, and plans for them as a careful reader writes them.
 READ_BY_PEOPLE: list[tuple[str, str]] = [
     (
         "I'd love a thermal snapshot of whatever stands at the chilly north-west end, then home.",
@@ -204,6 +206,13 @@ READ_BY_PEOPLE: list[tuple[str, str]] = [
         "Skip the pictures, just sniff the CO2 at number 12 and number 90.",
         '<for-each><select><union><tree-is tree="12"/><tree-is tree="90"/></union></select>'
         "<body><act><read_co2/></act></body></for-each>",
+    ),
+    (
+        "Drive along a row of 5 trees and take a picture at 3 of them.",
+        f'<sequence><go-to><extreme side="north">{FIVE}</extreme></go-to>'
+        f'<for-each><select><take count="3">{FIVE}</take></select>'
+        "<body><act><take_thermal_picture/></act></body></for-each>"
+        f'<go-to><extreme side="south">{FIVE}</extreme></go-to></sequence>',
     ),
 ]
 

@@ -155,8 +155,9 @@ def _sides(said: Stated, plan: Planned) -> Iterator[Mismatch]:
     if said.unknown or said.words & w.VAGUE_SIDES or _OTHER_PART.search(said.text):
         return
     around = len(plan.sides) == 4 and not said.sides  # each quarter, or the edge all around
+    ends = frozenset() if said.sides else plan.ends_driven
     for side, node in plan.sides.items():
-        if side not in said.sides and not around:
+        if side not in said.sides and not around and side not in ends:
             yield Mismatch(
                 kind="side", message=f"the plan goes to the {side}, of which the request says nothing", node=node
             )

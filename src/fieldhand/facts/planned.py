@@ -17,6 +17,9 @@ from fieldhand.task import selectors as s
 from fieldhand.task.frames import Task
 from fieldhand.task.selectors import Selector, Side, Value
 
+#: Sides that lie across from each other.
+_ACROSS: tuple[tuple[Side, Side], ...] = (("north", "south"), ("east", "west"))
+
 
 @dataclass(frozen=True, kw_only=True)
 class Captures:
@@ -116,6 +119,15 @@ class Planned:
             for side in sides(x):
                 found.setdefault(side, node)
         return found
+
+    @cached_property
+    def ends_driven(self) -> frozenset[Side]:
+        """Sides that only tell apart the ends of a way: drives to both ends of the same trees, and no other place."""
+        drives = {n.id: n.place for n in self.nodes if isinstance(n, p.GoTo) and isinstance(n.place, s.Extreme)}
+        ends = {(place.of, place.side) for place in drives.values()}
+        elsewhere = {side for node, x in self.selectors if x != drives.get(node) for side in sides(x)}
+        ways = [{one, other} for one, other in _ACROSS for of, _ in ends if {(of, one), (of, other)} <= ends]
+        return frozenset(side for way in ways for side in way) - elsewhere
 
     @cached_property
     def values(self) -> tuple[tuple[str, str, Value], ...]:
