@@ -72,9 +72,10 @@ def _applied(pattern: re.Pattern[str], said: str, words: list[Word]) -> list[Wor
     text = ""
     for word in words:
         starts.append(len(text))
-        text += word.norm + " "
-    first_at = {start: index for index, start in enumerate(starts)}
-    last_at = {start + len(word.norm): index for index, (start, word) in enumerate(zip(starts, words, strict=True))}
+        text += word.norm + " " if word.norm else ""  # what a rule took out is no word to the next
+    spoken = [(index, start, word) for index, (start, word) in enumerate(zip(starts, words, strict=True)) if word.norm]
+    first_at = {start: index for index, start, _ in spoken}
+    last_at = {start + len(word.norm): index for index, start, word in spoken}
     made: list[Word] = []
     done = 0
     for match in pattern.finditer(text.rstrip()):
