@@ -8,6 +8,26 @@ Longer than other files because it is a table.
 PLANNED = [
     (
         "husky",
+        "Check the CO2 of trees on the east side one after another, five at most. As soon as one is under 380 ppm quit, and go back to the start.",
+        "for Half(east) given at most 5 until r1 < 380 ppm: [co2 = r1] | return_to_start",
+    ),
+    (
+        "husky",
+        "Photograph trees 4 to 8 of row 3, counting from the south. Whenever one is at 34 °C or more, read the air temperature at that tree too.",
+        "for InRow(4, 8, south, of Rows(3, 3)): [picture = r1; if r1 >= 34 degC: [air]]",
+    ),
+    (
+        "husky",
+        "Work your way up row 2 from the southern end, reading the CO2 at each tree until one comes out over 450 ppm. Then take a thermal picture of that tree and stop.",
+        "for Ordered(south_to_north, of Rows(2, 2)) given until r1 > 450 ppm: [co2 = r1; if r1 > 450 ppm: [picture]]",
+    ),
+    (
+        "amiga",
+        "Measure soil moisture three times, with 30 feet between one reading and the next.",
+        "for Spaced(9.144, 3): [moisture]",
+    ),
+    (
+        "husky",
         "Photograph every tree within 7 metres of the start and then come back to it.",
         "for Within(7, Marker(start)): [picture] | return_to_start",
     ),

@@ -11,7 +11,7 @@ from fieldhand.task.frames import Task, Then
 from fieldhand.task.plan import ForEach, walk
 
 #: The way home may take this part of a budget before it is left out of a mission that did not ask for it.
-MOST = 0.25
+MOST = 1 / 3
 
 
 def costs_too_much(task: Task, site: Site, robot: RobotProfile, then: Then) -> float | None:

@@ -233,6 +233,10 @@ def _with_heads(terms: list[Term]) -> list[Term]:
         if term.kind == "COMMA" and described and index and terms[index - 1].kind in ("TREE", "PLACE"):
             found.append(replace(term, kind="WHICH"))  # "another tree, as far away as possible"
             continue
+        closes = index and terms[index - 1].kind in ("FARTHEST", "FAR", "NEARBY") and ahead_kinds[0] == "FOR"
+        if term.kind == "COMMA" and closes and any(t.kind == "WHICH" for t in found[-3:]):
+            found.append(replace(term, kind="WHICH"))  # "test another tree, as far off as you can get, for moisture"
+            continue
         found.append(term)
         after = terms[index + 1].kind if index + 1 < len(terms) else ""
         if term.kind == "NOUN" and term.text.lower() in _FOLIAGE and index and terms[index - 1].kind == "ATTRVAL":

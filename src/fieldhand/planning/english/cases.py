@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from fieldhand.language import message
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import Question, text_of, unclear
@@ -14,7 +16,12 @@ from fieldhand.planning.english.tokens import Term
 from fieldhand.task import conditions as c
 from fieldhand.task import selectors as s
 from fieldhand.task.conditions import readings
+from fieldhand.task.plan import Span
 from fieldhand.task.words import say_action
+
+
+def _spans(said: Iterable[tuple[Span, ...]]) -> tuple[Span, ...]:
+    return tuple(dict.fromkeys(span for spans in said for span in spans))
 
 
 class Cases(Hand):
@@ -23,6 +30,8 @@ class Cases(Hand):
     def _condition(self, part: Part, *, trailing: bool) -> None:
         """An "if": it stands behind what it tests, and holds what follows it, or what stands before it."""
         held = self._last_steps if trailing else []
+        if part.terms[0].value == "where" and not trailing:
+            self._gather_captures()
         captures = [(step, block) for step, block in d.walk(self.told.root) if isinstance(step, d.Capture)]
         self._objects_at_if = self._objects
         known = [cap for cap, _ in captures if cap not in held and not (trailing and cap in self._aside)]
@@ -103,6 +112,30 @@ class Cases(Hand):
             what = f"{len(captures)} readings of that are taken before it"
             raise unclear(part.terms, what, "say which readings are meant")
         return captures
+
+    def _gather_captures(self) -> None:
+        """ "At the north-west corner and at tree 9 ... Wherever it is low": the captures before it become a round."""
+        steps = self.told.root.steps
+        run: list[d.Capture] = []
+        for step in reversed(steps):
+            alike = isinstance(step, d.Capture) and step.at is not None and not step.reading
+            if (
+                not isinstance(step, d.Capture)
+                or not alike
+                or (run and (step.action, step.count) != (run[0].action, run[0].count))
+            ):
+                break
+            run.insert(0, step)
+        if len(run) < 2 or any(step.at is not None and s.is_relative(step.at) for step in run):
+            return
+        body = d.Block(
+            steps=[d.Capture(action=run[0].action, count=run[0].count, said=_spans(step.said for step in run))]
+        )
+        places = s.Union(parts=tuple(step.at for step in run if step.at is not None))
+        loop = d.Loop(select=places, body=body, order="given", said=_spans(step.at_said for step in run))
+        del steps[-len(run) :]
+        self.told.root.add(loop)
+        self._loop = loop
 
     def _hold_at_tree(self, held: list[d.Step], choice: d.Choice, part: Part) -> None:
         """What a tree is can be asked once the robot is there: drive first, then test, then do."""

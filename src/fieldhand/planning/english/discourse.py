@@ -143,6 +143,8 @@ class Discourse(Elliptic):
                 self._go(part)
             case "lead":
                 self._lead(part)
+            case "come_back" if self._ends_a_series(part):
+                self._act(replace(part, kind="more_places"), self._objects)
             case "come_back":
                 self._come_back(part)
             case "stop":
@@ -291,12 +293,14 @@ class Discourse(Elliptic):
             return set()
         return {id(step) for step in self._sentence_steps[placed[-1] :]}
 
-    def _in_another_area(self, old: list[d.Step], found: Found) -> bool:
+    def _in_another_area(self, old: list[d.Step], found: Found, part: Part) -> bool:
         """ "Do the same in row 8" behind what was done at several places of row 6. Whether it is that."""
         passage = repeating.passage_in_area(old, found.selector)
         made = repeating.copied(passage, lambda _: True, self._fresh)
         if not passage.steps or not repeating.in_area(made, found.selector):
             return False
+        for step in made.steps:
+            step.said += part.said
         repeating.append(made, self._scope)
         return True
 
@@ -317,7 +321,7 @@ class Discourse(Elliptic):
         made = repeating.copied(passage, lambda st: id(st) not in sentence, self._fresh)
         found = None if part.places is None else self._related(part)
         if found is not None and not found.here:
-            if found.region and self._in_another_area(old, found):
+            if found.region and self._in_another_area(old, found, part):
                 return
             found = repeating.as_many_as(old, found)
             repeating.without_place(made, part)

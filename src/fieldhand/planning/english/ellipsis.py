@@ -52,6 +52,22 @@ class Elliptic(Leaving):
         self._scope = self._loop.body
         return True
 
+    def _ends_a_series(self, part: Part) -> bool:
+        """ "..., then the south-west corner, and finish in the north-east": the last place of a series."""
+        if (
+            part.places is None
+            or self._following
+            or not self._objects
+            or self._last_verb not in ("repeat", "act_on_objects")
+        ):
+            return False
+        found = find(part.places, self._site)
+        if isinstance(found.selector, s.Marker) or found.here or found.region or found.many:
+            return False
+        same = [step.at for step, _ in d.walk(self.told.root) if isinstance(step, d.Capture) and step.at is not None]
+        same += [step.place for step, _ in d.walk(self.told.root) if isinstance(step, d.Go)]
+        return sum(type(at) is type(found.selector) for at in same) > 1
+
     def _lists(self, part: Part) -> bool:
         """ "At the corners: first the south-west one, then ...": the places one by one that were named together."""
         loop = self._loop

@@ -212,7 +212,7 @@ class Hand:
             raise unclear(part.terms, "a place was expected")
         found = self._one_of_two(part) or find(part.places, self._site)
         beside = isinstance(found.selector, s.Adjacent) and found.selector.near == s.Here()
-        beside = beside and bool(self._sentence_steps) and not part.then
+        beside = beside and self._sentence_acts and not part.then
         if beside and isinstance(found.selector, s.Adjacent) and any(t.kind == "NEARBY" for t in part.places.terms):
             # "Tree 60 and two neighbouring trees": neighbours of it, not of each other.
             nearest = s.Nearest(to=s.Here(), count=found.selector.count, fresh=True, of=found.selector.of)

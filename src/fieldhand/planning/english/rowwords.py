@@ -171,7 +171,7 @@ def _counted_from(group: list[Term], _before: Term | None) -> list[Term]:
     head = next(k for k, t in enumerate(group) if t.kind in ("TREE", "ROW", "IDS"))
     behind = next(k for k, t in enumerate(group) if t.kind == "FROM")
     row = [t for t in group[head + 1 : behind] if t.kind != "COMMA"]
-    rest = group[behind:]
+    rest = [t for t in group[head + 1 :] if t.kind == "COMMA"] + group[behind:]
     side: s.CountedFrom = next((t.value for t in rest if t.kind == "DIR"), "usual")
     far = side == "usual" and any(t.kind == "FINISH" for t in rest)
     return [*group[: head + 1], merged(rest, "COUNTEDFROM", From(side=side, far=far)), *row]

@@ -14,6 +14,8 @@ from fieldhand.planning.english.tokens import Term
 from fieldhand.task.plan import Span
 
 _BETWEEN_PARTS = frozenset({"COMMA", "AND", "THEN", "OR"})
+#: Behind these nothing is joined.
+_ENDS_PART = frozenset({"SEP", "OTHERWISE", "TRY", "BUDGET", "IFSO", "FITS", "INORDER", "NOORDER", "ORDERED"})
 _THINGS = PLACES | {"NOUN", "READING", "ORD", "LAST", "NEAREST", "FARTHEST", "SUPER", "ATTRVAL", "EVERYWHERE", "CMP"}
 #: Of a condition: what a second predicate holds ("below 30 or above 40").
 _TESTS = frozenset({"NUM", "AMOUNT", "LEVEL", "CMP", "BETWEEN", "ATTRVAL"})
@@ -117,7 +119,7 @@ def _joins(before: list[Term], after: list[Term], opened: bool) -> bool:
     head = next((t for t in after if t.kind not in QUANTITY | {"ORD", "OTHER", "MORE"}), None)
     noun_ahead = head is not None and head.kind in ("NOUN", "READING")
     noun_behind = _last_head(before) in ("NOUN", "READING")
-    return noun_ahead == noun_behind and before[-1].kind not in ("SEP", "OTHERWISE", "TRY", "BUDGET", "IFSO", "FITS")
+    return noun_ahead == noun_behind and before[-1].kind not in _ENDS_PART
 
 
 def _until(terms: list[Term], stop: Callable[[Term], bool]) -> Iterable[Term]:
