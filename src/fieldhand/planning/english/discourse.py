@@ -282,28 +282,6 @@ class Discourse(Elliptic):
                 self._one_after_the_other(self._loop)
             self._loop.said += part.said
 
-    def _gone_to(self, part: Part) -> set[int]:
-        """The steps of this sentence from the last place on that it goes to: what is done again comes before them."""
-        said_where = part.places is not None and not self._related(part).here
-        placed = [k for k, st in enumerate(self._sentence_steps) if repeating.has_place(st)]
-        if said_where or not placed:
-            return set()
-        last = self._sentence_steps[placed[-1]]
-        if any(t.kind == "COUNT" for t in part.tails) and not isinstance(last, d.Go):
-            return set()
-        return {id(step) for step in self._sentence_steps[placed[-1] :]}
-
-    def _in_another_area(self, old: list[d.Step], found: Found, part: Part) -> bool:
-        """ "Do the same in row 8" behind what was done at several places of row 6. Whether it is that."""
-        passage = repeating.passage_in_area(old, found.selector)
-        made = repeating.copied(passage, lambda _: True, self._fresh)
-        if not passage.steps or not repeating.in_area(made, found.selector):
-            return False
-        for step in made.steps:
-            step.said += part.said
-        repeating.append(made, self._scope)
-        return True
-
     def _repeat(self, part: Part) -> None:
         """ "Do the same": what was done at the last place, at the place that this sentence has gone to."""
         sentence = self._gone_to(part)

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.planning.english import draft as d
+from fieldhand.planning.english import repeating
 from fieldhand.planning.english.counting import Wanted
 from fieldhand.planning.english.faults import Question, text_of, unclear
+from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.hand import ACTS
 from fieldhand.planning.english.leaving import Leaving
 from fieldhand.planning.english.places import find
@@ -67,6 +69,28 @@ class Elliptic(Leaving):
         same = [step.at for step, _ in d.walk(self.told.root) if isinstance(step, d.Capture) and step.at is not None]
         same += [step.place for step, _ in d.walk(self.told.root) if isinstance(step, d.Go)]
         return sum(type(at) is type(found.selector) for at in same) > 1
+
+    def _gone_to(self, part: Part) -> set[int]:
+        """The steps of this sentence from the last place on that it goes to: what is done again comes before them."""
+        said_where = part.places is not None and not self._related(part).here
+        placed = [k for k, st in enumerate(self._sentence_steps) if repeating.has_place(st)]
+        if said_where or not placed:
+            return set()
+        last = self._sentence_steps[placed[-1]]
+        if any(t.kind == "COUNT" for t in part.tails) and not isinstance(last, d.Go):
+            return set()
+        return {id(step) for step in self._sentence_steps[placed[-1] :]}
+
+    def _in_another_area(self, old: list[d.Step], found: Found, part: Part) -> bool:
+        """ "Do the same in row 8" behind what was done at several places of row 6. Whether it is that."""
+        passage = repeating.passage_in_area(old, found.selector)
+        made = repeating.copied(passage, lambda _: True, self._fresh)
+        if not passage.steps or not repeating.in_area(made, found.selector):
+            return False
+        for step in made.steps:
+            step.said += part.said
+        repeating.append(made, self._scope)
+        return True
 
     def _lists(self, part: Part) -> bool:
         """ "At the corners: first the south-west one, then ...": the places one by one that were named together."""
