@@ -21,9 +21,17 @@ _KEPT = re.compile(r"\$(\d)")
 def reworded(words: Sequence[Word]) -> list[Word]:
     """The words after every rule, in the order of the file, each as often as it fits."""
     found = _in_digits(words)
+    text = _text(found)
     for pattern, said in _rules():
-        found = _applied(pattern, said, found)
+        if pattern.search(text) is not None:
+            found = _applied(pattern, said, found)
+            text = _text(found)
     return found
+
+
+def _text(words: Sequence[Word]) -> str:
+    """The words as the rules see them; what a rule took out is no word to the next."""
+    return " ".join(word.norm for word in words if word.norm)
 
 
 _TEENS = ["ten", "eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen", "seventeen", "eighteen", "nineteen"]
@@ -72,7 +80,7 @@ def _applied(pattern: re.Pattern[str], said: str, words: list[Word]) -> list[Wor
     text = ""
     for word in words:
         starts.append(len(text))
-        text += word.norm + " " if word.norm else ""  # what a rule took out is no word to the next
+        text += word.norm + " " if word.norm else ""
     spoken = [(index, start, word) for index, (start, word) in enumerate(zip(starts, words, strict=True)) if word.norm]
     first_at = {start: index for index, start, _ in spoken}
     last_at = {start + len(word.norm): index for index, start, word in spoken}
