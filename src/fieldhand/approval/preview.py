@@ -9,11 +9,11 @@ from fieldhand.approval.marks import colours_of, disc_size, draw_arrows, draw_la
 from fieldhand.approval.panel import draw_panel
 from fieldhand.approval.readback import ReadBack, read_back
 from fieldhand.approval.stops import Plan, plan_of
-from fieldhand.errors import OutputError
 from fieldhand.forecast.estimate import Estimate
 from fieldhand.language import ENGLISH, Language
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.drawing import draw_site, site_figure
+from fieldhand.site.drawing.saving import save_figure
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 
@@ -42,19 +42,7 @@ def save_map(
     words = read_back(task, site, robot, estimate)
     plan = plan_of(task, [b.walk for b in estimate.branches], words.lines)
     figure = draw_map(task, site, plan, words, language)
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        figure.savefig(path, dpi=150)
-    except OSError as fault:
-        raise OutputError(
-            f"the map cannot be written ({fault.strerror or fault})", where=str(path), advice="choose another place"
-        ) from None
-    except ValueError:
-        raise OutputError(
-            f"{path.suffix or 'no ending'} is no kind of picture",
-            where=str(path),
-            advice="end its name in .png, .svg or .pdf",
-        ) from None
+    save_figure(figure, path, what="map", make_folder=True)
 
 
 def draw_map(task: Task, site: Site, plan: Plan, words: ReadBack, language: Language = ENGLISH) -> Figure:

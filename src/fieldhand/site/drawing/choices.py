@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fieldhand.errors import OutputError
 from fieldhand.site.choices import choice_marks
 from fieldhand.site.drawing import colours
 from fieldhand.site.drawing.ground import draw_dots, draw_site, site_figure, tree_size
+from fieldhand.site.drawing.saving import save_figure
 from fieldhand.site.model import Place, Site
 
 if TYPE_CHECKING:
@@ -42,19 +42,7 @@ def save_choices_picture(
         OutputError: The file cannot be written, or its ending is of no kind of picture.
     """
     figure = choices_picture(site, question, choices, places)
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        figure.savefig(path, dpi=150)
-    except OSError as fault:
-        raise OutputError(
-            f"the picture cannot be written ({fault.strerror or fault})", where=str(path), advice="choose another place"
-        ) from None
-    except ValueError:
-        raise OutputError(
-            f"{path.suffix or 'no ending'} is no kind of picture",
-            where=str(path),
-            advice="end its name in .png, .svg or .pdf",
-        ) from None
+    save_figure(figure, path, make_folder=True)
 
 
 def choices_picture(site: Site, question: str, choices: Sequence[str], places: Sequence[Sequence[Place]]) -> Figure:

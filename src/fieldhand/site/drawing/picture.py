@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from fieldhand.errors import OutputError
 from fieldhand.site.describe.driving import DrivingSummary
 from fieldhand.site.drawing import colours
 from fieldhand.site.drawing.ground import (
@@ -26,6 +25,7 @@ from fieldhand.site.drawing.ground import (
 )
 from fieldhand.site.drawing.labels import Labels
 from fieldhand.site.drawing.rows import LONGEST_NAME, draw_rows, name_blocks, name_rows, name_trees
+from fieldhand.site.drawing.saving import save_figure
 from fieldhand.site.drawing.ways import draw_closed, draw_unreachable, draw_ways
 from fieldhand.site.driving.network import Network
 from fieldhand.site.model import Site
@@ -60,18 +60,7 @@ def save_site_picture(
         OutputError: The file cannot be written, or its ending is of no kind of picture.
     """
     figure = site_picture(site, network, driving)
-    try:
-        figure.savefig(path, dpi=150)
-    except OSError as fault:
-        raise OutputError(
-            f"the picture cannot be written ({fault.strerror or fault})", where=str(path), advice="choose another place"
-        ) from None
-    except ValueError:
-        raise OutputError(
-            f"{path.suffix or 'no ending'} is no kind of picture",
-            where=str(path),
-            advice="end its name in .png, .svg or .pdf",
-        ) from None
+    save_figure(figure, path)
 
 
 def site_picture(site: Site, network: Network | None = None, driving: DrivingSummary | None = None) -> Figure:
