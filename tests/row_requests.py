@@ -237,6 +237,11 @@ PLANNED = [
         "Check CO2 at the first and last tree of row 6.",
         "for Union(InRow(1, 1, of Rows(6, 6))+InRow(-1, -1, of Rows(6, 6))): [co2]",
     ),
+    (
+        "husky",
+        "In every other row, starting with row 1, photograph the first tree and the last tree of the row.",
+        "for Union(InRow(1, 1, of Rows(1, 2))+InRow(-1, -1, of Rows(1, 2))): [picture]",
+    ),
     ("husky", "In row 2, take a picture of every fourth tree.", "for EveryNth(4, of Rows(2, 2)): [picture]"),
     ("husky", "Head down row 7 and read CO2 at every other tree.", "for EveryNth(2, of Rows(7, 7)): [co2]"),
     (
@@ -952,7 +957,7 @@ ASKED = [
     ("husky", "Go 5 trees down and take a picture.", "'Go 5 trees down': from which tree?"),
     (
         "husky",
-        "take a picture of the first tree and the last tree of row 6",
+        "take a picture of the first tree and the tree at the northern end of row 6",
         "'the first tree': of the row, or of the whole site?",
     ),
     ("husky", "take a picture of row 3, then of row 4", "'take a picture of row 3': at every tree, or at how many?"),

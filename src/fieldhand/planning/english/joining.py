@@ -51,12 +51,15 @@ def from_each_other(found: list[Found]) -> list[Found]:
 
 
 def one_each(places: Places) -> Places:
-    """ "The first and last tree of row 6": what is said behind the last is said of each, and each is one."""
+    """ "The first and last tree of row 6", "the first tree and the last tree of row 6": both are of that row."""
     last = places.chains[-1]
     head = last.phrases[0]
     rest = tuple(g for g in head.nominals if g[0].kind not in _RANKS)
     if len(places.chains) < 2 or not rest or len(rest) == len(head.nominals):
         return places
+    if _of_a_row(last) and all(_is_end(chain) for chain in places.chains[:-1]):
+        firsts = (replace(c, phrases=(*c.phrases, *last.phrases[1:]), relations=last.relations) for c in places.chains)
+        return replace(places, chains=(*tuple(firsts)[:-1], last))
     if not all(_only_ranks(chain) for chain in places.chains[:-1]):
         return places
     counted = any(t.kind == "NUM" for c in places.chains for t in c.phrases[0].quantity)
@@ -76,6 +79,17 @@ def _only_ranks(chain: Chain) -> bool:
     """Whether a chain is a rank and no more ("the first", "the northernmost")."""
     phrase = chain.phrases[0]
     return len(chain.phrases) == 1 and bool(phrase.nominals) and all(g[0].kind in _RANKS for g in phrase.nominals)
+
+
+def _is_end(chain: Chain) -> bool:
+    """Whether a chain is a tree by its rank alone ("the first tree")."""
+    nominals = chain.phrases[0].nominals
+    ranked = [g[0].kind for g in nominals if g[0].kind in ("ORD", "LAST", "BACKORD")]
+    return len(chain.phrases) == 1 and len(ranked) == 1 and len(nominals) == 2 and nominals[1][0].kind == "TREE"
+
+
+def _of_a_row(chain: Chain) -> bool:
+    return len(chain.phrases) == 2 and any(g[0].kind in ("ROW", "ROWIDS") for g in chain.phrases[1].nominals)
 
 
 def _headed(phrase: NounPhrase, nominals: tuple[tuple[Term, ...], ...], *, plural: bool) -> NounPhrase:
