@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from fieldhand.errors import PlaceError, RequestError, TaskError
+from fieldhand.facts import mismatches
 from fieldhand.language import message
 from fieldhand.planning.english.arrange import Arranged, arrange, without_filler
 from fieldhand.planning.english.discourse import Discourse
@@ -19,8 +20,10 @@ from fieldhand.planning.english.leading import places_of_choices
 from fieldhand.planning.english.leaving import place_unsure
 from fieldhand.planning.english.lexicon import Lexicon, lexicon_for
 from fieldhand.planning.english.limits import Limit
+from fieldhand.planning.english.mending import mended
 from fieldhand.planning.english.remarks import without_remarks
 from fieldhand.planning.english.rewording import Worded, as_typed
+from fieldhand.planning.english.sense import check_sense
 from fieldhand.planning.english.spelling import respelt
 from fieldhand.planning.english.syntax import NotParsed, parse
 from fieldhand.planning.english.tokens import Term, Word, words_of
@@ -105,7 +108,10 @@ def _read(request: str, worded: Worded, taken: tuple[Answer, ...], site: Site, r
     told = _told(arranged, worded.text, robot, site)
     told.assumptions += [str(answer) for answer in taken]
     as_typed(told, worded)
-    return _planned(request, worded.text if taken else "", told, site, robot)
+    outcome = _planned(request, worded.text if taken else "", told, site, robot)
+    if told.misfit is not None and isinstance(outcome, Planned) and mismatches(outcome.task, site, robot):
+        return _refused(worded, (told.misfit,))  # what was made of an odd sentence is not what it says
+    return outcome
 
 
 def _turned(said: Sequence[Word], words: Sequence[Word]) -> list[p.Span]:
@@ -206,8 +212,18 @@ def _told(arranged: Arranged, request: str, robot: RobotProfile, site: Site) -> 
         discourse.told.joints += [t.span for t in sentence.terms if t.kind == "SEP" and _says_more(t)]
         parts = parse(sentence)
         if isinstance(parts, NotParsed):
-            raise Unclear(_misfit(parts, request))
-        discourse.read(parts)
+            misfit, whole = _misfit(parts, request), mended(sentence)
+            if whole is None:
+                raise Unclear(misfit)
+            discourse.told.misfit = discourse.told.misfit or misfit
+            discourse.told.no_part += [t.span for t in whole.left_out]
+            parts = whole.parts
+        try:
+            discourse.read(parts)
+        except (Unclear, Question):
+            if discourse.told.misfit is not None:
+                raise Unclear(discourse.told.misfit) from None
+            raise
     unsure = place_unsure(discourse.told.root)
     if unsure is not None:
         said = " ".join(request[start:end] for start, end in unsure.said)
@@ -216,6 +232,12 @@ def _told(arranged: Arranged, request: str, robot: RobotProfile, site: Site) -> 
             ("only if that is done, at its place", "at a tree that you name"),
         )
     settle(discourse.told)
+    try:
+        check_sense(discourse.told.root, request)
+    except (Unclear, Question):
+        if discourse.told.misfit is not None:
+            raise Unclear(discourse.told.misfit) from None
+        raise
     for reason in arranged.reasons:
         discourse.told.assumptions.append(
             message("'{said}' is taken as a reason, not as something to do.", context="assumption", said=reason)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from fieldhand.language import message
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.limits import Limit
+from fieldhand.planning.planner import Reason
 from fieldhand.task import selectors as s
 from fieldhand.task.frames import Then
 from fieldhand.task.plan import Span
@@ -27,6 +28,7 @@ class Told:
         assumptions: What was assumed, as sentences.
         joints: The ranges of the request that say in which order its parts follow each other ("then", "after that").
         no_part: The ranges of the request that ask for nothing.
+        misfit: The first sentence that was not read as it stands, and why; None if all were.
     """
 
     root: d.Block = field(default_factory=d.Block)
@@ -38,6 +40,7 @@ class Told:
     ends_differ: bool = False
     assumptions: list[str] = field(default_factory=list)
     joints: list[Span] = field(default_factory=list)
+    misfit: Reason | None = None
     no_part: list[Span] = field(default_factory=list)
 
 

@@ -1,0 +1,102 @@
+"""Whether what was read makes a mission: places with nothing to do, the same twice, an end before the end.
+
+Each of these can be said in English, and each is far oftener a sentence that was read wrongly.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from fieldhand.planning.english import draft as d
+from fieldhand.planning.english.faults import Question, Unclear
+from fieldhand.planning.planner import Reason
+from fieldhand.task import selectors as s
+from fieldhand.task.plan import Span
+
+#: What is taken twice in a row is said to be.
+_AGAIN = re.compile(
+    r"\b(again|another|second|more|twice|times|repeat\w*|confirm\w*|double|further|additional|extra|other|both|third"
+    r"|fourth|next)\b"
+)
+#: Where the robot sets out from is a place to be, with nothing to do there.
+_BEGINS = re.compile(r"\b(from|start\w*|begin\w*|set\w* (?:off|out)|leav\w*|via|through|past|by)\b")
+
+
+def check_sense(root: d.Block, request: str) -> None:
+    """Refuse what nobody means.
+
+    Raises:
+        Question: A place is driven to, and nothing is done there.
+        Unclear: The same is done twice and nothing says so, the place in hand is mixed with others, or the mission
+            ends before it is over.
+    """
+    captures = any(isinstance(step, d.Capture) for step, _ in d.walk(root))
+    for block in _blocks(root):
+        for step, after in zip(block.steps, [*block.steps[1:], None], strict=False):
+            if isinstance(step, d.Halt) and after is not None:
+                raise _unclear(step.said, request, "the mission would end there, before all is done")
+            idle = captures and _leads_nowhere(step) and _is_elsewhere(after)
+            if idle and not _BEGINS.search(_text(_said(step), request).lower()):
+                raise Question(f"'{_text(_said(step), request)}': what is to be done there?")
+            if _is_mixed(step):
+                raise _unclear(_said(step), request, "which places are meant is not clear", "name them all")
+            if _is_twice(step, after) and not _says_again(step, after, request):
+                raise _unclear(_said(after), request, "that has been asked for already", "say 'again' if it is meant")
+
+
+def _blocks(root: d.Block) -> Iterator[d.Block]:
+    yield root
+    for step, _ in d.walk(root):
+        yield from d.blocks_of(step)
+
+
+def _leads_nowhere(step: d.Step) -> bool:
+    """Whether a step drives to a place, and does nothing there."""
+    if isinstance(step, d.Go):
+        return not isinstance(step.place, s.Marker) and not _is_near(step.place)
+    return isinstance(step, d.Loop) and not step.body.steps
+
+
+def _is_elsewhere(step: d.Step | None) -> bool:
+    """Whether a step has a place of its own that does not depend on where the robot is."""
+    if isinstance(step, d.Loop) and step.optional:
+        return False
+    place = step.place if isinstance(step, d.Go) else step.select if isinstance(step, d.Loop) else None
+    place = step.at if isinstance(step, d.Capture) else place
+    return place is not None and not isinstance(place, s.Marker) and not _is_near(place)
+
+
+def _is_near(place: s.Selector) -> bool:
+    return any(isinstance(part, s.Here | s.Take | s.Other | s.RowOf | s.Nearest) for part in s.walk(place))
+
+
+def _is_mixed(step: d.Step) -> bool:
+    if not isinstance(step, d.Loop) or not isinstance(step.select, s.Union):
+        return False
+    return any(isinstance(part, s.Here) for part in step.select.parts) and bool(step.body.steps)
+
+
+def _is_twice(step: d.Step, after: d.Step | None) -> bool:
+    if not isinstance(step, d.Capture) or not isinstance(after, d.Capture):
+        return False
+    return step.action == after.action and after.at is None and step.command != after.command
+
+
+def _says_again(step: d.Step, after: d.Step | None, request: str) -> bool:
+    begin = max((end for _, end in _said(step)), default=0)
+    end = max((end for _, end in _said(after)), default=len(request))
+    begin = min([begin, *(start for start, _ in _said(after))])
+    return _AGAIN.search(request[begin : end + 12].lower()) is not None
+
+
+def _said(step: d.Step | None) -> tuple[Span, ...]:
+    return () if step is None else step.said
+
+
+def _text(said: tuple[Span, ...], request: str) -> str:
+    return " ".join(request[start:end] for start, end in said)
+
+
+def _unclear(said: tuple[Span, ...], request: str, what: str, advice: str = "say it in other words") -> Unclear:
+    return Unclear(Reason(what=f"'{_text(said, request)}': {what}", said=said, advice=advice))
