@@ -10,6 +10,7 @@ from fieldhand.planning.english.faults import unclear
 from fieldhand.planning.english.kinds import PLACES, RELATIONS, VERBS
 from fieldhand.planning.english.limits import with_amounts, with_limits
 from fieldhand.planning.english.opposites import with_opposites
+from fieldhand.planning.english.passive import with_passives
 from fieldhand.planning.english.rowwords import with_row_ids, with_row_words
 from fieldhand.planning.english.separators import separated
 from fieldhand.planning.english.spacing import with_orders, with_spacing
@@ -45,6 +46,8 @@ _SAID_FULLY = VERBS | {
     "ISNOT",
     "NOT",
 }
+#: How a place begins that stands alone in front of a colon.
+_OPENS = frozenset({"DET", "MIDDLE", "MOST", "DIR", "CORNER", "TREE", "ORD", "LAST", "NEAREST", "FARTHEST", "ANOTHER"})
 #: A clause that begins with one of these says what is to be done.
 _TO_DO = frozenset({"in order to", "so as to", "so that we", "so that i", "so we can", "so i can"})
 
@@ -173,7 +176,7 @@ def _contrasted(before: list[Term]) -> bool:
 
 
 def _sentence(terms: list[Term]) -> tuple[Sentence, list[Span]]:
-    terms = with_spacing(with_amounts(with_allowances(terms)))
+    terms = with_spacing(with_amounts(with_allowances(with_passives(terms))))
     terms = with_row_words(with_ids(with_row_ids(terms)))
     terms = with_at_most(classed(with_orders(terms)))
     terms = with_limits(terms)
@@ -201,6 +204,9 @@ def _tersely(terms: list[Term]) -> list[Term]:
     where = [any(t.kind in PLACES for t in part) for part in (before, clause)]
     if what == [True, False] and where == [False, True]:
         return [*before, replace(terms[comma], kind="AT"), *after]
+    if what == [False, True] and where == [True, True] and terms[comma].text == ":" and before[0].kind in _OPENS:
+        # "The middle of the east edge: a picture of two adjacent trees": what stands before the colon is gone to.
+        return [replace(before[0], kind="AT", text="", end=before[0].start), *terms]
     if what == [False, True] and where == [True, False]:
         # "First the westernmost tree, ...", "tree 30 first, ...": the word says when, not which.
         place = [t for t in before if t.kind != "THEN" and not _first_of_all(t, before)]

@@ -49,6 +49,11 @@ def said_of_places(part: Part) -> tuple[Span, ...]:
     return spans_of([*part.places.terms, *part.tails, *(term for term in ties if term is not None)])
 
 
+#: What a camera yields, and what is done with one whatever it yields ("shoot the corner trees").
+_PICTURES = frozenset({"picture", "photo", "photograph", "image"})
+_WITH_A_CAMERA = frozenset({"shoot", "shoots", "shot", "shooting", "snap", "snaps", "snapped", "snapping"})
+
+
 class Hand:
     """What has been spoken of. One instance reads one request."""
 
@@ -296,6 +301,9 @@ class Hand:
         verb = part.verb
         if verb is not None and isinstance(verb.value, Naming):
             return ((verb.value.actions[0], None),)
+        cameras = [a.name for a in self._robot.actions if _PICTURES & set(a.words)]
+        if verb is not None and len(cameras) == 1 and verb.text.lower().split()[0] in _WITH_A_CAMERA:
+            return ((cameras[0], None),)
         one = any(t.kind == "NUM" and t.value == 1 for t in part.terms)
         before = self._objects or (self._objects_of_case if one else ())  # "..., otherwise take one there"
         if before:

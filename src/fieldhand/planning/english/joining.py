@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from fieldhand.language import message
 from fieldhand.planning.english.bag import bag_of
 from fieldhand.planning.english.faults import Question, text_of
 from fieldhand.planning.english.found import Found
@@ -24,18 +25,41 @@ def check_of_row(places: Places, found: list[Found]) -> None:
                        terms=bare[0].terms)  # fmt: skip
 
 
+def of_the_other(places: Places, found: list[Found]) -> Chain | None:
+    """ "Row 4, the easternmost tree": with a comma alone, an area says where the other is; None if that is not said."""
+    if len(found) != 2 or set(places.joins[0].text) - set(", "):
+        return None
+    areas = [f.region or f.rows or isinstance(f.selector, s.Edge) for f in found]
+    middles = [isinstance(f.selector, s.Middle | s.EdgeMiddle) for f in found]
+    if not any(areas):
+        areas = middles
+    if areas[0] == areas[1]:
+        return None
+    area, inner = places.chains[areas.index(True)], places.chains[areas.index(False)]
+    named = any(t.kind in ("IDS", "CORNER", "START", "CHARGER", "IT", "THERE", "ANOTHER", "OTHER") for t in inner.terms)
+    if named or any(t.kind in ("EXCEPT", "OUTSIDE") for t in inner.terms):
+        return None
+    relation = replace(places.joins[0], kind="OF", text="of", value="OF")
+    if isinstance(found[areas.index(True)].selector, s.Middle | s.EdgeMiddle):
+        relation = replace(relation, kind="AT", text="at", value="AT")
+    return Chain(phrases=(*inner.phrases, *area.phrases), relations=(*inner.relations, relation, *area.relations))
+
+
 def check_comma(places: Places, found: list[Found]) -> None:
-    """ "Row 3, every other tree": with a comma alone, the second may be of the first."""
+    """ "The yellow trees, every other tree": with a comma alone, the second may be of the first."""
     if all(set(join.text) <= set(", ") for join in places.joins) and sum(f.many for f in found) > 1:
         parts = [text_of(chain.terms).replace(" ,", ",") for chain in places.chains]
         asked = f"'{', '.join(parts)}': one and the same trees, or each of them?"
-        if len(found) != 2 or not any(f.region for f in found):
-            raise Question(asked, (f"{', '.join(parts[:-1])} and also {parts[-1]}",), terms=places.terms)
-        area = 0 if found[0].region else 1
-        inner, outer = parts[1 - area], parts[area]
-        joins = "of" if found[area].rows else "in"
-        also = f"{parts[0]} and also {parts[1]}" + (" of the orchard" if not found[1].region else "")
-        raise Question(asked, (f"{inner} {joins} {outer}", also), terms=places.terms)
+        raise Question(asked, (f"{', '.join(parts[:-1])} and also {parts[-1]}",), terms=places.terms)
+
+
+def read_as(places: Places, whole: Chain) -> str:
+    """How two groups with a comma alone between them were read, as a sentence."""
+    said = ", ".join(text_of(chain.terms) for chain in places.chains)
+    inner = places.chains[0] if whole.phrases[0] == places.chains[0].phrases[0] else places.chains[1]
+    area = next(chain for chain in places.chains if chain is not inner)
+    meant = f"{text_of(inner.terms)} {whole.relations[len(inner.relations)].text} {text_of(area.terms)}"
+    return message("'{said}' is read as '{meant}'.", context="assumption", said=said, meant=meant)
 
 
 def from_each_other(found: list[Found]) -> list[Found]:

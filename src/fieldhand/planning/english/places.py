@@ -7,11 +7,12 @@ the trees that stand in the northern half.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 
 from fieldhand.planning.english.bag import Bag, bag_of
 from fieldhand.planning.english.bare import named_trees, quantity_alone
-from fieldhand.planning.english.faults import Question, text_of, unclear
+from fieldhand.planning.english.faults import Question, Unclear, text_of, unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.inrow import excepted_in_rows, named_in_rows, successive_trees
 from fieldhand.planning.english.joining import (
@@ -19,7 +20,9 @@ from fieldhand.planning.english.joining import (
     check_of_row,
     from_each_other,
     is_apposition,
+    of_the_other,
     one_each,
+    read_as,
     only_compares,
     without_appositions,
     without_both,
@@ -82,6 +85,10 @@ def find(places: Places, site: Site) -> Found:
         found.append(_chain(chain, excepted, site))
     if len(found) == 1:
         return found[0]
+    whole = of_the_other(places, found)
+    if whole is not None:
+        with suppress(Unclear):
+            return replace(_chain(whole, (), site), assumed=(read_as(places, whole),))
     check_of_row(places, found)
     check_comma(places, found)
     found = from_each_other(found)
@@ -258,9 +265,12 @@ def _describe(
         kind = "AT"  # "somewhere near the middle" is the middle
     if kind == "FROM" and not anchored:
         raise unclear([relation, *inner.phrase.terms], "from there, but what?", "say 'nearest to', or 'within 20 m of'")
+    spot = bag.has("ADJACENT") and isinstance(behind.selector, s.Middle | s.EdgeMiddle) and not group.anchor
     match kind:
         case "FROM":
             group.anchor = _single(behind, inner)
+        case "OF" | "AT" if spot:  # "two trees next to each other in the middle of the orchard"
+            group.anchor = behind.selector
         case "OF" | "AT" if anchored and not behind.region and not behind.many:
             group.anchor = _single(behind, inner)
         case "OF" | "AT" | "INSIDE" | "ALONG" | "SPREAD":
