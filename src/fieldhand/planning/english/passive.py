@@ -1,4 +1,4 @@
-""" "The first tree imaged", "CO2 measured at tree 4", "a picture taken of each": the verb put in front of its object."""
+""" "The first tree imaged", "CO2 measured at tree 4", "a picture taken of each": the verb in front of its object."""
 
 from __future__ import annotations
 

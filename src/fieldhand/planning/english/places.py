@@ -22,8 +22,8 @@ from fieldhand.planning.english.joining import (
     is_apposition,
     of_the_other,
     one_each,
-    read_as,
     only_compares,
+    read_as,
     without_appositions,
     without_both,
 )

@@ -14,6 +14,7 @@ from functools import cache
 from importlib.resources import files
 
 from fieldhand.planning.english.tokens import Word
+from fieldhand.planning.english.triggers import triggers
 
 _KEPT = re.compile(r"\$(\d)")
 
@@ -22,10 +23,14 @@ def reworded(words: Sequence[Word]) -> list[Word]:
     """The words after every rule, in the order of the file, each as often as it fits."""
     found = _in_digits(words)
     text = _text(found)
-    for pattern, said in _rules():
+    spoken = frozenset(text.split(" "))
+    for needed, pattern, said in _rules():
+        if needed and needed.isdisjoint(spoken):
+            continue
         if pattern.search(text) is not None:
             found = _applied(pattern, said, found)
             text = _text(found)
+            spoken = frozenset(text.split(" "))
     return found
 
 
@@ -148,7 +153,8 @@ def _end_at(made: list[Word], put: int, end: int) -> None:
 
 
 @cache
-def _rules() -> tuple[tuple[re.Pattern[str], str], ...]:
+def _rules() -> tuple[tuple[frozenset[str], re.Pattern[str], str], ...]:
+    """What a rule needs a word of, what it matches, and what that means."""
     text = (files("fieldhand.planning.english") / "wordings.toml").read_text(encoding="utf-8")
     book = tomllib.loads(text)
     short: dict[str, str] = {}
@@ -157,8 +163,9 @@ def _rules() -> tuple[tuple[re.Pattern[str], str], ...]:
     rules = []
     for rule in book["rule"]:
         for pattern in rule["said"]:
-            whole = rf"(?:(?<=\s)|^)(?:{_spelt_out(pattern, short)})(?:(?=\s|$)|(?<=\s))"
-            rules.append((re.compile(whole), rule["means"]))
+            spelt = _spelt_out(pattern, short)
+            whole = rf"(?:(?<=\s)|^)(?:{spelt})(?:(?=\s|$)|(?<=\s))"
+            rules.append((triggers(spelt), re.compile(whole), rule["means"]))
     return tuple(rules)
 
 
