@@ -281,6 +281,21 @@ class Cases(Hand):
             self._objects = ()  # "otherwise take another" may mean what either case takes
         self._scope = choice.otherwise
 
+    def _after_otherwise(self, part: Part) -> None:
+        """ "Otherwise read the temperature, then go to tree 9": what comes then is for both cases.
+
+        With "and then" it goes on with the second; and where that only drives so far, it does so with "then" too.
+        """
+        block = self._scope
+        choice = self._choice
+        if choice is None or block is not choice.otherwise or not part.then or part.joined:
+            return
+        if not any(isinstance(step, d.Capture) for step, _ in d.walk(block)) or block.parent is None:
+            return
+        self._scope = block.parent
+        both = message("'{said}' is done in both cases.", context="assumption", said=text_of(part.terms))
+        self.told.assumptions.append(both)
+
     def _holds(self, loop: d.Loop, choice: d.Choice) -> bool:
         return any(step is choice for step, _ in d.walk(loop.body))
 

@@ -51,6 +51,11 @@ def _waits(following: tuple[Part, ...]) -> bool:
     return bool(following) and following[0].kind in _ACTS and following[0].places is None
 
 
+def _goes_on(following: tuple[Part, ...]) -> bool:
+    """Whether a command stands right behind a condition, with nothing between: it is what the condition decides."""
+    return bool(following) and following[0].bare and following[0].kind in COMMANDS and following[0].kind != "lead"
+
+
 class Discourse(Elliptic):
     """Reads the parts of a request in order. One instance reads one request."""
 
@@ -77,7 +82,8 @@ class Discourse(Elliptic):
                 case "condition":
                     before = [p for p in parts[:index] if p.kind in COMMANDS and p.kind != "lead"]
                     ahead = next((p.kind for p in following if p.kind not in ("budget", "order")), "")
-                    outer, trailing = self._scope, bool(before) and (ahead in ("", "otherwise") or part.bare)
+                    ends = ahead in ("", "otherwise")
+                    outer, trailing = self._scope, bool(before) and (ends or (part.bare and not _goes_on(following)))
                     self._condition(part, trailing=trailing)
                     if trailing and ahead not in ("", "otherwise"):
                         self._scope = outer  # "take a picture if it is low and then return": the return is for all
@@ -118,6 +124,7 @@ class Discourse(Elliptic):
         if part.kind in ("come_back", "stop"):
             self._close_allowance()  # the way home and the end are for all
         self._after_until(part)
+        self._after_otherwise(part)
         if part.kind == "lead":
             self._known_before_lead = self._known()
         before = {id(step) for step, _ in d.walk(self.told.root)}
