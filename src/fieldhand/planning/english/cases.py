@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 from fieldhand.language import message
 from fieldhand.planning.english import draft as d
+from fieldhand.planning.english.attributes import number_of
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.hand import ACTS, Hand
 from fieldhand.planning.english.places import find
@@ -159,6 +160,8 @@ class Cases(Hand):
 
     def _check_it(self, terms: tuple[Term, ...], known: list[d.Capture], part: Part) -> None:
         """ "If it is low, ... If it is high, ...": the second "it" may be what the first case took."""
+        if self._same_test(terms, known):
+            return
         says_which = any(t.kind in ("NOUN", "ORD", "AMOUNT", "READING", "ATTR", "ATTRVAL", "STILL") for t in terms)
         if says_which or self._choice is None or not readings(self._choice.condition):
             return
@@ -171,6 +174,20 @@ class Cases(Hand):
                 return
             names = tuple(dict.fromkeys(cap.action.replace("_", " ") for cap in (*before, *inside)))
             raise Question(f"'{text_of(part.terms)}': which reading is meant?", names)
+
+    def _same_test(self, terms: tuple[Term, ...], known: list[d.Capture]) -> bool:
+        """ "If it's not below 33 °C, ...; if it is below 33 °C, ...": two cases of one reading. Whether they are."""
+        before = self._choice.condition if self._choice is not None else None
+        before = before.condition if isinstance(before, c.Not) else before
+        numbers = [number_of(t) for t in terms if t.kind in ("NUM", "AMOUNT")]
+        named = any(t.kind in ("NOUN", "ORD", "STILL") for t in terms)
+        if self._choice not in self._sentence_choices or named or not isinstance(before, c.Compare):
+            return False
+        if numbers != [before.value]:
+            return False
+        tested = [cap for cap in known if cap.reading == before.reading]
+        known[:] = tested or known
+        return bool(tested)
 
     def _continues(self, terms: tuple[Term, ...], known: list[d.Capture], before: list[d.Capture]) -> bool:
         """Whether the words tell by themselves which of two readings is meant.

@@ -36,6 +36,8 @@ def of_the_other(places: Places, found: list[Found]) -> Chain | None:
     if areas[0] == areas[1]:
         return None
     area, inner = places.chains[areas.index(True)], places.chains[areas.index(False)]
+    if areas == middles and not any(t.kind == "ADJACENT" for t in inner.terms):
+        return None  # a tree, and another in the middle
     named = any(t.kind in ("IDS", "CORNER", "START", "CHARGER", "IT", "THERE", "ANOTHER", "OTHER") for t in inner.terms)
     if named or any(t.kind in ("EXCEPT", "OUTSIDE") for t in inner.terms):
         return None

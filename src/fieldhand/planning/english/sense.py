@@ -20,7 +20,7 @@ _AGAIN = re.compile(
     r"|fourth|next)\b"
 )
 #: Where the robot sets out from is a place to be, with nothing to do there.
-_BEGINS = re.compile(r"\b(from|start\w*|begin\w*|set\w* (?:off|out)|leav\w*|via|through|past|by)\b")
+_BEGINS = re.compile(r"\b(from|start\w*|begin\w*|set\w* (?:off|out)|leav\w*|via)\b")
 
 
 def check_sense(root: d.Block, request: str) -> None:
@@ -87,7 +87,7 @@ def _says_again(step: d.Step, after: d.Step | None, request: str) -> bool:
     begin = max((end for _, end in _said(step)), default=0)
     end = max((end for _, end in _said(after)), default=len(request))
     begin = min([begin, *(start for start, _ in _said(after))])
-    return _AGAIN.search(request[begin : end + 12].lower()) is not None
+    return _AGAIN.search(request[begin:end].lower()) is not None
 
 
 def _said(step: d.Step | None) -> tuple[Span, ...]:

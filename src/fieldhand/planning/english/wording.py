@@ -1,7 +1,8 @@
 """Everyday turns of phrase put into words that the grammar knows, before the lexicon looks at them.
 
-``wordings.toml`` holds the rules: what may be said, as a regular expression over the words in lower case, and what it
-stands for. Words that a rule keeps stay where they were said; those that it puts in stand for the whole phrase.
+``wordings/`` holds the rules, in the order of its files: what may be said, as a regular expression over the words in
+lower case, and what it stands for. Words that a rule keeps stay where they were said; those that it puts in stand for
+the whole phrase.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from dataclasses import replace
 from functools import cache
 from importlib.resources import files
 
+from fieldhand.planning.english.runon import with_stops
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.english.triggers import triggers
 
@@ -21,7 +23,7 @@ _KEPT = re.compile(r"\$(\d)")
 
 def reworded(words: Sequence[Word]) -> list[Word]:
     """The words after every rule, in the order of the file, each as often as it fits."""
-    found = _in_digits(words)
+    found = with_stops(_in_digits(words))
     text = _text(found)
     spoken = frozenset(text.split(" "))
     for needed, pattern, said in _rules():
@@ -155,13 +157,14 @@ def _end_at(made: list[Word], put: int, end: int) -> None:
 @cache
 def _rules() -> tuple[tuple[frozenset[str], re.Pattern[str], str], ...]:
     """What a rule needs a word of, what it matches, and what that means."""
-    text = (files("fieldhand.planning.english") / "wordings.toml").read_text(encoding="utf-8")
-    book = tomllib.loads(text)
+    folder = files("fieldhand.planning.english") / "wordings"
+    names = sorted(file.name for file in folder.iterdir() if file.name.endswith(".toml"))
+    books = [tomllib.loads((folder / name).read_text(encoding="utf-8")) for name in names]
     short: dict[str, str] = {}
-    for name, pattern in book["short"].items():
+    for name, pattern in (pair for book in books for pair in book.get("short", {}).items()):
         short[name] = _spelt_out(pattern, short)
     rules = []
-    for rule in book["rule"]:
+    for rule in (rule for book in books for rule in book["rule"]):
         for pattern in rule["said"]:
             spelt = _spelt_out(pattern, short)
             whole = rf"(?:(?<=\s)|^)(?:{spelt})(?:(?=\s|$)|(?<=\s))"
