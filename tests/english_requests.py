@@ -6,6 +6,7 @@ Longer than other files because it is a table.
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
+    ("husky", "Take three CO2 readings about 15 m apart.", "for Spaced(15, 3): [co2]"),
     ("husky", "Hey mate, take the husky over to tree 9 and get a shot of it.", "go TreeIs(9); picture"),
     (
         "husky",
@@ -407,7 +408,7 @@ PLANNED = [
     (
         "husky",
         "CO2 readings at the corners: first the south-west corner, then the north-west, then the north-east and the south-east last.",
-        "for Union(Corners(sw)+Corners(nw)+Corners(ne)+Corners(se)) given: [co2]",
+        "co2 @ Corners(sw); co2 @ Corners(nw); co2 @ Corners(ne); co2 @ Corners(se)",
     ),
     (
         "husky",

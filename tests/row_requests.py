@@ -1246,7 +1246,6 @@ REFUSED = [
         "Take CO2 readings 10 to 15 m apart in row 4.",
         "'10' does not fit where it stands in 'Take CO2 readings 10 to 15 m apart in row 4'",
     ),
-    ("husky", "Take three CO2 readings about 15 m apart.", "not understood: 'about'"),
     ("husky", "Take CO2 readings at 3 points in the northern half.", "'3 points': which trees are meant by it?"),
     ("husky", "Take CO2 readings at 3 points in row 4.", "'3 points': which trees are meant by it?"),
     ("husky", "Photograph the trees of row 4 in reverse order.", "not understood: 'reverse', 'order'"),

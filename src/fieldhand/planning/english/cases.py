@@ -173,7 +173,8 @@ class Cases(Hand):
             if self._continues(terms, known, before):
                 return
             names = tuple(dict.fromkeys(cap.action.replace("_", " ") for cap in (*before, *inside)))
-            raise Question(f"'{text_of(part.terms)}': which reading is meant?", names)
+            if len(names) > 1:  # of two readings of a kind, the later one
+                raise Question(f"'{text_of(part.terms)}': which reading is meant?", names)
 
     def _same_test(self, terms: tuple[Term, ...], known: list[d.Capture]) -> bool:
         """ "If it's not below 33 °C, ...; if it is below 33 °C, ...": two cases of one reading. Whether they are."""

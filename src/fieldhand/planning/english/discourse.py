@@ -181,6 +181,9 @@ class Discourse(Elliptic):
         if self._last_verb in ("go", "visit"):
             self._go(part)
             return
+        if self._last_verb == "repeat" and part.relation is not None:
+            self._repeat(part)  # "repeat this at the first tree, and at the last one"
+            return
         if not self._objects and all(t.kind == "NUM" for t in part.terms):
             self._objects = self._objects_of_case  # "take two pictures, otherwise just one"
         if not self._objects and self._captured_next():
@@ -227,6 +230,8 @@ class Discourse(Elliptic):
         per_place = counts_each(found, part) and not in_rows
         for index, (action, count) in enumerate(wanted):
             captures = (1 if each and not per_place else count or 1) * times
+            if len(wanted) == 1 and not per_place and self._spreads(block, captures):
+                captures = 1
             said = spans_of([t for t in part.terms if not self._of_another(t, index, part)])
             step = d.Capture(action=action, at=at if index == 0 else None, count=captures, said=said)
             step.command = self._commands

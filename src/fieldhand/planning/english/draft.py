@@ -129,6 +129,23 @@ def walk(block: Block) -> Iterator[tuple[Step, Block]]:
             yield from walk(inner)
 
 
+def shape(block: Block) -> tuple[object, ...]:
+    """What a block does, without the words that say it: equal for blocks that do the same."""
+    made: list[object] = []
+    for step in block.steps:
+        match step:
+            case Go():
+                made.append(("go", step.place))
+            case Capture():
+                made += [("go", step.at)] if step.at is not None else []
+                made.append((step.action, step.count))
+            case Loop():
+                made.append(("each", step.select, step.order, step.optional, step.at_most, shape(step.body)))
+            case _:
+                made.append((type(step).__name__, *(shape(inner) for inner in blocks_of(step))))
+    return tuple(made)
+
+
 def copy_block(block: Block, keep: Callable[[Step], bool], renamed: dict[str, str], fresh: Callable[[], str]) -> Block:
     """A copy with readings of its own. Steps that ``keep`` refuses are left out, and choices that hold nothing then."""
     made = Block()

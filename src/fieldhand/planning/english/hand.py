@@ -139,8 +139,11 @@ class Hand:
 
     def _add_loop(self, found: Found, part: Part) -> d.Loop:
         given = any(t.kind == "INORDER" for t in part.tails)
+        select = found.selector
+        if isinstance(select, s.Take) and isinstance(select.of, s.Nearest) and select.of.count == 1:
+            select = replace(select.of, count=select.count)  # "go to trees nearby | and take two pictures"
         loop = d.Loop(
-            select=found.selector,
+            select=select,
             body=d.Block(),
             order="given" if given else "best",
             optional=found.optional,
@@ -156,6 +159,16 @@ class Hand:
         self._scope.add(loop)
         self._loop = loop
         return loop
+
+    def _spreads(self, block: d.Block, captures: int) -> bool:
+        """ "Go to nearby trees and take two pictures": at two trees, one each. Whether it is said so."""
+        loop = self._loop
+        if loop is None or block is not loop.body or loop.body.steps or captures < 2:
+            return False
+        if not isinstance(loop.select, s.Nearest) or loop.select.count != 1:
+            return False
+        loop.select = replace(loop.select, count=captures)
+        return True
 
     def _one_after_the_other(self, loop: d.Loop) -> None:
         """Visit the places of a loop as they are named; those of "the row" from where the robot is."""
@@ -232,6 +245,8 @@ class Hand:
             return found
         plain = find(part.places, self._site).selector
         match relation.kind:
+            case "NEXTTO" if found.many:
+                return found  # "the soil beside four trees": at each of them
             case "NEXTTO":
                 return Found(selector=s.Nearest(to=plain, adjacent=True))
             case "NEAR" if is_spot(plain):

@@ -18,9 +18,9 @@ from fieldhand.planning.english.tokens import Term
 
 #: What it costs to leave a word out, by its kind. Words of other kinds are never left out.
 _LEAVING = {
-    "DET": 1.0, "WHICH": 1.0, "IS": 1.0, "OF": 1.0, "AT": 1.0, "WITH": 1.0, "FOR": 1.0, "JOIN": 1.0, "ALONG": 1.0,
+    "DET": 1.0, "WHICH": 1.0, "IS": 1.0, "OF": 1.0, "AT": 1.0, "WITH": 1.0, "FOR": 1.0, "JOIN": 1.0,
     "PLACE": 1.5, "READING": 1.5, "PLOT": 1.5, "IT": 1.5, "GO": 1.5, "TAKE": 1.5, "STILL": 1.0, "THERE": 2.0,
-    "FROM": 1.5, "VISIT": 2.0, "BY": 1.0, "MEASURE": 2.5, "TREE": 2.5, "NOORDER": 2.0, "AGAIN": 2.5,
+    "VISIT": 2.0, "BY": 1.0, "MEASURE": 2.5, "TREE": 2.5, "NOORDER": 2.0, "AGAIN": 2.5,
 }  # fmt: skip
 _SPLITTING, _MOVING, _JOINING = 1.0, 1.0, 0.8
 #: A sentence that costs more is not read.
@@ -90,7 +90,7 @@ def _changes(terms: tuple[Term, ...], at: int) -> Iterator[tuple[float, tuple[Te
                 if begin < k:
                     yield _MOVING, (*terms[:begin], terms[k], *terms[begin:k], *terms[k + 1 :])
     for k in (at, at - 1):
-        if 0 < k < len(terms) and terms[k].kind != "SEP" and terms[k - 1].kind != "SEP":
+        if 0 < k < len(terms) and terms[k].kind != "SEP" and terms[k - 1].kind not in _CAPTURES | {"SEP"}:
             place = terms[k].start
             sep = Term(kind="SEP", text="", start=place, end=place, value=_BREAK)
             yield _SPLITTING, (*terms[:k], sep, *terms[k:])

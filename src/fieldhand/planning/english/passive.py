@@ -38,8 +38,8 @@ def with_passives(terms: list[Term]) -> list[Term]:
 
 
 def _is_participle(term: Term) -> bool:
-    word = term.text.lower().split()[-1]
-    return word in _IRREGULAR or word.endswith("ed")
+    words = term.text.lower().split()
+    return bool(words) and (words[-1] in _IRREGULAR or words[-1].endswith("ed"))
 
 
 def _begin(terms: Sequence[Term], verb: int) -> int:

@@ -12,7 +12,7 @@ from fieldhand.task.plan import Span
 _ASKS = VERBS | {
     "AMOUNT", "ANOTHER", "APART", "ASMANY", "BATTERY", "BEFORE", "BETWEEN", "BUDGET", "CMP", "COUNT", "DISTINCT",
     "EACH", "EXCEPT", "FIRSTLY", "FITS", "IF", "IFSO", "INORDER", "INSTEAD", "INTERVAL", "ISNOT", "KEEP", "LEVEL",
-    "NEITHER", "NOORDER", "NOT", "NOTYET", "ONLY", "ORDERED", "ORDEROF", "OTHERWISE", "TIMES", "TRY", "UNIT",
+    "NEITHER", "NOORDER", "NOT", "NOTYET", "NOUN", "ONLY", "ORDERED", "ORDEROF", "OTHERWISE", "TIMES", "TRY", "UNIT",
     "UNLESS", "UNTIL", "UPTO", "USE", "WHERE", "WHETHER", "WITHOUT",
 }  # fmt: skip
 

@@ -130,6 +130,8 @@ def with_row_words(terms: list[Term]) -> list[Term]:
 def _every(group: list[Term], _before: Term | None) -> list[Term] | None:
     """ "Every third", "every other", "alternate", "every 3 | trees"."""
     last = group[-1]
+    if group[0].kind == "EACH" and group[0].text.lower().startswith("all"):
+        return None  # "all the other trees" are those that are left
     nth = 2 if last.kind in ("OTHER", "ALTERNATE") else int(last.value)
     return [merged(group, "EVERYNTH", nth)] if nth >= 2 else None
 

@@ -14,3 +14,9 @@ def vocabulary() -> Mapping[str, Any]:
     """The tables of vocabulary.toml, each as its heading names it."""
     text = (files("fieldhand.planning.english") / "vocabulary.toml").read_text(encoding="utf-8")
     return tomllib.loads(text)
+
+
+@cache
+def glue() -> frozenset[str]:
+    """Words that change nothing about a mission, wherever they stand."""
+    return frozenset(vocabulary()["silent"]["glue"])

@@ -146,7 +146,7 @@ def _first_of_several(term: Term, before: str, after: str) -> Term | None:
     """ "The south-east corner first, then ...": it says when, not which."""
     ends = after in ("COMMA", "THEN", "AND", "STOPMARK", "")
     said = (term.kind == "ORD" and term.value == 1) or (term.kind == "LAST" and after not in ("AND", "THEN"))
-    if said and ends and before in ("CORNER", "TREE", "IDS", "EDGE", "MIDDLE", "PLACE", "DIR"):
+    if said and ends and before in ("CORNER", "TREE", "IDS", "EDGE", "MIDDLE", "PLACE", "DIR", "PLOT"):
         return replace(term, kind="THEN")
     return None
 

@@ -1,0 +1,114 @@
+"""From what a request says to a Task: its exit, its limits, and whether its places are on this site."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+from dataclasses import replace
+
+from fieldhand.errors import PlaceError, TaskError
+from fieldhand.planning.english.draft import Halt, node_of
+from fieldhand.planning.english.faults import Unclear
+from fieldhand.planning.english.homeward import exit_of, stays_if_home_is_far
+from fieldhand.planning.english.limits import Limit
+from fieldhand.planning.english.told import Told
+from fieldhand.planning.foreseen import foreseeable
+from fieldhand.planning.planner import Outcome, Planned, Reason, Refused
+from fieldhand.robot.capabilities import measures_of
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.context import Context
+from fieldhand.site.model import Site
+from fieldhand.site.places import resolve
+from fieldhand.task import plan as p
+from fieldhand.task.build import FAULTED_EXITS, make_task
+from fieldhand.task.frames import Budget, BudgetKind, Constraints, FaultedExit, Resource, Then
+
+NAME = "english"
+KINDS: dict[str, BudgetKind] = {"metres": "distance_m", "seconds": "duration_s", "percent": "energy_percent"}
+
+
+def planned(request: str, read_as: str, told: Told, site: Site, robot: RobotProfile) -> Outcome:
+    """The Task of what a request says.
+
+    Args:
+        read_as: The request with the words of its answers; empty if there were none.
+
+    Raises:
+        Unclear: A limit that cannot be kept.
+    """
+    if all(isinstance(step, Halt) for step in told.root.steps):
+        reason = Reason(
+            what="the request asks for nothing to be done", advice="say what to take or measure, and at which trees"
+        )
+        return Refused(reasons=(reason,), planner=NAME)
+    nominal, assumptions = exit_of(told, site)
+    plan = node_of(told.root)
+    if isinstance(plan, p.Sequence):
+        plan = replace(plan, said=tuple(told.joints))
+    else:
+        told.no_part += told.joints  # there is nothing that they could put in order
+    task = make_task(
+        request=request,
+        plan=plan,
+        measures=measures_of(robot),
+        resources=(
+            Resource(kind="robot", name=robot.name, sha256=robot.sha256),
+            Resource(kind="site", name=site.name, sha256=site.sha256),
+        ),
+        constraints=_constraints(told.limits),
+        nominal=nominal,
+        nominal_said=tuple(told.nominal_said),
+        no_part=tuple((start, end) for start, end in told.no_part if re.search(r"\w", request[start:end])),
+        faulted=_faulted(nominal),
+        read_as=read_as,
+        assumptions=tuple(dict.fromkeys([*told.assumptions, *assumptions])),
+    )
+    problems = tuple(_impossible(task.composition.plan, site))
+    if problems:
+        return Refused(reasons=problems, planner=NAME)
+    if told.nominal is None:
+        task = stays_if_home_is_far(task, site, robot)
+    return Planned(task=task, planner=NAME)
+
+
+def _faulted(nominal: Then) -> tuple[FaultedExit, ...]:
+    """What every mission does about faults; one that is to return to the start goes there when little is left, too."""
+    if nominal != "return_to_start":
+        return FAULTED_EXITS
+    return tuple(replace(e, then=nominal) if e.fault == "low_budget" else e for e in FAULTED_EXITS)
+
+
+def _constraints(limits: Iterable[Limit]) -> Constraints:
+    budgets: dict[BudgetKind, Budget] = {}
+    reserve: float | None = None
+    reserve_said: tuple[p.Span, ...] = ()
+    for limit in limits:
+        _check(limit)
+        if limit.keep:
+            reserve = max(limit.amount, reserve or 0.0)
+            reserve_said = (*reserve_said, limit.said)
+        else:
+            kind = KINDS[limit.unit]
+            known = budgets.get(kind, Budget(kind=kind, limit=limit.amount))
+            budgets[kind] = replace(known, limit=min(limit.amount, known.limit), said=(*known.said, limit.said))
+    return Constraints(budgets=tuple(budgets.values()), reserve_percent=reserve, reserve_said=reserve_said)
+
+
+def _check(limit: Limit) -> None:
+    most = 100.0 if limit.unit == "percent" else math.inf
+    if not 0.0 < limit.amount <= most:
+        what = f"a limit of {limit.amount:g} {limit.unit} cannot be kept"
+        raise Unclear(Reason(what=what, advice="say a number above 0, at most 100 for percent of the battery"))
+
+
+def _impossible(plan: p.Node, site: Site) -> Iterable[Reason]:
+    """Places that this site does not have, as far as it can be told before the robot drives."""
+    for node in p.walk(plan):
+        selector = p.selector_of(node)
+        for part in () if selector is None else foreseeable(selector):
+            try:
+                resolve(part, site, Context(here=site.start))
+            except (PlaceError, TaskError) as error:
+                yield Reason(what=error.what, said=node.said, advice=error.advice)
+                break
