@@ -235,7 +235,7 @@ def _one_after_another(scene: _Scene) -> list[Term] | None:
     if len(ways) < 2 or len(ways) != len(sides) or len({t.value for t in ways}) != len(ways):
         return None
     counts = _distinct(scene.numbers)
-    if not scene.all("CORNER") or not scene.only(*_OF_A_WAY):
+    if not scene.all("CORNER") or not scene.only(*_OF_A_WAY) or not _at_each(scene, ways):
         return None
     if "NOORDER" in scene.kinds or (counts and [t.value for t in counts] not in ([len(ways)], _to(len(ways)))):
         return None
@@ -247,6 +247,16 @@ def _one_after_another(scene: _Scene) -> list[Term] | None:
         corner = [_word("DET", side, "the"), side, _word("CORNER", side, "corner")]
         made += [*_take(scene, *_at(scene), *corner), _word("STOPMARK", side, ".")]
     return made
+
+
+def _at_each(scene: _Scene, ways: Sequence[Term]) -> bool:
+    """Whether the capture is asked for at each place, not only at the first or the last one."""
+    if scene.all("EACH") or any(t.plural for t in scene.all("CORNER")):
+        return True
+    if len(scene.all("NOUN", "ACTV", "ANOTHER", "MORE", "REPEAT")) >= len(ways):
+        return True
+    moves = [t for t in scene.all("GO", "VISIT", "RETURN") if t.start > ways[0].start]
+    return scene.noun.start < ways[0].start and not moves
 
 
 def _to(number: int) -> list[float]:

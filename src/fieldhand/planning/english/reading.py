@@ -46,6 +46,7 @@ class Reading:
         taken: These answers.
         said: The words.
         words: The words after spelling and turns of phrase.
+        terms: What these are to the lexicon.
         notes: How words were read that are not known as they are written, as sentences.
     """
 
@@ -56,6 +57,7 @@ class Reading:
     lexicon: Lexicon
     said: tuple[Word, ...]
     words: tuple[Word, ...]
+    terms: tuple[Term, ...]
     notes: tuple[str, ...]
 
     def outcome(self) -> Outcome:
@@ -72,12 +74,12 @@ class Reading:
         except (Unclear, Question) as error:
             failed = error
         understood = isinstance(outcome, Planned) and told is not None
-        whole = self._in_other_words(gist(self._terms(), glue()))
+        whole = self._in_other_words(gist(self.terms, glue()))
         if whole is not None and not (understood and told is not None and shape(told.root) == shape(whole[1].root)):
             return whole[0]
         if understood:
             return outcome
-        plain = None if isinstance(failed, Question) else self._in_other_words(steps(self._terms(), glue()))
+        plain = None if isinstance(failed, Question) else self._in_other_words(steps(self.terms, glue()))
         if plain is not None:
             return plain[0]
         if failed is not None:
@@ -88,12 +90,9 @@ class Reading:
     def _site(self) -> Site:
         return self.lexicon.site
 
-    def _terms(self) -> list[Term]:
-        return self.lexicon.terms(list(self.words))
-
     def _by_sentences(self) -> tuple[Outcome, Told | None]:
         text = self.worded.text
-        terms, aside, remarks = without_remarks(self._terms(), text)
+        terms, aside, remarks = without_remarks(self.terms, text)
         asked = without_filler(terms, text)
         unknown = unknown_words(asked.terms, self.lexicon)
         if unknown:
@@ -155,6 +154,7 @@ def reading_of(
         lexicon=lexicon,
         said=tuple(said),
         words=tuple(words),
+        terms=tuple(lexicon.terms(words)),
         notes=tuple(notes),
     )
 

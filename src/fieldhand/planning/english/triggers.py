@@ -7,6 +7,28 @@ import re
 _WORD = re.compile(r"[a-z0-9']+")
 #: More words than this are not worth keeping: the rule is tried every time.
 _MOST = 60
+#: Words that stand in most requests.
+_EVERYDAY = frozenset(
+    {
+        "a",
+        "an",
+        "the",
+        "of",
+        "at",
+        "in",
+        "to",
+        "and",
+        "it",
+        "is",
+        "tree",
+        "trees",
+        "take",
+        "picture",
+        "then",
+        "that",
+        "if",
+    }
+)
 
 
 def triggers(pattern: str) -> frozenset[str]:
@@ -18,9 +40,14 @@ def triggers(pattern: str) -> frozenset[str]:
     best: frozenset[str] = frozenset()
     for piece, optional in _pieces(pattern):
         found = frozenset() if optional else _words_of(piece)
-        if found and (not best or len(found) < len(best)):
+        if found and (not best or _cost(found) < _cost(best)):
             best = found
     return best
+
+
+def _cost(words: frozenset[str]) -> tuple[int, int]:
+    """How often a look at these words helps little: everyday words stand in most requests."""
+    return len(words & _EVERYDAY), len(words)
 
 
 def _words_of(piece: str) -> frozenset[str]:
@@ -87,7 +114,7 @@ def _pieces(pattern: str) -> list[tuple[str, bool]]:
         k = word.end()
         # Only words that stand alone: a part of one, or one with an optional letter, is no word of a request.
         before, after = pattern[word.start() - 1 : word.start()], pattern[k : k + 1]
-        if before in ("", " ") and after in ("", " "):
+        if before in ("", " ") and after in ("", " ") and pattern[k : k + 2] != " ?":
             made.append((word.group(), False))
     return made
 
@@ -113,4 +140,4 @@ def _may_be_none(pattern: str, begin: int, end: int) -> bool:
     before, after = pattern[begin - 1 : begin], pattern[end : end + 1]
     if before not in ("", " ") and not pattern[:begin].endswith((" )", " )?", "]", "*")):
         return True
-    return after not in ("", " ", "+")
+    return after not in ("", " ", "+") or pattern[end : end + 2] == " ?"

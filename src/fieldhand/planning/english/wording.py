@@ -26,9 +26,10 @@ def reworded(words: Sequence[Word]) -> list[Word]:
     found = with_stops(_in_digits(words))
     text = _text(found)
     spoken = frozenset(text.split(" "))
-    for needed, pattern, said in _rules():
+    for needed, spelt, said in _rules():
         if needed and needed.isdisjoint(spoken):
             continue
+        pattern = _compiled(spelt)
         if pattern.search(text) is not None:
             found = _applied(pattern, said, found)
             text = _text(found)
@@ -155,7 +156,7 @@ def _end_at(made: list[Word], put: int, end: int) -> None:
 
 
 @cache
-def _rules() -> tuple[tuple[frozenset[str], re.Pattern[str], str], ...]:
+def _rules() -> tuple[tuple[frozenset[str], str, str], ...]:
     """What a rule needs a word of, what it matches, and what that means."""
     folder = files("fieldhand.planning.english") / "wordings"
     names = sorted(file.name for file in folder.iterdir() if file.name.endswith(".toml"))
@@ -167,9 +168,14 @@ def _rules() -> tuple[tuple[frozenset[str], re.Pattern[str], str], ...]:
     for rule in (rule for book in books for rule in book["rule"]):
         for pattern in rule["said"]:
             spelt = _spelt_out(pattern, short)
-            whole = rf"(?:(?<=\s)|^)(?:{spelt})(?:(?=\s|$)|(?<=\s))"
-            rules.append((triggers(spelt), re.compile(whole), rule["means"]))
+            rules.append((triggers(spelt), spelt, rule["means"]))
     return tuple(rules)
+
+
+@cache
+def _compiled(spelt: str) -> re.Pattern[str]:
+    """A rule between whole words. Few of them are ever needed, so each is made ready when it is."""
+    return re.compile(rf"(?:(?<=\s)|^)(?:{spelt})(?:(?=\s|$)|(?<=\s))")
 
 
 def _spelt_out(pattern: str, short: dict[str, str]) -> str:

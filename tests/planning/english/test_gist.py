@@ -1,0 +1,145 @@
+"""Requests whose words stand in another order than the grammar has: read by their gist, or clause by clause, or not."""
+
+# ruff: noqa: E501 - a request and its plan stand on one line each
+
+from __future__ import annotations
+
+import itertools
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from english_requests import PLANNED
+from fieldhand.planning.english.draft import shape
+from fieldhand.planning.english.planner import EnglishPlanner
+from fieldhand.planning.english.tokens import words_of
+from fieldhand.planning.english.wording import _compiled, _rules, _text
+from fieldhand.planning.planner import Clarify, Planned, Refused
+from fieldhand.robot.loader import load_robot
+from fieldhand.site.geojson import open_site
+from outlines import outline
+
+DEMO = open_site("demo")
+HUSKY, AMIGA = load_robot("husky"), load_robot("amiga")
+
+
+def plan_of(request: str, robot: str = "husky") -> str:
+    outcome = EnglishPlanner().plan(request, DEMO, AMIGA if robot == "amiga" else HUSKY)
+    match outcome:
+        case Planned(task=task):
+            return outline(task).split(" | ")[0]
+        case Clarify(question=question):
+            return f"asks {question}"
+        case Refused(reasons=reasons):
+            return f"refuses {reasons[0].what}"
+
+
+@pytest.mark.parametrize(
+    ("request_", "robot", "plan"),
+    [
+        ("We only care about the 10 trees with the biggest yield; drive to them and take their pictures.", "husky", "for Top(yield_kg, 10): [picture]"),
+        ("Our focus is the northern half. The yellow trees in it are what I want pictures of.", "husky", "for Where(leaf_color, eq, yellow, of Half(north)): [picture]"),
+        ("In the east of the orchard the nitrate of the soil matters; four trees will do, measure it there.", "amiga", "for Take(4, of Half(east)): [nitrate]"),
+        ("The driving distance must stay at or below 150 m, and pictures of as many trees as possible are the goal.", "husky", "for Trees optional: [picture]"),
+        ("Out of a row of six trees that you pass along, two should have their picture taken.", "husky", "for Take(2, of Successive(6)): [picture]"),
+        ("Separate your soil moisture measurements by 12 metres, and carry out four in all.", "amiga", "for Spaced(12, 4): [moisture]"),
+        ("The farm has four corners. No order is required, but a picture of each is.", "husky", "for Corners: [picture]"),
+    ],
+)  # fmt: skip
+def test_one_scene_is_read_whatever_the_order_of_its_words(request_: str, robot: str, plan: str) -> None:
+    assert plan_of(request_, robot) == plan
+
+
+@pytest.mark.parametrize(
+    ("clauses", "plan"),
+    [
+        (("the ten trees with the highest yield", "a picture of each", "any order"), "for Top(yield_kg, 10): [picture]"),
+        (("pictures", "the yellow trees", "the northern half"), "for Where(leaf_color, eq, yellow, of Half(north)): [picture]"),
+        (("the four corners of the farm", "a picture at each", "any order"), "for Corners: [picture]"),
+        (("as many trees as possible", "a picture of each", "at most 100 m of driving"), "for Trees optional: [picture]"),
+    ],
+)  # fmt: skip
+def test_the_order_of_the_clauses_never_makes_another_mission(clauses: tuple[str, ...], plan: str) -> None:
+    said = [plan_of(", ".join(order) + ".") for order in itertools.permutations(clauses)]
+    assert plan in said
+    assert {one for one in said if not one.startswith(("asks", "refuses"))} == {plan}
+
+
+@pytest.mark.parametrize(
+    "request_",
+    [
+        "Read the CO2 at five trees in the north half, but the robot must stay in the south half the whole time.",
+        "Take pictures at every other corner.",
+        "Take pictures of the sick trees in the northern half.",
+        "The yellow trees in the northern half should not have their picture taken.",
+        "Take pictures of as many trees as possible, and drive at least 100 m.",
+    ],
+)
+def test_what_is_left_over_is_never_dropped(request_: str) -> None:
+    assert plan_of(request_).startswith(("asks", "refuses"))
+
+
+def test_how_a_request_was_read_is_said() -> None:
+    outcome = EnglishPlanner().plan(
+        "Our focus is the northern half. Pictures of its yellow trees are what I want.", DEMO, HUSKY
+    )
+    assert isinstance(outcome, Planned)
+    assert any(text.startswith("The request is read as '") for text in outcome.task.command.assumptions)
+
+
+@pytest.mark.parametrize(
+    ("request_", "plan"),
+    [
+        (
+            "Image the first tree. Below 33 degrees? Then I would want the CO2 of it. Once that is done, go to the end.",
+            "picture @ First = r1; if r1 < 33 degC: [co2]; go Marker(end)",
+        ),
+        (
+            "take a picture of the first tree if it is below 33 c read the co2 otherwise read the air temperature then go to"
+            " another tree and take a picture",
+            "picture @ First = r1; if r1 < 33 degC: [co2] else [air]; go Take(1, of Other); picture",
+        ),
+        (
+            "go to tree 4 and read the co2 there if it is low go to a nearby tree and take a picture of it from there go to"
+            " the farthest tree and read the co2 and when done take the air temperature at the last tree",
+            "go TreeIs(4); co2 = r1; if r1 low: [go Nearest(Here, True); picture]; go Farthest(Here); co2; air @ Last",
+        ),
+    ],
+)
+def test_steps_are_read_clause_by_clause(request_: str, plan: str) -> None:
+    assert plan_of(request_) == plan
+
+
+@pytest.mark.parametrize(
+    ("request_", "why"),
+    [
+        (
+            "Go to the north-east corner, then go to the south-east corner and take a picture.",
+            "what is to be done there?",
+        ),
+        ("Take a picture of tree 4, a picture there.", "that has been asked for already"),
+    ],
+)
+def test_what_nobody_means_is_asked_about(request_: str, why: str) -> None:
+    assert why in plan_of(request_)
+
+
+@given(st.sampled_from([request for _, request, _ in PLANNED]))
+@settings(max_examples=15, deadline=None)
+def test_a_rule_that_is_passed_over_would_not_have_matched(request_: str) -> None:
+    text = _text(words_of(request_))
+    spoken = set(text.split(" "))
+    for needed, spelt, _ in _rules():
+        if needed and needed.isdisjoint(spoken):
+            assert _compiled(spelt).search(text) is None, spelt
+
+
+def test_a_plan_has_the_same_shape_however_it_is_said() -> None:
+    from fieldhand.planning.english import draft as d
+    from fieldhand.task import selectors as s
+
+    at = d.Block(steps=[d.Capture(action="read_co2", at=s.TreeIs(tree="4"), said=((0, 4),))])
+    gone = d.Block(steps=[d.Go(place=s.TreeIs(tree="4")), d.Capture(action="read_co2", said=((9, 12),))])
+    assert shape(at) == shape(gone)
+    assert shape(at) != shape(d.Block(steps=[d.Capture(action="read_co2", at=s.TreeIs(tree="5"))]))
