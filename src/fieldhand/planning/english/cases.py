@@ -169,6 +169,9 @@ class Cases(Hand):
         wanted = set(quantities_of(terms, (), self._robot))
         inside = [cap for cap in inside if set(self._robot.action[cap.action].measures) & wanted]
         before = [cap for cap in known if cap.reading in readings(self._choice.condition)]
+        fitting = [cap for cap in known if set(self._robot.action[cap.action].measures) & wanted]
+        if fitting and not any(fitting[-1] is cap for cap in (*inside, *before)):
+            return  # what was taken after both of them is meant
         if inside and before and not any(t.kind == "CMP" and t.value[1] for t in terms):
             if self._continues(terms, known, before):
                 return

@@ -255,8 +255,13 @@ def _at_each(scene: _Scene, ways: Sequence[Term]) -> bool:
         return True
     if len(scene.all("NOUN", "ACTV", "ANOTHER", "MORE", "REPEAT")) >= len(ways):
         return True
-    moves = [t for t in scene.all("GO", "VISIT", "RETURN") if t.start > ways[0].start]
+    moves = [t for t in scene.all("GO", "VISIT", "RETURN") if t.start > ways[0].start and not _ends_series(t)]
     return scene.noun.start < ways[0].start and not moves
+
+
+def _ends_series(term: Term) -> bool:
+    """Whether "finish at the last corner" is said of what is taken rather than of the way home."""
+    return term.kind == "RETURN" and term.text.lower().startswith(("finish", "end"))
 
 
 def _to(number: int) -> list[float]:

@@ -85,8 +85,7 @@ def find(places: Places, site: Site) -> Found:
         found.append(_chain(chain, excepted, site))
     if len(found) == 1:
         return found[0]
-    whole = of_the_other(places, found)
-    if whole is not None:
+    if (whole := of_the_other(places, found)) is not None:
         with suppress(Unclear):
             return replace(_chain(whole, (), site), assumed=(read_as(places, whole),))
     check_of_row(places, found)
@@ -313,8 +312,8 @@ def _among(bag: Bag, group: Group, relation: Term, behind: Found, inner: _Part) 
     group.upwards = "up" in way and "down" not in way
     group.along = group.along or kind == "ALONG"
     group.rows_of = group.rows_of or (behind.rows and kind == "OF")
-    one_each = behind.each or (isinstance(behind.selector, s.Corners) and bag.article in ("a", "an", "the"))
-    if one_each and behind.many and not behind.region and not bag.as_many and not bag.up_to:
+    one_each = behind.each or (isinstance(behind.selector, s.Corners) and bool(bag.article))
+    if one_each and behind.many and not (behind.region or bag.as_many or bag.up_to):
         if bag.count not in (None, 1):
             raise unclear(bag.phrase.terms, "so many at each place cannot be said yet", "name each place")
         bag.each, bag.count = True, None  # "the tree at each corner"

@@ -23,43 +23,14 @@ _LINKS = frozenset({"COMMA", "AND", "THEN", "OR", "DASH"})
 _TESTS = frozenset({"CMP", "LEVEL", "BETWEEN"})
 #: Words that say where.
 _PLACE = frozenset(
-    {
-        "TREE",
-        "ANOTHER",
-        "OTHER",
-        "NEARBY",
-        "NEAREST",
-        "FAR",
-        "FARTHEST",
-        "MIDDLE",
-        "PLOT",
-        "MOST",
-        "DIR",
-        "CORNER",
-        "EDGE",
-    }
-    | {"SIDE", "ORD", "LAST", "ANY", "NUM", "IDS", "ADJACENT", "EACH", "STEP", "HALF", "QUARTER", "ZONE", "CONSECUTIVE"}
+    {"TREE", "ANOTHER", "OTHER", "NEARBY", "NEAREST", "FAR", "FARTHEST", "MIDDLE", "PLOT", "MOST", "DIR", "CORNER"}
+    | {"SIDE", "ORD", "LAST", "ANY", "NUM", "IDS", "ADJACENT", "EACH", "STEP", "HALF", "QUARTER", "ZONE", "EDGE"}
+    | {"CONSECUTIVE", "ALONG", "WAY"}
 )
 _BETWEEN = frozenset({"DET", "OF", "AT", "NEXTTO", "NEAR", "WITH", "WHICH", "FROM", "INSIDE"})
 _NOISE = frozenset(
-    {
-        "DET",
-        "IS",
-        "IT",
-        "WHICH",
-        "OF",
-        "AT",
-        "FOR",
-        "WITH",
-        "FROM",
-        "PLACE",
-        "READING",
-        "FILLER",
-        "GLUE",
-        "THERE",
-        "STILL",
-    }
-    | {"AGAIN", "PURPOSE", "AS", "BY", "EACHTAIL", "ONE", "MORE", "THANEQ", "ALONG", "USE", "INSTEAD", "ONLY", "TIMES"}
+    {"DET", "IS", "IT", "WHICH", "OF", "AT", "FOR", "WITH", "FROM", "PLACE", "READING", "FILLER", "GLUE", "THERE"}
+    | {"STILL", "AGAIN", "PURPOSE", "AS", "BY", "EACHTAIL", "ONE", "MORE", "THANEQ", "USE", "INSTEAD", "ONLY", "TIMES"}
 )
 
 
