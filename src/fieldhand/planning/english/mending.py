@@ -54,7 +54,7 @@ def mended(sentence: Sentence) -> Mended | None:
             left = tuple(t for t in sentence.terms if t.text and (t.start, t.end, t.text) not in kept)
             return Mended(parts=parts, left_out=left)
         at = next((k for k, t in enumerate(terms) if t is parts.term), len(terms))
-        if at == len(terms) - 1 and parts.term is terms[-1] and _ends_too_soon(terms, parts):
+        if at == len(terms) - 1:
             at = len(terms)
         for price, other in _changes(terms, at):
             key = _key(other)
@@ -62,10 +62,6 @@ def mended(sentence: Sentence) -> Mended | None:
                 seen.add(key)
                 heapq.heappush(heap, (cost + price, next(ticks), other))
     return None
-
-
-def _ends_too_soon(terms: Sequence[Term], found: NotParsed) -> bool:
-    return bool(terms) and found.term is terms[-1]
 
 
 def _key(terms: Sequence[Term]) -> tuple[tuple[str, int, int], ...]:

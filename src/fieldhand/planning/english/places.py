@@ -312,8 +312,8 @@ def _among(bag: Bag, group: Group, relation: Term, behind: Found, inner: _Part) 
     group.upwards = "up" in way and "down" not in way
     group.along = group.along or kind == "ALONG"
     group.rows_of = group.rows_of or (behind.rows and kind == "OF")
-    one_each = behind.each or (isinstance(behind.selector, s.Corners) and bool(bag.article))
-    if one_each and behind.many and not (behind.region or bag.as_many or bag.up_to):
+    at_each = behind.each or (isinstance(behind.selector, s.Corners) and bool(bag.article))
+    if at_each and behind.many and not (behind.region or bag.as_many or bag.up_to):
         if bag.count not in (None, 1):
             raise unclear(bag.phrase.terms, "so many at each place cannot be said yet", "name each place")
         bag.each, bag.count = True, None  # "the tree at each corner"
