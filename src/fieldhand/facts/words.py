@@ -141,6 +141,9 @@ _TOKEN = re.compile(
 )
 
 
+_HALF_A_DOZEN = re.compile(r"\bhalf[ -](?:a[ -])?dozen\b")
+
+
 @dataclass(frozen=True, kw_only=True)
 class Token:
     """A word, a number or a sign of the request in lower case, and which sentence it stands in."""
@@ -156,6 +159,7 @@ def tokens(request: str) -> tuple[Token, ...]:
     ``joined`` says that nothing stands between a token and the one before it, as in "33C".
     """
     text = unicodedata.normalize("NFKC", request).lower().replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
+    text = _HALF_A_DOZEN.sub("six", text)
     found: list[Token] = []
     sentence, last = 0, -1
     for match in _TOKEN.finditer(text):

@@ -235,6 +235,15 @@ def _with_heads(terms: list[Term]) -> list[Term]:
             cut = term.start + len(term.text.split()[0])
             found += [replace(term, kind="FROM", end=cut), replace(term, kind="IT", text="it", start=cut)]
             continue
+        if (
+            term.kind == "THERE"
+            and term.text.lower() == "at the tree"
+            and ahead_kinds[0] in ("FARTHEST", "NEAREST", "FAR")
+        ):
+            cut = term.end - len("tree")
+            found.append(replace(term, kind="AT", text="at the", end=cut))
+            found.append(replace(term, kind="TREE", text="tree", start=cut, value=None))
+            continue
         described = ahead_kinds[0] in ("FARTHEST", "FAR", "NEARBY") and ahead_kinds[1] not in _NAMED
         if term.kind == "COMMA" and described and index and terms[index - 1].kind in ("TREE", "PLACE"):
             found.append(replace(term, kind="WHICH"))  # "another tree, as far away as possible"

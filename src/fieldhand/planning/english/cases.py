@@ -185,7 +185,10 @@ class Cases(Hand):
         before = before.condition if isinstance(before, c.Not) else before
         numbers = [number_of(t) for t in terms if t.kind in ("NUM", "AMOUNT")]
         named = any(t.kind in ("NOUN", "ORD", "STILL") for t in terms)
-        if self._choice not in self._sentence_choices or named or not isinstance(before, c.Compare):
+        negated = any(t.kind in ("NOT", "ISNOT") for t in terms)
+        opposite = self._choice is not None and isinstance(self._choice.condition, c.Not) != negated
+        near = self._choice in self._sentence_choices or opposite
+        if not near or named or not isinstance(before, c.Compare):
             return False
         if numbers != [before.value]:
             return False

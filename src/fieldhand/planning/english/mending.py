@@ -27,6 +27,21 @@ _SPLITTING, _MOVING, _JOINING = 1.0, 1.0, 0.8
 _MOST, _MOST_TRIES = 5.0, 300
 _CAPTURES = frozenset({"TAKE", "MEASURE", "ACTV"})
 _TAILS = frozenset({"THERE", "COUNT", "AGAIN", "EACHTAIL", "NOORDER", "INORDER", "EVERYM", "DISTINCT"})
+#: Words with which a part of its own begins.
+_BEGINS = _CAPTURES | {
+    "GO",
+    "VISIT",
+    "RETURN",
+    "REPEAT",
+    "STOP",
+    "IF",
+    "WHETHER",
+    "IFSO",
+    "OTHERWISE",
+    "UNTIL",
+    "DET",
+    "AT",
+}
 _BREAK = Break()
 
 
@@ -86,7 +101,7 @@ def _changes(terms: tuple[Term, ...], at: int) -> Iterator[tuple[float, tuple[Te
                 if begin < k:
                     yield _MOVING, (*terms[:begin], terms[k], *terms[begin:k], *terms[k + 1 :])
     for k in (at, at - 1):
-        if 0 < k < len(terms) and terms[k].kind != "SEP" and terms[k - 1].kind not in _CAPTURES | {"SEP"}:
+        if 0 < k < len(terms) and terms[k].kind in _BEGINS and terms[k - 1].kind not in _CAPTURES | {"SEP"}:
             place = terms[k].start
             sep = Term(kind="SEP", text="", start=place, end=place, value=_BREAK)
             yield _SPLITTING, (*terms[:k], sep, *terms[k:])

@@ -12,6 +12,7 @@ from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import Question, Unclear
 from fieldhand.planning.planner import Reason
 from fieldhand.task import selectors as s
+from fieldhand.task.conditions import readings
 from fieldhand.task.plan import Span
 
 #: What is taken twice in a row is said to be.
@@ -31,6 +32,9 @@ def check_sense(root: d.Block, request: str) -> None:
         Unclear: The same is done twice and nothing says so, the place in hand is mixed with others, or the mission
             ends before it is over.
     """
+    if _is_announced(root):
+        what = "is it what follows, or is it to be done beside that?"
+        raise _unclear(_said(root.steps[0]), request, what, "leave it out, or say at which trees")
     captures = any(isinstance(step, d.Capture) for step, _ in d.walk(root))
     for block in _blocks(root):
         for step, after in zip(block.steps, [*block.steps[1:], None], strict=False):
@@ -41,6 +45,8 @@ def check_sense(root: d.Block, request: str) -> None:
                 raise Question(f"'{_text(_said(step), request)}': what is to be done there?")
             if _is_mixed(step):
                 raise _unclear(_said(step), request, "which places are meant is not clear", "name them all")
+            if _is_tested_twice(step, after):
+                raise _unclear(_said(after), request, "the same is tested twice", "say of which reading it is meant")
             if _is_twice(step, after) and not _says_again(step, after, request):
                 raise _unclear(_said(after), request, "that has been asked for already", "say 'again' if it is meant")
 
@@ -75,6 +81,22 @@ def _is_mixed(step: d.Step) -> bool:
     if not isinstance(step, d.Loop) or not isinstance(step.select, s.Union):
         return False
     return any(isinstance(part, s.Here) for part in step.select.parts) and bool(step.body.steps)
+
+
+def _is_tested_twice(step: d.Step, after: d.Step | None) -> bool:
+    if not isinstance(step, d.Choice) or not isinstance(after, d.Choice):
+        return False
+    return step.condition == after.condition and bool(readings(step.condition))
+
+
+def _is_announced(root: d.Block) -> bool:
+    """ "Two trees get a picture": nothing says which trees, and what is said behind it takes pictures too."""
+    first = root.steps[0] if root.steps else None
+    if not isinstance(first, d.Loop) or not isinstance(first.select, s.Take) or first.select.of != s.Trees():
+        return False
+    taken = {step.action for step in first.body.steps if isinstance(step, d.Capture)}
+    later = [step for step, _ in d.walk(root) if isinstance(step, d.Capture) and step not in first.body.steps]
+    return bool(later) and any(step.action in taken for step in later)
 
 
 def _is_twice(step: d.Step, after: d.Step | None) -> bool:

@@ -58,6 +58,8 @@ def _verb_as_noun(term: Term, before: str, _after: str) -> Term | None:
     text = term.text.lower()
     if term.kind == "MEASURE" and before in _BEFORE_NOUN and text.removesuffix("s") in _VERB_NOUNS:
         return replace(term, kind="READING", plural=text.endswith("s"))
+    if term.kind == "ACTV" and before in ("NUM", "MORE") and text.endswith("s") and term.value.actions:
+        return replace(term, kind="NOUN", plural=True)  # "two photographs"
     return None
 
 
