@@ -5,24 +5,26 @@ Reads an order a line and answers each with the exit status of its command, nega
 
 from __future__ import annotations
 
+import atexit
+import gc
+import importlib
 import json
 import os
+import pkgutil
 import signal
 import sys
 from typing import Any
 
 
 def load() -> None:
-    """Load what commands load; what a planner makes ready for its first request, once."""
-    import matplotlib.backends.backend_agg
-    import matplotlib.figure  # noqa: F401
+    """Load the whole package; what a planner makes ready for its first request, once."""
+    import matplotlib.backends.backend_agg  # noqa: F401
 
-    import fieldhand.cli.check
-    import fieldhand.cli.plan
-    import fieldhand.cli.run
-    import fieldhand.cli.site
-    import fieldhand.evaluation.report
-    import fieldhand.planning.llm  # noqa: F401
+    import fieldhand
+
+    for module in pkgutil.walk_packages(fieldhand.__path__, "fieldhand."):
+        if not module.name.endswith("__main__"):
+            importlib.import_module(module.name)
     from fieldhand.planning.english.planner import EnglishPlanner
     from fieldhand.robot.loader import load_robot
     from fieldhand.site.geojson import open_site
@@ -43,17 +45,32 @@ def become(order: dict[str, Any]) -> None:
     sys.argv = ["fieldhand", *order["words"]]
 
 
+def run() -> None:
+    """Run the command, and end at once: to take a whole program apart would cost more than most commands do."""
+    from fieldhand.program import main
+
+    try:
+        main()
+        status = 0
+    except SystemExit as ended:
+        if not isinstance(ended.code, int | None):
+            raise
+        status = ended.code or 0
+    atexit._run_exitfuncs()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(status)
+
+
 def main() -> None:
     orders, answers = os.fdopen(os.dup(0), "r"), os.fdopen(os.dup(1), "w")
     load()
+    gc.freeze()  # nor need a copy look for garbage in what it was given
     for line in orders:
         child = os.fork()
         if not child:
             become(json.loads(line))
-            from fieldhand.program import main as fieldhand
-
-            fieldhand()
-            return
+            run()
         _, ended = os.waitpid(child, 0)
         print(os.waitstatus_to_exitcode(ended), file=answers, flush=True)
 
