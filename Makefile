@@ -22,7 +22,7 @@ demo: $(READY)
 	@$(BIN)/fieldhand demo
 
 test: $(READY)
-	@$(BIN)/python -m pytest -n auto
+	@$(BIN)/python -m pytest -n auto --dist worksteal
 
 check: $(READY)
 	$(BIN)/ruff check .

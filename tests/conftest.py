@@ -10,9 +10,10 @@ from typing import Any
 import pytest
 from hypothesis import settings
 
-# Every run draws the same examples: what fails here fails for everyone. Others are drawn with
-# --hypothesis-profile=default, which is how to look for what these miss.
+# Every run draws the same examples: what fails here fails for everyone. Others, and of expensive properties many more,
+# are drawn with --hypothesis-profile=thorough, which is how to look for what these miss.
 settings.register_profile("steady", derandomize=True)
+settings.register_profile("thorough", derandomize=False, max_examples=300)
 settings.load_profile("steady")
 
 #: A developer's own keys, endpoints and proxies must not change what a test sees, nor spend money.

@@ -8,6 +8,7 @@ from functools import cache
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from examples import examples
 from fieldhand.bench.draw import Draft
 from fieldhand.bench.fly import fly
 from fieldhand.bench.referee import Ruling, judge
@@ -203,7 +204,7 @@ def drawn(seed: int) -> tuple[Draft, tuple[Event, ...]]:
     return flight.draft, flight.events
 
 
-@settings(max_examples=120, deadline=None)
+@settings(max_examples=examples(40, thorough=120), deadline=None)
 @given(st.integers(0, 6), st.integers(0, 10**6), st.booleans())
 def test_no_event_can_be_taken_out_of_a_log_or_told_twice(seed: int, number: int, twice: bool) -> None:
     draft, events = drawn(seed)

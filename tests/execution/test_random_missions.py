@@ -8,6 +8,7 @@ from itertools import count, pairwise
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from examples import examples
 from fieldhand.execution.world import (
     ActionFails,
     BatteryDrains,
@@ -67,7 +68,7 @@ class Moody:
         return Choice(index=mood % len(candidates), shed=tuple(range(min(mood // 5, len(candidates)))))
 
 
-@settings(max_examples=120, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=examples(40, thorough=120), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(TASKS, worlds, st.lists(st.integers(0, 9), max_size=6), st.integers(0, 5))
 def test_every_mission_ends_in_order(task: Task, world: World, moods: list[int], seed: int) -> None:
     asked = count()
@@ -96,7 +97,7 @@ def test_every_mission_ends_in_order(task: Task, world: World, moods: list[int],
     assert [to_json(e) for e in again if e is not None] == [to_json(e) for e in events]
 
 
-@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=examples(10, thorough=25), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(TASKS, worlds, st.integers(0, 5))
 def test_every_mission_can_be_repeated(task: Task, world: World, seed: int) -> None:
     def lines() -> list[str]:

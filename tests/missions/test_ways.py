@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from shapely.geometry import LineString, Point, Polygon, box
 from shapely.ops import unary_union
 
+from examples import examples
 from fieldhand.execution.world import Blocked, Spot, World
 from fieldhand.site.geojson import parse_site
 from fieldhand.site.model import Site
@@ -176,7 +177,7 @@ def crossings(ground: Planted, path: Any) -> list[str]:
 
 
 @pytest.mark.parametrize("named", [True, False])
-@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=examples(12, thorough=40), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(seed=st.integers(0, 2**32 - 1))
 def test_no_drive_of_any_mission_crosses_a_tree_line_or_a_keep_out(named: bool, seed: int) -> None:
     ground = planted(seed, named=named)

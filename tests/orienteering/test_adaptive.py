@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from examples import examples
 from fieldhand.orienteering.adaptive import Depth, Lookout
 from fieldhand.orienteering.costs import Gamma, Lognormal
 from fieldhand.orienteering.ground import ground_of
@@ -42,13 +43,13 @@ def test_missions_that_follow_the_programme_meet_what_it_predicts(costs):
     )
     found = lookout(given_, 0, (1.6,)).best(1.0, ())
     predicted = lookout(given_, 0, (1.6,)).order(found.stops, 1.0, 0)
-    rng = np.random.default_rng(5)
-    driven = [follow(given_, found.stops, 1.0, rng) for _ in range(400)]
+    rng, missions = np.random.default_rng(5), examples(150, thorough=400)
+    driven = [follow(given_, found.stops, 1.0, rng) for _ in range(missions)]
     kept = np.mean([ok for _, ok in driven])
     rewards = np.array([reward for reward, _ in driven])
     assert len(found.stops) >= 3
-    assert kept == pytest.approx(predicted.success, abs=3 * np.sqrt(kept * (1 - kept) / 400) + 0.02)
-    assert rewards.mean() == pytest.approx(predicted.worth, abs=3 * rewards.std() / 20 + 0.05)
+    assert kept == pytest.approx(predicted.success, abs=3 * np.sqrt(kept * (1 - kept) / missions) + 0.02)
+    assert rewards.mean() == pytest.approx(predicted.worth, abs=3 * rewards.std() / np.sqrt(missions) + 0.05)
 
 
 @given(seed=st.integers(0, 10_000), bonus=st.floats(-1.0, 10.0))

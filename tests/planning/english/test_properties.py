@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 import row_requests
 from english_requests import PLANNED
+from examples import examples
 from fieldhand.errors import RequestError
 from fieldhand.planning.english.arrange import arrange, without_filler
 from fieldhand.planning.english.faults import Question, Unclear
@@ -42,19 +43,19 @@ def try_to_plan(request: str) -> None:
             assert validate(encode(outcome.task), CAPABILITIES) == ()
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(50, thorough=150), deadline=None)
 @given(st.lists(st.sampled_from(WORDS + MORE * 20), min_size=1, max_size=14))
 def test_known_words_in_any_order_never_break_it(words: list[str]) -> None:
     try_to_plan(" ".join(words))
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=examples(30, thorough=80), deadline=None)
 @given(st.text(max_size=60))
 def test_any_text_never_breaks_it(text: str) -> None:
     try_to_plan(text)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(40, thorough=100), deadline=None)
 @given(st.sampled_from(PLANNED + row_requests.PLANNED), st.data())
 def test_a_request_with_a_word_left_out_or_doubled_never_breaks_it(
     case: tuple[str, str, str], data: st.DataObject

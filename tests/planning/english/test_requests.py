@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import pytest
 
 from english_requests import ASKED, PLANNED, REFUSED
 from fieldhand.approval.account import unaccounted
 from fieldhand.planning.english.planner import EnglishPlanner
-from fieldhand.planning.planner import Clarify, Planned, Refused
+from fieldhand.planning.planner import Clarify, Outcome, Planned, Refused
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
@@ -21,9 +23,14 @@ SITE = open_site("demo")
 ROBOTS = {name: load_robot(name) for name in ("husky", "amiga")}
 
 
+@cache
+def planned_first(robot: str, request: str) -> Outcome:
+    return EnglishPlanner().plan(request, SITE, ROBOTS[robot])
+
+
 @pytest.mark.parametrize(("robot", "request_", "plan"), PLANNED, ids=lambda v: str(v)[:50])
 def test_a_request_becomes_this_plan_and_a_whole_task(robot: str, request_: str, plan: str) -> None:
-    outcome = EnglishPlanner().plan(request_, SITE, ROBOTS[robot])
+    outcome = planned_first(robot, request_)
     assert isinstance(outcome, Planned), outcome
     assert outline(outcome.task) == plan
     capabilities = capabilities_of(ROBOTS[robot])
@@ -37,7 +44,7 @@ def test_a_request_becomes_this_plan_and_a_whole_task(robot: str, request_: str,
 
 @pytest.mark.parametrize(("robot", "request_", "plan"), PLANNED, ids=lambda v: str(v)[:50])
 def test_planning_twice_gives_the_same_and_every_step_says_its_words(robot: str, request_: str, plan: str) -> None:
-    first = EnglishPlanner().plan(request_, SITE, ROBOTS[robot])
+    first = planned_first(robot, request_)
     assert first == EnglishPlanner().plan(request_, SITE, ROBOTS[robot])
     assert isinstance(first, Planned)
     for node in walk(first.task.composition.plan):

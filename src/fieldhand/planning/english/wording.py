@@ -9,14 +9,15 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from importlib.resources import files
+from typing import Any
 
 from fieldhand.planning.english.runon import with_stops
 from fieldhand.planning.english.tokens import Word
-from fieldhand.planning.english.triggers import triggers
+from fieldhand.planning.english.triggers import Triggers, may_match, triggers
 
 _KEPT = re.compile(r"\$(\d)")
 
@@ -25,15 +26,13 @@ def reworded(words: Sequence[Word]) -> list[Word]:
     """The words after every rule, in the order of the file, each as often as it fits."""
     found = with_stops(_in_digits(words))
     text = _text(found)
-    spoken = frozenset(text.split(" "))
-    for needed, spelt, said in _rules():
-        if needed and needed.isdisjoint(spoken):
+    for needed, written, said in _rules():
+        if not may_match(needed, text):
             continue
-        pattern = _compiled(spelt)
+        pattern = _compiled(written)
         if pattern.search(text) is not None:
             found = _applied(pattern, said, found)
             text = _text(found)
-            spoken = frozenset(text.split(" "))
     return found
 
 
@@ -156,26 +155,40 @@ def _end_at(made: list[Word], put: int, end: int) -> None:
 
 
 @cache
-def _rules() -> tuple[tuple[frozenset[str], str, str], ...]:
-    """What a rule needs a word of, what it matches, and what that means."""
+def _books() -> tuple[dict[str, Any], ...]:
+    """The files of rules, in their order."""
     folder = files("fieldhand.planning.english") / "wordings"
     names = sorted(file.name for file in folder.iterdir() if file.name.endswith(".toml"))
-    books = [tomllib.loads((folder / name).read_text(encoding="utf-8")) for name in names]
-    short: dict[str, str] = {}
-    for name, pattern in (pair for book in books for pair in book.get("short", {}).items()):
-        short[name] = _spelt_out(pattern, short)
-    rules = []
-    for rule in (rule for book in books for rule in book["rule"]):
-        for pattern in rule["said"]:
-            spelt = _spelt_out(pattern, short)
-            rules.append((triggers(spelt), spelt, rule["means"]))
-    return tuple(rules)
+    return tuple(tomllib.loads((folder / name).read_text(encoding="utf-8")) for name in names)
+
+
+def _shorts() -> Iterator[tuple[str, str]]:
+    """Abbreviations and what they stand for; each may hold those before it."""
+    return (pair for book in _books() for pair in book.get("short", {}).items())
 
 
 @cache
-def _compiled(spelt: str) -> re.Pattern[str]:
+def _rules() -> tuple[tuple[Triggers, str, str], ...]:
+    """What a text must hold for a rule to match, what the rule matches, and what that means."""
+    short: dict[str, Triggers] = {}
+    for name, pattern in _shorts():
+        short[name] = triggers(pattern, short)
+    rules = (rule for book in _books() for rule in book["rule"])
+    return tuple((triggers(written, short), written, rule["means"]) for rule in rules for written in rule["said"])
+
+
+@cache
+def _compiled(written: str) -> re.Pattern[str]:
     """A rule between whole words. Few of them are ever needed, so each is made ready when it is."""
-    return re.compile(rf"(?:(?<=\s)|^)(?:{spelt})(?:(?=\s|$)|(?<=\s))")
+    return re.compile(rf"(?:(?<=\s)|^)(?:{_spelt_out(written, _spelt_shorts())})(?:(?=\s|$)|(?<=\s))")
+
+
+@cache
+def _spelt_shorts() -> dict[str, str]:
+    spelt: dict[str, str] = {}
+    for name, pattern in _shorts():
+        spelt[name] = _spelt_out(pattern, spelt)
+    return spelt
 
 
 def _spelt_out(pattern: str, short: dict[str, str]) -> str:

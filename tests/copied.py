@@ -1,0 +1,79 @@
+"""A program that has loaded what ``fieldhand`` needs, and copies itself for each command that it is told to run.
+
+Reads an order a line and answers each with the exit status of its command, negative for the signal that ended it.
+"""
+
+from __future__ import annotations
+
+import atexit
+import gc
+import importlib
+import json
+import os
+import pkgutil
+import signal
+import sys
+from typing import Any
+
+
+def load() -> None:
+    """Load the whole package; what a planner makes ready for its first request, once."""
+    import matplotlib.backends.backend_agg  # noqa: F401
+
+    import fieldhand
+
+    for module in pkgutil.walk_packages(fieldhand.__path__, "fieldhand."):
+        if not module.name.endswith("__main__"):
+            importlib.import_module(module.name)
+    from fieldhand.planning.english.planner import EnglishPlanner
+    from fieldhand.robot.loader import load_robot
+    from fieldhand.site.geojson import open_site
+
+    EnglishPlanner().plan("Take pictures of the corner trees.", open_site("demo"), load_robot("husky"))
+
+
+def become(order: dict[str, Any]) -> None:
+    """Make this process the one that runs the command."""
+    signal.alarm(order["limit_s"])
+    for number, (file, how) in enumerate(zip(order["files"], (os.O_RDONLY, os.O_WRONLY, os.O_WRONLY), strict=True)):
+        opened = os.open(file, how | os.O_CREAT | os.O_TRUNC if how else how, 0o600)
+        os.dup2(opened, number)
+        os.close(opened)
+    os.chdir(order["cwd"])
+    os.environ.clear()
+    os.environ.update(order["env"])
+    sys.argv = ["fieldhand", *order["words"]]
+
+
+def run() -> None:
+    """Run the command, and end at once: to take a whole program apart would cost more than most commands do."""
+    from fieldhand.program import main
+
+    try:
+        main()
+        status = 0
+    except SystemExit as ended:
+        if not isinstance(ended.code, int | None):
+            raise
+        status = ended.code or 0
+    atexit._run_exitfuncs()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(status)
+
+
+def main() -> None:
+    orders, answers = os.fdopen(os.dup(0), "r"), os.fdopen(os.dup(1), "w")
+    load()
+    gc.freeze()  # nor need a copy look for garbage in what it was given
+    for line in orders:
+        child = os.fork()
+        if not child:
+            become(json.loads(line))
+            run()
+        _, ended = os.waitpid(child, 0)
+        print(os.waitstatus_to_exitcode(ended), file=answers, flush=True)
+
+
+if __name__ == "__main__":
+    main()
