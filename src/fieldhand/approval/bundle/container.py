@@ -93,9 +93,11 @@ def read_bundle_file(path: Path) -> bytes:
         if not path.is_file():
             what = "is not a file" if path.exists() else "there is no such file"
             raise BundleError(what, where=at, advice="give a file that fieldhand approve wrote")
-        with path.open("rb") as file:
-            data = b"" if path.stat().st_size > MAX_BYTES else file.read(MAX_BYTES + 1)
-            size = max(path.stat().st_size, len(data))
+        size = path.stat().st_size
+        if size <= MAX_BYTES:
+            with path.open("rb") as file:
+                data = file.read(MAX_BYTES + 1)
+            size = len(data)
     except (OSError, ValueError) as error:
         why = error.strerror if isinstance(error, OSError) else str(error)
         raise BundleError(f"cannot be read: {why}", where=at, advice="check the path and its rights") from None

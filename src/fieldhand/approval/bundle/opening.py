@@ -153,6 +153,7 @@ def content_of(sealed: Sealed, *, now: datetime) -> Content:
     task = decode(members[TASK], source=f"{source}, {TASK}")
     _require_the_same(
         source,
+        ("Task document", manifest.task.sha256, sealed.hashes[TASK]),
         ("Task", (manifest.task.sha256, manifest.task.id), (_sha256(encode(task)), task.id)),
         ("request", manifest.task.request, task.command.request),
         ("robot profile", (manifest.robot.sha256, manifest.robot.name), (robot.sha256, robot.name)),
