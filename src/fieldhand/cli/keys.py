@@ -21,6 +21,9 @@ keys = typer.Typer(
 @keys.command("new")
 def new(
     name: Annotated[str | None, typer.Option("--name", help="Whose key it is; else the user who is logged in.")] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="Write the public line to this file, too, to be sent.")
+    ] = None,
     passphrase: Annotated[
         bool, typer.Option("--passphrase", help="Ask for a passphrase (or set FIELDHAND_KEY_PASSPHRASE).")
     ] = False,
@@ -29,11 +32,14 @@ def new(
     """Make a key to approve missions with; the private half stays on this machine."""
     from fieldhand.cli import show
     from fieldhand.cli.approving import user_name
+    from fieldhand.cli.inputs import write_file
     from fieldhand.cli.secrets import new_passphrase
 
     own, _ = _folders()
     key, file = own.make(name or user_name(), new_passphrase(asked=passphrase))
     public = key.public
+    if output is not None:
+        write_file(output, f"{public.line()}\n".encode())
     if json:
         record = {"name": public.name, "fingerprint": public.fingerprint, "public_key": public.line()}
         show.print_json(record | {"file": str(file)})
