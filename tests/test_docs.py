@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shlex
 from pathlib import Path
@@ -29,7 +30,8 @@ def test_every_command_runs(page: Path, tmp_path: Path) -> None:
         if command.startswith(SERVERS):
             continue
         words = shlex.split(command, comments=True)[1:]
-        run = fieldhand(*words, cwd=tmp_path, fresh=page.stem == "README")
+        env = os.environ | {"FIELDHAND_CONFIG": str(tmp_path / "config")}
+        run = fieldhand(*words, cwd=tmp_path, env=env, fresh=page.stem == "README")
         assert run.status == 0, f"{command}\n{run.out[-2000:]}\n{run.err[-2000:]}"
 
 

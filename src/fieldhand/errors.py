@@ -8,12 +8,15 @@
     │   ├── TaskError               a Task document: its XML, its schema, its meaning
     │   ├── WorldError              the world file of a simulation
     │   ├── CaseError               a file of cases: requests with what they mean
+    │   ├── BundleError             a mission bundle: its container, its signature, its manifest, what it holds
+    │   ├── KeyFileError            a key: its file, its rights, its passphrase, or that there is none
     │   ├── PlaceError              a selector that this site cannot resolve
     │   ├── OutputError             a place to write to that cannot be written
     │   ├── ProblemError            an orienteering problem that contradicts itself or has no solution
     │   └── ModelError              the language model: key, endpoint, answer
     ├── NotApprovedError            a check failed or the operator said no
-    │   └── NotConfirmedError       there are warnings that nobody has confirmed
+    │   ├── NotConfirmedError       there are warnings that nobody has confirmed
+    │   └── NotTrustedError         nobody whom this robot trusts has signed
     └── ExecutionError              the robot
         ├── DriveFault              a leg that cannot be driven
         └── ActionFault             an action or a sensor that failed
@@ -25,14 +28,17 @@ from __future__ import annotations
 
 __all__ = [
     "ActionFault",
+    "BundleError",
     "CaseError",
     "DriveFault",
     "ExecutionError",
     "FieldhandError",
     "InputError",
+    "KeyFileError",
     "ModelError",
     "NotApprovedError",
     "NotConfirmedError",
+    "NotTrustedError",
     "OutputError",
     "PlaceError",
     "ProblemError",
@@ -97,6 +103,14 @@ class CaseError(InputError):
     """A file of cases (requests with what they mean), or an event log that is to be judged, cannot be used."""
 
 
+class BundleError(InputError):
+    """A mission bundle is damaged, was changed after it was signed, or is of a form that is not known."""
+
+
+class KeyFileError(InputError):
+    """A key cannot be used, or there is none."""
+
+
 class PlaceError(InputError):
     """A selector finds nothing on this site, or names what the site does not have."""
 
@@ -128,6 +142,10 @@ class NotConfirmedError(NotApprovedError):
     def __init__(self, warnings: tuple[str, ...], *, advice: str) -> None:
         self.warnings = warnings
         super().__init__(f"not confirmed: {'; '.join(warnings)}", advice=advice)
+
+
+class NotTrustedError(NotApprovedError):
+    """A mission is not signed, or by a key that is unknown here or was revoked."""
 
 
 class ExecutionError(FieldhandError):

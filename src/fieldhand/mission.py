@@ -20,7 +20,10 @@ from fieldhand.task.frames import Task
 from fieldhand.task.results import Event, GoalOutcome
 
 if TYPE_CHECKING:
+    from fieldhand.approval.bundle.opening import Bundle
     from fieldhand.approval.checks import Problem
+    from fieldhand.approval.keys.signing import SigningKey
+    from fieldhand.approval.keys.trust import TrustStore
     from fieldhand.approval.readback import ReadBack
     from fieldhand.evaluation.report import ReportFiles
     from fieldhand.execution.guard import Guard
@@ -28,6 +31,7 @@ if TYPE_CHECKING:
     from fieldhand.execution.world import World
     from fieldhand.forecast.estimate import Estimate
     from fieldhand.planning.llm.chat import Chat
+    from fieldhand.site.formats.files import SiteFiles
 
 PLANNERS = ("auto", "english", "llm")
 
@@ -188,6 +192,54 @@ def authorize(
     return approve(
         task, site, robot, by=by, at=at.isoformat(timespec="seconds"), confirmed=confirmed, language=language
     )
+
+
+def pack(
+    authorized: AuthorizedTask,
+    site: Site,
+    robot: RobotProfile,
+    *,
+    files: SiteFiles,
+    lenient: bool,
+    profile: bytes,
+    key: SigningKey,
+    planner: str,
+) -> bytes:
+    """The signed bundle of an approved mission (``*.mission``), which a robot that trusts the key carries out.
+
+    Args:
+        authorized: What approval gave.
+        site, robot: For which it was approved.
+        files: From which the site was read; ``lenient`` says how.
+        profile: The YAML from which the robot was read.
+        key: Of the person who approves.
+        planner: Who planned the Task.
+
+    Raises:
+        BundleError: The files are not those that were approved, or are too large.
+    """
+    from fieldhand.approval.bundle.packing import pack
+
+    return pack(authorized, site, robot, files=files, lenient=lenient, profile=profile, key=key, planner=planner)
+
+
+def open_bundle(data: bytes, *, source: str, trusted: TrustStore, now: datetime) -> Bundle:
+    """The mission of a bundle, once its signature and every byte were found to be good.
+
+    Args:
+        data: The file.
+        source: What to call it in messages.
+        trusted: The keys that this machine trusts.
+        now: With time zone.
+
+    Raises:
+        BundleError: It is no bundle, was damaged or changed, or is of another format.
+        NotTrustedError: Nobody who is trusted here has signed it.
+        KeyFileError: The trusted keys cannot be read.
+    """
+    from fieldhand.approval.bundle.opening import open_bundle
+
+    return open_bundle(data, source=source, known=trusted.known(), now=now)
 
 
 def check_world(world: World, site: Site, robot: RobotProfile) -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from command import fieldhand
 from fieldhand import mission
-from fieldhand.cli import flight
+from fieldhand.cli import approving, flight
 from fieldhand.cli.inputs import open_ground
 from fieldhand.errors import NotApprovedError
 from fieldhand.execution.world import World
@@ -60,7 +60,7 @@ def test_confirming_is_said_and_stands_in_the_report(task: str, tmp_path: Path) 
 def test_a_person_is_asked_about_the_warnings_and_then_to_approve(
     task: str, typed: str, flown: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(flight, "may_ask", lambda: True)
+    monkeypatch.setattr(approving, "may_ask", lambda: True)
     monkeypatch.setattr("sys.stdin", io.StringIO(typed))
     read, document = mission.read_task(Path(task), GROUND.robot)
     orders = flight.Orders(ask=True, by="Ada", world=World(), seed=0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
@@ -17,6 +18,7 @@ from fieldhand.api.inputs import Ground, RunBody, answers_of, open_ground, open_
 from fieldhand.api.maps import driven_map
 from fieldhand.api.plan import Planners
 from fieldhand.api.work import Limits, Workers
+from fieldhand.approval.production import require_unsigned_allowed
 from fieldhand.evaluation.telling import Teller, goal_names
 from fieldhand.planning.planner import Planned
 from fieldhand.task.authorization import AuthorizedTask
@@ -39,6 +41,7 @@ def router(workers: Workers, planners: Planners, limits: Limits) -> APIRouter:
 def _run(body: RunBody, planners: Planners, limits: Limits) -> dict[str, Any]:
     from fieldhand.execution.world import World, parse_world
 
+    require_unsigned_allowed(os.environ)
     ground = open_ground(body)
     world = World() if body.world is None else parse_world(body.world, source="world")
     if body.request is not None:

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from fieldhand.cli.approve import approve
 from fieldhand.cli.bench import bench
 from fieldhand.cli.bench_guard import bench_guard
 from fieldhand.cli.bench_missions import bench_missions
@@ -14,6 +15,8 @@ from fieldhand.cli.bench_orienteering import bench_orienteering
 from fieldhand.cli.bench_planning import bench_planning
 from fieldhand.cli.check import check
 from fieldhand.cli.demo import demo
+from fieldhand.cli.inspect import inspect
+from fieldhand.cli.keys import keys
 from fieldhand.cli.plan import plan
 from fieldhand.cli.robot import robot
 from fieldhand.cli.run import run
@@ -30,13 +33,14 @@ def assemble(*others: Callable[..., None]) -> typer.Typer:
         add_completion=False,
         context_settings={"help_option_names": ["-h", "--help"]},
     )
-    commands: tuple[Callable[..., None], ...] = (plan, check, run, site, robot, demo, *others)
+    commands: tuple[Callable[..., None], ...] = (plan, check, approve, inspect, run, site, robot, demo, *others)
     for command in commands:
         app.command()(command)
     bench.command("orienteering")(bench_orienteering)
     bench.command("guard")(bench_guard)
     bench.command("missions")(bench_missions)
     bench.command("planning")(bench_planning)
+    app.add_typer(keys)
     app.add_typer(bench)
     app.callback()(_top)
     return app

@@ -27,6 +27,7 @@ def demo(
     import os
     import shutil
 
+    from fieldhand.approval.production import require_unsigned_allowed
     from fieldhand.cli import show
     from fieldhand.cli.asking import Replies, plan_or_read
     from fieldhand.cli.flight import Orders, fly
@@ -34,6 +35,7 @@ def demo(
     from fieldhand.execution.world import World
     from fieldhand.language import spoken
 
+    require_unsigned_allowed(os.environ)
     ground = open_ground("demo", "husky")
     task, document, planner = plan_or_read(REQUEST, ground, "english", None, Replies())
     # Nobody is there to read the warning that the budget is tight; it is shown, and the report says it was confirmed.

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import getpass
 import math
 from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldhand import mission
 from fieldhand.cli import show
-from fieldhand.cli.inputs import Ground, may_ask, write_file
-from fieldhand.errors import InputError, NotApprovedError, NotConfirmedError
-from fieldhand.language import ENGLISH, Language, counted, message
+from fieldhand.cli.approving import approve_plan, review_plan
+from fieldhand.cli.inputs import Ground, write_file
+from fieldhand.errors import InputError
+from fieldhand.language import ENGLISH, Language, message
 from fieldhand.task.frames import Task
 from fieldhand.task.results import Ended, Event
 
@@ -52,8 +51,16 @@ class Orders:
     language: Language = ENGLISH
 
 
-def fly(ground: Ground, task: Task, document: bytes | None, orders: Orders, *, planner: str) -> int:
-    """Review, approve, carry out, judge and report one mission.
+def fly(
+    ground: Ground,
+    task: Task,
+    document: bytes | None,
+    orders: Orders,
+    *,
+    planner: str,
+    authorized: AuthorizedTask | None = None,
+) -> int:
+    """Review, approve, carry out, judge and report one mission; ``authorized`` was approved before.
 
     Returns:
         The exit status: 0 if the plan was done and every goal was met, else 1.
@@ -63,8 +70,9 @@ def fly(ground: Ground, task: Task, document: bytes | None, orders: Orders, *, p
         NotApprovedError: A check fails, or the operator says no.
         OutputError: Something cannot be written.
     """
-    review = _review(ground, task, document, orders)
-    authorized = _approve(ground, review, orders)
+    review = review_plan(ground, task, document, orders)
+    if authorized is None:
+        authorized = approve_plan(ground, review, orders, message("Approve and carry out?"))
     _leave_plan(ground, review, document, orders)
     events = _carry_out(ground, authorized, orders)
     return _conclude(ground, review, authorized, events, orders, planner)
@@ -87,59 +95,6 @@ def parse_speed(text: str) -> float | None:
             f"'{text}' is no speed", where="--speed", advice="give max, or a number above 0 (1 is real time)"
         )
     return speed
-
-
-def _review(ground: Ground, task: Task, document: bytes | None, orders: Orders) -> mission.Review:
-    review = mission.review(task, ground.site, ground.robot, document=document)
-    if not orders.quiet:
-        show.show_review(review, orders.language)
-        if review.errors:
-            raise NotApprovedError("not approved: mend the errors above first")
-    elif review.errors:
-        raise NotApprovedError("; ".join(orders.language.say(p.line()) for p in review.errors))
-    return review
-
-
-def _approve(ground: Ground, review: mission.Review, orders: Orders) -> AuthorizedTask:
-    if orders.ask and not may_ask():
-        raise NotApprovedError("nobody is here to approve", advice="give --yes if you have read the plan")
-    if review.warnings and not orders.confirm:
-        _confirm(orders.language.read(review.warnings), orders)
-    if orders.ask:
-        _ask(orders.language.say(message("Approve and carry out?")))
-    return mission.authorize(
-        review.task,
-        ground.site,
-        ground.robot,
-        by=orders.by or _user(),
-        at=datetime.now(UTC),
-        confirmed=orders.language.read(review.warnings),
-        language=orders.language.code,
-    )
-
-
-def _confirm(warnings: tuple[str, ...], orders: Orders) -> None:
-    """Have the operator confirm the warnings; they were shown with the review.
-
-    Raises:
-        NotConfirmedError: Nobody is asked.
-        NotApprovedError: The operator says no.
-    """
-    if not orders.ask:
-        raise NotConfirmedError(warnings, advice="give --confirm, too, if the plan is right in spite of that")
-    question = counted(
-        "Is the plan right in spite of the warning above?",
-        "Is the plan right in spite of the {count} warnings above?",
-        len(warnings),
-    )
-    _ask(orders.language.say(question))
-
-
-def _ask(question: str) -> None:
-    import typer
-
-    if not typer.confirm(f"\n{question}"):
-        raise NotApprovedError("not approved, nothing was done")
 
 
 def _leave_plan(ground: Ground, review: mission.Review, document: bytes | None, orders: Orders) -> None:
@@ -218,10 +173,3 @@ def _conclude(
         for path in written:
             show.out.print(f"  {path}")
     return status
-
-
-def _user() -> str:
-    try:
-        return getpass.getuser()
-    except (KeyError, OSError):
-        return "unknown"

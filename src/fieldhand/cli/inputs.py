@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import sys
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -30,10 +32,14 @@ def open_ground(site: str, robot: str, *, lenient: bool = False) -> Ground:
     from fieldhand.site.geojson import open_site
 
     opened = open_site(site, lenient=lenient)
-    if lenient:
-        for said in opened.notes:
-            note(said)
+    tell_left_out(opened, lenient=lenient)
     return Ground(site=opened, robot=load_robot(robot))
+
+
+def tell_left_out(site: Site, *, lenient: bool) -> None:
+    """Say of a leniently read site what was left out."""
+    for said in site.notes if lenient else ():
+        note(said)
 
 
 def write_file(path: Path, data: bytes) -> None:
@@ -46,6 +52,28 @@ def write_file(path: Path, data: bytes) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)
     except OSError as error:
+        raise OutputError(
+            f"cannot write: {error.strerror}", where=str(path), advice="choose a folder that you may write to"
+        ) from None
+
+
+def write_whole(path: Path, data: bytes) -> None:
+    """Write a file as a whole or not at all, also over another one and also where the power fails meanwhile.
+
+    Raises:
+        OutputError: It cannot be written.
+    """
+    beside = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with beside.open("wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        beside.replace(path)
+    except OSError as error:
+        with suppress(OSError):
+            beside.unlink(missing_ok=True)
         raise OutputError(
             f"cannot write: {error.strerror}", where=str(path), advice="choose a folder that you may write to"
         ) from None

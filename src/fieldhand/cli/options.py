@@ -12,10 +12,20 @@ SITE_HELP = (
     " Shapefile, GeoPackage, KML, KMZ."
 )
 SiteOption = Annotated[str, typer.Option("--site", help=SITE_HELP)]
+#: A bundle has its own; what is given beside it must be the same.
+MissionSiteOption = Annotated[str | None, typer.Option("--site", help=f"{SITE_HELP} A bundle brings its own.")]
 LenientOption = Annotated[
     bool, typer.Option("--lenient", help="Load what is sound of the site and say what was left out.")
 ]
 RobotOption = Annotated[str, typer.Option("--robot", help="Built-in robot (husky, amiga) or a profile file (YAML).")]
+MissionRobotOption = Annotated[
+    str | None,
+    typer.Option("--robot", help="Built-in robot (husky, amiga) or a profile file; husky if none is given."),
+]
+ByOption = Annotated[str | None, typer.Option("--by", help="Who approves; else the user who is logged in.")]
+ConfirmOption = Annotated[
+    bool, typer.Option("--confirm", help="Confirm every warning without asking; --yes alone does not.")
+]
 PlannerOption = Annotated[
     str, typer.Option("--planner", help="english (no model), llm (a language model), or auto: english, else llm.")
 ]

@@ -1,4 +1,4 @@
-"""``fieldhand run``: a request or a Task, planned, approved, carried out in simulation, judged."""
+"""``fieldhand run``: a request, a Task or a signed mission, carried out in simulation and judged."""
 
 from __future__ import annotations
 
@@ -10,20 +10,25 @@ import typer
 from fieldhand.cli.options import (
     AnswerOption,
     AssumeOption,
+    ByOption,
+    ConfirmOption,
     JsonOption,
     LangOption,
     LenientOption,
+    MissionRobotOption,
+    MissionSiteOption,
     PlannerOption,
-    RobotOption,
-    SiteOption,
     TranscriptOption,
 )
 
 
 def run(
-    request: Annotated[str, typer.Argument(help="What the robot should do, in plain words, or a Task (.xml).")],
-    site: SiteOption,
-    robot: RobotOption = "husky",
+    request: Annotated[
+        str,
+        typer.Argument(help="What the robot should do, in plain words; a Task (.xml); a signed mission (.mission)."),
+    ],
+    site: MissionSiteOption = None,
+    robot: MissionRobotOption = None,
     planner: PlannerOption = "auto",
     world: Annotated[Path | None, typer.Option("--world", help="What sensors read, and what goes wrong.")] = None,
     seed: Annotated[
@@ -35,10 +40,11 @@ def run(
         str, typer.Option("--speed", help="max, or simulated seconds in a second (1 is real time).")
     ] = "max",
     yes: Annotated[bool, typer.Option("--yes", "-y", help="Approve without asking.")] = False,
-    confirm: Annotated[
-        bool, typer.Option("--confirm", help="Confirm every warning without asking; --yes alone does not.")
+    confirm: ConfirmOption = False,
+    by: ByOption = None,
+    production: Annotated[
+        bool, typer.Option("--production", help="Run nothing but a mission that a trusted key has signed.")
     ] = False,
-    by: Annotated[str | None, typer.Option("--by", help="Who approves; else the user who is logged in.")] = None,
     answer: AnswerOption = None,
     assume: AssumeOption = False,
     transcript: TranscriptOption = None,
@@ -46,23 +52,37 @@ def run(
     lang: LangOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Plan, approve and carry out a mission in simulation, then judge it."""
+    """Carry a mission out in simulation and judge it: plan and approve it first, unless it is signed."""
     import os
 
     from fieldhand import mission
+    from fieldhand.approval.production import require_unsigned_allowed
+    from fieldhand.cli import show
     from fieldhand.cli.asking import Replies, plan_or_read
+    from fieldhand.cli.bundles import is_bundle, open_mission, require_site, tell_signer
     from fieldhand.cli.flight import Orders, fly, parse_speed
-    from fieldhand.cli.inputs import open_ground
+    from fieldhand.cli.inputs import Ground, open_ground
     from fieldhand.execution.world import World, load_world
     from fieldhand.language import spoken
 
     language = spoken(lang, os.environ)
     pace = parse_speed(speed)
-    ground = open_ground(site, robot, lenient=lenient)
+    bundle = open_mission(request, site, robot, lenient=lenient) if is_bundle(request) else None
+    if bundle is None:
+        require_unsigned_allowed(os.environ, asked=production)
+        ground = open_ground(require_site(site), robot or "husky", lenient=lenient)
+    else:
+        ground = Ground(site=bundle.site, robot=bundle.robot)
+        if not json:
+            show.out.print(tell_signer(bundle))
     given = World() if world is None else load_world(world)
     mission.check_world(given, ground.site, ground.robot)
-    replies = Replies(given=tuple(answer or ()), assume=assume, ask=not json)
-    task, document, planned_by = plan_or_read(request, ground, planner, transcript, replies)
+    authorized = None if bundle is None else bundle.authorized
+    if bundle is None:
+        replies = Replies(given=tuple(answer or ()), assume=assume, ask=not json)
+        task, document, planned_by = plan_or_read(request, ground, planner, transcript, replies)
+    else:
+        task, document, planned_by = bundle.authorized.task, None, bundle.manifest.task.planner
     orders = Orders(
         ask=not yes,
         confirm=confirm,
@@ -75,4 +95,4 @@ def run(
         quiet=json,
         language=language,
     )
-    raise SystemExit(fly(ground, task, document, orders, planner=planned_by))
+    raise SystemExit(fly(ground, task, document, orders, planner=planned_by, authorized=authorized))

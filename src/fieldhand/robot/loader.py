@@ -47,7 +47,7 @@ def load_robot(name_or_path: str) -> RobotProfile:
     Raises:
         ProfileError: There is no such robot, or its profile cannot be used; says where in the file, and what to do.
     """
-    data, source = _bytes_of(name_or_path)
+    data, source = profile_bytes(name_or_path)
     return parse_profile(data, source=source)
 
 
@@ -69,7 +69,12 @@ def parse_profile(data: bytes, *, source: str = "profile") -> RobotProfile:
     return _profile(document, sha256=hashlib.sha256(data).hexdigest(), source=source)
 
 
-def _bytes_of(name_or_path: str) -> tuple[bytes, str]:
+def profile_bytes(name_or_path: str) -> tuple[bytes, str]:
+    """The YAML of a profile as it stands, and what to call it in messages; see :func:`load_robot`.
+
+    Raises:
+        ProfileError: There is no such robot, or its file cannot be read.
+    """
     names = builtin_names()
     if name_or_path in names:
         return (resources.files("fieldhand.robot") / "profiles" / f"{name_or_path}.yaml").read_bytes(), name_or_path

@@ -16,7 +16,7 @@ from pathlib import Path
 from fieldhand.site.building import build
 from fieldhand.site.features import clean, gather
 from fieldhand.site.formats.faults import Faults
-from fieldhand.site.formats.files import read_records
+from fieldhand.site.formats.files import SiteFiles, read_files, records_of
 from fieldhand.site.formats.geojson import geojson_records
 from fieldhand.site.formats.records import MAX_BYTES, Records, too_big
 from fieldhand.site.model import Site
@@ -42,7 +42,16 @@ def open_site(name_or_path: str, *, lenient: bool = False) -> Site:
     Raises:
         SiteError: The file cannot be read or used; see :func:`load_site`.
     """
-    return load_demo() if name_or_path == "demo" else load_site(Path(name_or_path), lenient=lenient)
+    return site_of(site_files(name_or_path), lenient=lenient)
+
+
+def site_files(name_or_path: str) -> SiteFiles:
+    """The files of the built-in orchard for ``demo``, else of that path.
+
+    Raises:
+        SiteError: There is none that can be read.
+    """
+    return read_files(demo_path() if name_or_path == "demo" else Path(name_or_path))
 
 
 def load_site(path: Path, *, lenient: bool = False) -> Site:
@@ -56,9 +65,19 @@ def load_site(path: Path, *, lenient: bool = False) -> Site:
     Raises:
         SiteError: The file is missing, no file, too big, or does not hold a site; see :func:`parse_site`.
     """
+    return site_of(read_files(path), lenient=lenient)
+
+
+def site_of(files: SiteFiles, *, lenient: bool = False) -> Site:
+    """The site that these files hold: the same for the same files, wherever they lie; see :func:`load_site`.
+
+    Raises:
+        SiteError: They do not hold a site.
+    """
     with _collector_at_rest():
-        records, sha256 = read_records(path, lenient=lenient)
-        return _site(records, name=path.stem, source=clean(str(path)), sha256=sha256, lenient=lenient)
+        records = records_of(files, lenient=lenient)
+        name = Path(files.name).stem
+        return _site(records, name=name, source=files.source, sha256=files.sha256, lenient=lenient)
 
 
 def parse_site(data: bytes, *, name: str, source: str = "", lenient: bool = False) -> Site:
@@ -104,4 +123,4 @@ def _collector_at_rest() -> Iterator[None]:
             gc.enable()
 
 
-__all__ = ["demo_path", "load_demo", "load_site", "open_site", "parse_site"]
+__all__ = ["demo_path", "load_demo", "load_site", "open_site", "parse_site", "site_files", "site_of"]

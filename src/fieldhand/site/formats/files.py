@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Literal
 
@@ -37,28 +39,60 @@ _MAGIC: dict[bytes, Format] = {
 SHAPEFILE_PARTS = (".shp", ".shx", ".dbf", ".prj", ".cpg")
 
 
-def read_records(path: Path, *, lenient: bool = False) -> tuple[Records, str]:
-    """The records of a file and the SHA-256 of its bytes (for a Shapefile of its parts, one after the other).
+@dataclass(frozen=True, kw_only=True)
+class SiteFiles:
+    """The files of a site as they were read: whoever has them can read the very same site again.
+
+    Attributes:
+        parts: Bytes by file name, the main file first; more than one for a Shapefile alone.
+        source: Where they were read from, for messages.
+    """
+
+    parts: Mapping[str, bytes]
+    source: str
+
+    @property
+    def name(self) -> str:
+        """Of the main file."""
+        return next(iter(self.parts))
+
+    @cached_property
+    def sha256(self) -> str:
+        """Of the bytes, for a Shapefile of its parts one after the other."""
+        digest = hashlib.sha256()
+        for part in self.parts.values():
+            digest.update(part)
+        return digest.hexdigest()
+
+
+def read_files(path: Path) -> SiteFiles:
+    """A file, and what belongs to it.
 
     Raises:
         SiteError: It is missing, no file, too big, or has no format that can be read.
     """
     at = clean(str(path))
-    parts = [path]
     data = read_bytes(path, at)
-    form = format_of(path.name, data, at)
-    if form == "shapefile":
-        parts = _shapefile_parts(path)
-    if form == "geojson":
-        records = geojson_records(data, at, lenient=lenient)
-    elif form == "table":
-        records = table_records(data, at)
-    else:
-        from fieldhand.site.formats.gis import gis_records
+    parts = _shapefile_parts(path) if format_of(path.name, data, at) == "shapefile" else [path]
+    held = {part.name: data if part == path else read_bytes(part, clean(str(part))) for part in parts}
+    return SiteFiles(parts=held, source=at)
 
-        held = {part.name: data if part == path else read_bytes(part, clean(str(part))) for part in parts}
-        return gis_records(form, held, at, lenient=lenient), _digest(held.values())
-    return records, _digest([data])
+
+def records_of(files: SiteFiles, *, lenient: bool = False) -> Records:
+    """The records that these files hold.
+
+    Raises:
+        SiteError: They have no format that can be read, or not what belongs to it.
+    """
+    data, at = files.parts[files.name], files.source
+    form = format_of(files.name, data, at)
+    if form == "geojson":
+        return geojson_records(data, at, lenient=lenient)
+    if form == "table":
+        return table_records(data, at)
+    from fieldhand.site.formats.gis import gis_records
+
+    return gis_records(form, files.parts, at, lenient=lenient)
 
 
 def read_bytes(path: Path, at: str) -> bytes:
@@ -126,10 +160,3 @@ def _shapefile_parts(path: Path) -> list[Path]:
     except OSError:
         beside = {}
     return [path, *(beside[part] for part in SHAPEFILE_PARTS[1:] if part in beside)]
-
-
-def _digest(parts: Iterable[bytes]) -> str:
-    digest = hashlib.sha256()
-    for part in parts:
-        digest.update(part)
-    return digest.hexdigest()

@@ -1,0 +1,167 @@
+"""The zip around a mission. There is one way to write it, byte by byte; a file that is written otherwise is refused.
+
+So a bundle has one SHA-256, whoever packs it; a changed bit anywhere, in a date or in a field that nobody reads, is
+seen; and no two programs can see different files in it. Nothing is compressed: what comes out is never more than what
+came in, and no decompressor meets bytes that nobody has vouched for.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+import stat
+import struct
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path, PurePosixPath
+
+from fieldhand.errors import BundleError
+
+#: Of the whole file: a site of 100 MB, the most that is read, and what belongs to it.
+MAX_BYTES = 128_000_000
+MAX_MEMBERS = 12
+MANIFEST, SIGNATURE, TASK, ROBOT = "manifest.json", "signature.txt", "task.xml", "robot.yaml"
+#: The site under one name, whatever its file was called; a Shapefile has several parts.
+SITE_MEMBER = re.compile(r"site(\.[a-z0-9]{1,10})?")
+#: What each may have at most, before it is read.
+_MOST = {MANIFEST: 1_000_000, SIGNATURE: 1_000, TASK: 4_000_000, ROBOT: 1_000_000}
+_FIRST = (MANIFEST, SIGNATURE, TASK, ROBOT)
+_MIDNIGHT = (1980, 1, 1, 0, 0, 0)
+_END = struct.Struct("<4s4H2LH")
+_MAX_DIRECTORY = MAX_MEMBERS * 100
+_AGAIN = "ask for the file again from whoever approved it"
+
+
+def wrap(members: Mapping[str, bytes]) -> bytes:
+    """The zip file of these members: the same bytes for the same members.
+
+    Raises:
+        BundleError: It would be larger than a bundle may be.
+    """
+    for name, data in members.items():
+        most = _MOST.get(name, MAX_BYTES)
+        if len(data) > most:
+            raise BundleError(f"{name} has {len(data):,} bytes, more than {most:,}", advice="make the mission smaller")
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_STORED) as archive:
+        for name in _in_order(members):
+            info = zipfile.ZipInfo(name, date_time=_MIDNIGHT)
+            info.create_system, info.create_version, info.extract_version = 3, 20, 20
+            info.external_attr = (stat.S_IFREG | 0o644) << 16
+            archive.writestr(info, members[name], zipfile.ZIP_STORED)
+    data = packed.getvalue()
+    if len(data) > MAX_BYTES:
+        raise BundleError(f"the bundle has {len(data):,} bytes, more than {MAX_BYTES:,}", advice="cut the site smaller")
+    return data
+
+
+def unwrap(data: bytes, *, source: str) -> dict[str, bytes]:
+    """The members of a bundle.
+
+    Args:
+        data: The file.
+        source: What to call it in messages.
+
+    Raises:
+        BundleError: It is no zip file, or not one that :func:`wrap` wrote: damaged, changed, packed by another tool.
+    """
+    if len(data) > MAX_BYTES:
+        raise too_big(len(data), source)
+    _require_plain_end(data, source)
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            infos = archive.infolist()
+            _require_names(infos, source)
+            for info in infos:
+                _require_plain(info, source)
+            members = {info.filename: archive.read(info) for info in infos}
+    except (zipfile.BadZipFile, zipfile.LargeZipFile, NotImplementedError, EOFError, ValueError, RuntimeError) as fault:
+        raise BundleError(f"is damaged ({fault})", where=source, advice=_AGAIN) from None
+    if wrap(members) != data:
+        raise BundleError("is not as it was written when it was approved", where=source, advice=_AGAIN)
+    return members
+
+
+def read_bundle_file(path: Path) -> bytes:
+    """The bytes of a bundle; what is too big to be one is not read.
+
+    Raises:
+        BundleError: It is missing, no file, empty, too big, or cannot be read.
+    """
+    at = str(path)
+    try:
+        if not path.is_file():
+            what = "is not a file" if path.exists() else "there is no such file"
+            raise BundleError(what, where=at, advice="give a file that fieldhand approve wrote")
+        size = path.stat().st_size
+        if size <= MAX_BYTES:
+            with path.open("rb") as file:
+                data = file.read(MAX_BYTES + 1)
+            size = len(data)
+    except (OSError, ValueError) as error:
+        why = error.strerror if isinstance(error, OSError) else str(error)
+        raise BundleError(f"cannot be read: {why}", where=at, advice="check the path and its rights") from None
+    if size > MAX_BYTES:
+        raise too_big(size, at)
+    return data
+
+
+def too_big(size: int, source: str) -> BundleError:
+    """That a file is too big to be a bundle."""
+    return BundleError(
+        f"has {size / 1e6:,.0f} MB, more than the {MAX_BYTES / 1e6:,.0f} MB of the largest mission",
+        where=source,
+        advice="give a file that fieldhand approve wrote",
+    )
+
+
+def _in_order(members: Mapping[str, bytes]) -> list[str]:
+    return [*(name for name in _FIRST if name in members), *sorted(set(members) - set(_FIRST))]
+
+
+def _require_plain_end(data: bytes, source: str) -> None:
+    """Look at the end of the file before the zip reader does: it would believe it of a million members."""
+    if not data.startswith(b"PK\x03\x04"):
+        what = "is empty" if not data else "is no mission bundle: not a zip file"
+        raise BundleError(what, where=source, advice="give a file that fieldhand approve wrote")
+    end = data[-_END.size :]
+    if len(end) < _END.size or not end.startswith(b"PK\x05\x06"):
+        raise BundleError("is cut off, or something was added to it", where=source, advice=_AGAIN)
+    _, disk, first_disk, here, members, directory, _, comment = _END.unpack(end)
+    if disk or first_disk or comment or here != members or data[-_END.size - 20 :].startswith(b"PK\x06\x07"):
+        raise BundleError("is a zip file of another kind", where=source, advice=_AGAIN)
+    if members > MAX_MEMBERS or directory > _MAX_DIRECTORY:
+        raise BundleError(f"holds {members} files; a mission has at most {MAX_MEMBERS}", where=source, advice=_AGAIN)
+
+
+def _require_names(infos: list[zipfile.ZipInfo], source: str) -> None:
+    """Exactly the members of a mission, each once."""
+    names = [info.filename for info in infos]
+    for name in names:
+        path = PurePosixPath(name)
+        if path.is_absolute() or ".." in path.parts or "\\" in name or ":" in name:
+            raise BundleError(
+                f"holds a path that leads out of it ({name[:60]!r})", where=source, advice="do not trust this file"
+            )
+        if name not in _FIRST and not SITE_MEMBER.fullmatch(name):
+            raise BundleError(f"holds a file that is no part of a mission ({name[:60]!r})", where=source, advice=_AGAIN)
+        if names.count(name) > 1:
+            raise BundleError(f"holds {name} twice", where=source, advice="do not trust this file")
+    missing = [name for name in _FIRST if name not in names]
+    if not any(SITE_MEMBER.fullmatch(name) for name in names):
+        missing.append("the site")
+    if missing:
+        raise BundleError(f"lacks {', '.join(missing)}", where=source, advice=_AGAIN)
+
+
+def _require_plain(info: zipfile.ZipInfo, source: str) -> None:
+    """A member that is stored as it is, no link, and no larger than it may be."""
+    if info.flag_bits & 0x1:
+        raise BundleError(f"{info.filename} is encrypted", where=source, advice=_AGAIN)
+    if stat.S_IFMT(info.external_attr >> 16) not in (0, stat.S_IFREG):
+        raise BundleError(f"{info.filename} is a link, not a file", where=source, advice="do not trust this file")
+    if info.compress_type != zipfile.ZIP_STORED or info.compress_size != info.file_size:
+        raise BundleError(f"{info.filename} is compressed, so it was packed anew", where=source, advice=_AGAIN)
+    most = _MOST.get(info.filename, MAX_BYTES)
+    if info.file_size > most:
+        raise BundleError(f"{info.filename} has more than {most:,} bytes", where=source, advice=_AGAIN)

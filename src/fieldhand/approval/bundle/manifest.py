@@ -1,0 +1,163 @@
+"""The manifest of a bundle: who approved what, when, and the hash of every file that belongs to it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from datetime import datetime
+from typing import Annotated, Any, NoReturn
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
+
+from fieldhand.approval.bundle.container import MANIFEST
+from fieldhand.errors import BundleError
+
+#: Of the bundle. A reader takes exactly this one: an older or newer one may mean something else by the same words.
+FORMAT = 1
+
+
+def _printable(text: str) -> str:
+    """What a terminal shows must not steer it; a request may have several lines."""
+    if not text.replace("\n", " ").replace("\t", " ").isprintable():
+        raise ValueError("holds signs that cannot be shown")
+    return text
+
+
+def _one_line(text: str) -> str:
+    if not text.strip() or not text.isprintable():
+        raise ValueError("is empty, or holds signs that cannot be shown")
+    return text
+
+
+def _moment(text: str) -> str:
+    if datetime.fromisoformat(text).tzinfo is None:
+        raise ValueError("has no time zone")
+    return text
+
+
+def _file_name(text: str) -> str:
+    if not text.isprintable() or set(text) & set("/\\") or text in (".", ".."):
+        raise ValueError("is no name of a file")
+    return text
+
+
+Sha256 = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
+Line = Annotated[str, Field(max_length=500), AfterValidator(_one_line)]
+Words = Annotated[str, Field(max_length=100_000), AfterValidator(_printable)]
+Moment = Annotated[str, Field(max_length=40), AfterValidator(_moment)]
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+
+class Approved(_Part):
+    """Who approved, when, what they confirmed, and in which language they read it (ISO 639)."""
+
+    by: Line
+    at: Moment
+    confirmed: list[Words]
+    language: Annotated[str, Field(pattern=r"^[a-z]{2,3}$")]
+
+
+class TaskPart(_Part):
+    """The Task: its document is ``task.xml``."""
+
+    id: Line
+    sha256: Sha256
+    request: Words
+    planner: Line
+
+
+class SitePart(_Part):
+    """The site.
+
+    Attributes:
+        file: What its file was called: reading it depends on the ending, and the site's name may.
+        sha256: Of its bytes, as the approval has it.
+        content_sha256: Of what was read from them: whoever reads them again must come to the same.
+        lenient: Whether what is unsound was left out.
+    """
+
+    name: Annotated[str, Field(max_length=200), AfterValidator(_printable)]
+    file: Annotated[str, Field(min_length=1, max_length=255), AfterValidator(_file_name)]
+    sha256: Sha256
+    content_sha256: Sha256
+    lenient: bool
+
+
+class RobotPart(_Part):
+    """The robot: its profile is ``robot.yaml``."""
+
+    name: Line
+    sha256: Sha256
+
+
+class Manifest(_Part):
+    """What is signed.
+
+    Attributes:
+        program: What wrote it, with its version.
+        files: SHA-256 of every other file of the bundle, but for the signature, by name.
+    """
+
+    format: int
+    program: Line
+    approved: Approved
+    task: TaskPart
+    site: SitePart
+    robot: RobotPart
+    files: dict[str, Sha256]
+
+    def document(self) -> bytes:
+        """As it stands in the bundle: JSON, UTF-8, the same for the same manifest."""
+        return (json.dumps(self.model_dump(), ensure_ascii=False, indent=2) + "\n").encode()
+
+
+def parse_manifest(data: bytes, *, source: str) -> Manifest:
+    """The manifest of a bundle.
+
+    Raises:
+        BundleError: It is no manifest, or one of a format that is not known.
+    """
+    at = f"{source}, {MANIFEST}"
+    content = _content(data, at)
+    found = content.get("format")
+    if type(found) is not int or found != FORMAT:
+        newer = type(found) is int and found > FORMAT
+        raise BundleError(
+            f"has format {str(found)[:20]}, and this program reads format {FORMAT}",
+            where=at,
+            advice="update this program" if newer else "approve the mission again with this version",
+        )
+    try:
+        return Manifest.model_validate(content)
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        key = ".".join(str(part) for part in first["loc"])[:80]
+        raise BundleError(
+            f"cannot be used: {key!r}: {first['msg']}", where=at, advice="approve the mission again"
+        ) from None
+
+
+def _content(data: bytes, at: str) -> Mapping[str, Any]:
+    try:
+        content = json.loads(data.decode(), parse_constant=_no_number, object_pairs_hook=_each_once)
+    except RecursionError:
+        raise BundleError("is nested too deep", where=at, advice="approve the mission again") from None
+    except ValueError as error:  # no UTF-8, no JSON, a number of thousands of digits
+        raise BundleError(f"is not JSON: {str(error)[:80]}", where=at, advice="approve the mission again") from None
+    if not isinstance(content, dict):
+        raise BundleError("is not an object", where=at, advice="approve the mission again")
+    return content
+
+
+def _no_number(text: str) -> NoReturn:
+    raise ValueError(f"{text} is no number")
+
+
+def _each_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    if len(found) != len(pairs):
+        raise ValueError("a key stands twice")
+    return found

@@ -1,0 +1,88 @@
+"""A bundle from an approval: the manifest, its signature, and the files that were approved."""
+
+from __future__ import annotations
+
+import hashlib
+from datetime import datetime
+
+from pydantic import ValidationError
+
+from fieldhand import __version__
+from fieldhand.approval.bundle.container import MANIFEST, ROBOT, SIGNATURE, TASK, wrap
+from fieldhand.approval.bundle.manifest import FORMAT, Approved, Manifest, RobotPart, SitePart, TaskPart
+from fieldhand.approval.bundle.members import site_members
+from fieldhand.approval.bundle.opening import content_of, unseal
+from fieldhand.approval.bundle.signature import sign_manifest
+from fieldhand.approval.keys.signing import SigningKey
+from fieldhand.errors import BundleError
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.formats.files import SiteFiles
+from fieldhand.site.model import Site
+from fieldhand.task.authorization import AuthorizedTask
+from fieldhand.task.codec import encode
+
+
+def pack(
+    authorized: AuthorizedTask,
+    site: Site,
+    robot: RobotProfile,
+    *,
+    files: SiteFiles,
+    lenient: bool,
+    profile: bytes,
+    key: SigningKey,
+    planner: str,
+) -> bytes:
+    """The signed bundle: the same bytes for the same approval and key.
+
+    Args:
+        authorized: What approval gave.
+        site, robot: For which it was approved.
+        files: From which the site was read; ``lenient`` says how.
+        profile: The YAML from which the robot was read.
+        key: Of the person who approves.
+        planner: Who planned the Task.
+
+    Raises:
+        BundleError: The files are not those that were approved, cannot be read again to the same, or are too large.
+    """
+    authorization = authorized.authorization
+    members = {TASK: encode(authorized.task), ROBOT: profile, **site_members(files)}
+    try:
+        manifest = Manifest(
+            format=FORMAT,
+            program=f"fieldhand {__version__}",
+            approved=Approved(
+                by=authorization.by,
+                at=authorization.at,
+                confirmed=[str(line) for line in authorization.confirmed],
+                language=authorization.language,
+            ),
+            task=TaskPart(
+                id=authorized.task.id,
+                sha256=authorization.task_sha256,
+                request=authorized.task.command.request,
+                planner=planner,
+            ),
+            site=SitePart(
+                name=site.name,
+                file=files.name,
+                sha256=authorization.site_sha256,
+                content_sha256=site.content_sha256,
+                lenient=lenient,
+            ),
+            robot=RobotPart(name=robot.name, sha256=authorization.robot_sha256),
+            files={name: hashlib.sha256(data).hexdigest() for name, data in sorted(members.items())},
+        )
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        key_path = ".".join(str(part) for part in first["loc"])
+        raise BundleError(
+            f"{key_path} cannot be signed: {first['msg']}", advice="change it, and approve again"
+        ) from None
+    signed = manifest.document()
+    members |= {MANIFEST: signed, SIGNATURE: sign_manifest(signed, key).text()}
+    data = wrap(members)
+    # What is given away has been opened once, as the robot will.
+    content_of(unseal(data, source="the bundle"), now=datetime.fromisoformat(authorization.at))
+    return data

@@ -1,0 +1,122 @@
+"""Files that hold keys: only their owner reads a private one, only their owner writes what is trusted."""
+
+from __future__ import annotations
+
+import os
+import stat
+from contextlib import suppress
+from pathlib import Path
+
+from fieldhand.errors import KeyFileError, OutputError
+
+#: A key is a few lines.
+MAX_BYTES = 64_000
+
+
+def read_guarded(path: Path, *, private: bool) -> bytes:
+    """The bytes of a small file of the user's own.
+
+    Args:
+        path: Of the file.
+        private: Nobody else may read it either; else nobody else may write it.
+
+    Raises:
+        KeyFileError: It is missing, no file, too large, not the user's own, or others have rights on it.
+    """
+    try:
+        # The rights are those of the file that is read, even if another is put in its place meanwhile.
+        with path.open("rb") as file:
+            require_own(os.fstat(file.fileno()), path, private=private)
+            data = file.read(MAX_BYTES + 1)
+    except OSError as error:
+        raise KeyFileError(f"cannot be read: {error.strerror}", where=str(path), advice="check the path") from None
+    if len(data) > MAX_BYTES:
+        raise KeyFileError("is no key: it is too large", where=str(path), advice="check the path")
+    return data
+
+
+def require_own(status: os.stat_result, path: Path, *, private: bool) -> None:
+    """Refuse what others could have read (a private key) or written.
+
+    Raises:
+        KeyFileError: Its owner is another user, or the rights on it are too wide.
+    """
+    if os.name != "posix":
+        return  # rights are lists there, which the folder of the user has already
+    if status.st_uid not in (0, os.geteuid()):
+        raise KeyFileError("belongs to another user", where=str(path), advice="take only what is your own")
+    wide = stat.S_IRWXG | stat.S_IRWXO if private else stat.S_IWGRP | stat.S_IWOTH
+    if status.st_mode & wide:
+        what = "can be read by others" if private else "can be written by others"
+        mode = "600" if private else "go-w"
+        raise KeyFileError(what, where=str(path), advice=f"chmod {mode} {path}; if others use this machine, doubt it")
+
+
+def make_folder(path: Path) -> None:
+    """A folder of the user alone.
+
+    Raises:
+        OutputError: It cannot be made.
+    """
+    try:
+        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        path.mkdir(mode=0o700, exist_ok=True)
+    except OSError as error:
+        raise _unwritable(path, error) from None
+
+
+def write_new(path: Path, data: bytes) -> None:
+    """Write a file that only its owner may read; never over another one.
+
+    Raises:
+        KeyFileError: There is a file of that name.
+        OutputError: It cannot be written.
+    """
+    try:
+        with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:
+            _store(file.fileno(), data)
+    except FileExistsError:
+        raise KeyFileError("there is such a key already", where=str(path), advice="choose another --name") from None
+    except OSError as error:
+        raise _unwritable(path, error) from None
+
+
+def replace(path: Path, data: bytes) -> None:
+    """Write a file as a whole or not at all, also where the power fails meanwhile.
+
+    Raises:
+        OutputError: It cannot be written.
+    """
+    beside = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        with os.fdopen(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600), "wb") as file:
+            _store(file.fileno(), data)
+        beside.replace(path)
+        _store_names(path.parent)
+    except OSError as error:
+        with suppress(OSError):
+            beside.unlink(missing_ok=True)
+        raise _unwritable(path, error) from None
+
+
+def _store(descriptor: int, data: bytes) -> None:
+    left = memoryview(data)
+    while left:
+        left = left[os.write(descriptor, left) :]
+    os.fsync(descriptor)
+
+
+def _store_names(folder: Path) -> None:
+    """A file that was renamed has its new name after a power cut only once its folder is stored."""
+    if os.name == "posix":
+        descriptor = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
+
+
+def _unwritable(path: Path, error: OSError) -> OutputError:
+    return OutputError(
+        f"cannot write: {error.strerror}", where=str(path), advice="give another folder in FIELDHAND_CONFIG"
+    )

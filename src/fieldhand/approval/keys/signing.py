@@ -1,0 +1,172 @@
+"""The keys with which a person signs: PKCS #8 files in the user's own folder, with a passphrase if one is given."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from fieldhand.approval.keys.public import PublicKey, clean_name, parse_public
+from fieldhand.approval.keys.rights import make_folder, read_guarded, write_new
+from fieldhand.errors import KeyFileError
+
+if TYPE_CHECKING:
+    from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
+
+_MAKE_ONE = "make one with fieldhand keys new, and have the robot trust it"
+
+
+@dataclass(frozen=True, kw_only=True)
+class SigningKey:
+    """A private key in hand, with its public half."""
+
+    public: PublicKey
+    _private: Ed25519PrivateKey = field(repr=False)
+
+    def sign(self, message: bytes) -> bytes:
+        """The signature of a message, 64 bytes; the same for the same message."""
+        return self._private.sign(message)
+
+
+@dataclass(frozen=True, kw_only=True)
+class OwnKey:
+    """A key in the folder, not opened.
+
+    Attributes:
+        encrypted: It takes a passphrase.
+    """
+
+    file: Path
+    public: PublicKey
+    encrypted: bool
+
+
+class SigningKeys:
+    """The folder of a person's own keys.
+
+    Args:
+        folder: The user's configuration (:func:`fieldhand.approval.keys.folder.config_folder`).
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder / "keys"
+
+    def make(self, name: str, passphrase: str | None = None) -> tuple[SigningKey, Path]:
+        """A new key of that name, kept under it.
+
+        Args:
+            name: Of the person; the robot shows it where its owner says no other.
+            passphrase: With which the file is encrypted; None for none.
+
+        Returns:
+            The key, and the file with its public half.
+
+        Raises:
+            KeyFileError: The name is none, or there is such a key already.
+            OutputError: The folder cannot be written.
+        """
+        from cryptography.hazmat.primitives import serialization
+        from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
+
+        name = clean_name(name)
+        private = Ed25519PrivateKey.generate()
+        encryption = (
+            serialization.BestAvailableEncryption(passphrase.encode()) if passphrase else serialization.NoEncryption()
+        )
+        pem = private.private_bytes(serialization.Encoding.PEM, serialization.PrivateFormat.PKCS8, encryption)
+        key = _signing(private, name)
+        make_folder(self.folder)
+        file = self.folder / f"{_file_name(name)}.key"
+        shared = file.with_suffix(".pub")
+        if shared.exists():
+            raise KeyFileError("there is such a key already", where=str(shared), advice="choose another --name")
+        write_new(file, pem)
+        write_new(shared, f"{key.public.line()}\n".encode())
+        return key, shared
+
+    def held(self) -> tuple[OwnKey, ...]:
+        """Every key of the folder, by name.
+
+        Raises:
+            KeyFileError: One of them cannot be used.
+        """
+        found = []
+        for file in sorted(self.folder.glob("*.key")):
+            shared = file.with_suffix(".pub")
+            public = parse_public(_text(read_guarded(shared, private=False), shared), source=str(shared))
+            encrypted = b"BEGIN ENCRYPTED PRIVATE KEY" in read_guarded(file, private=True)
+            found.append(OwnKey(file=file, public=public, encrypted=encrypted))
+        return tuple(found)
+
+    def choose(self, name: str | None = None) -> OwnKey:
+        """The key of that name, or the only one.
+
+        Raises:
+            KeyFileError: There is none, or there are several and none is named.
+        """
+        keys = self.held()
+        if not keys:
+            raise KeyFileError("there is no key to sign with", where=str(self.folder), advice=_MAKE_ONE)
+        chosen = [key for key in keys if name is None or name in (key.public.name, key.public.fingerprint)]
+        names = ", ".join(key.public.name for key in keys)
+        if not chosen:
+            raise KeyFileError(f"there is no key {name!r}", where="--key", advice=f"choose one of: {names}")
+        if len(chosen) > 1:
+            raise KeyFileError("there are several keys", where="--key", advice=f"choose one of: {names}")
+        return chosen[0]
+
+    def open(self, key: OwnKey, passphrase: Callable[[], str | None]) -> SigningKey:
+        """Take a key in hand.
+
+        Args:
+            key: Of this folder.
+            passphrase: Asked if the key needs one.
+
+        Raises:
+            KeyFileError: The file cannot be used, others may read it, or the passphrase is missing or wrong.
+        """
+        from cryptography.exceptions import UnsupportedAlgorithm
+        from cryptography.hazmat.primitives import serialization
+        from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
+
+        data = read_guarded(key.file, private=True)
+        at = str(key.file)
+        said = passphrase() if key.encrypted else None
+        if key.encrypted and not said:
+            raise KeyFileError(
+                "the key takes a passphrase",
+                where=at,
+                advice="type it when asked, or put it in FIELDHAND_KEY_PASSPHRASE",
+            )
+        try:
+            private = serialization.load_pem_private_key(data, said.encode() if said else None)
+        except (ValueError, TypeError, UnsupportedAlgorithm):
+            if key.encrypted:
+                raise KeyFileError("the passphrase is wrong, or the file is damaged", where=at) from None
+            raise KeyFileError("is no private key (PKCS #8, PEM)", where=at, advice=_MAKE_ONE) from None
+        if not isinstance(private, Ed25519PrivateKey):
+            raise KeyFileError("is a key of another kind, not Ed25519", where=at, advice=_MAKE_ONE)
+        opened = _signing(private, key.public.name)
+        if opened.public != key.public:
+            raise KeyFileError("does not belong to the public key beside it", where=at, advice=_MAKE_ONE)
+        return opened
+
+
+def _signing(private: Ed25519PrivateKey, name: str) -> SigningKey:
+    return SigningKey(public=PublicKey(raw=private.public_key().public_bytes_raw(), name=name), _private=private)
+
+
+def _file_name(name: str) -> str:
+    plain = re.sub(r"[^\w.-]+", "-", name.lower()).strip(".-")
+    if not plain:
+        raise KeyFileError("this is no name for a file", where="--name", advice="give a name with a letter in it")
+    return plain
+
+
+def _text(data: bytes, path: Path) -> str:
+    try:
+        return data.decode()
+    except UnicodeDecodeError:
+        raise KeyFileError("is not UTF-8 text", where=str(path), advice="check the path") from None

@@ -1,0 +1,113 @@
+"""``fieldhand approve``: a plan, read and approved by a person, as a signed file for the robot."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from fieldhand.cli.options import (
+    AnswerOption,
+    AssumeOption,
+    ConfirmOption,
+    JsonOption,
+    LangOption,
+    LenientOption,
+    PictureOption,
+    PlannerOption,
+    RobotOption,
+    SiteOption,
+    TranscriptOption,
+)
+
+if TYPE_CHECKING:
+    from fieldhand.language import Language
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Consent:
+    ask: bool
+    confirm: bool
+    by: str | None
+    quiet: bool
+    language: Language
+
+
+def approve(
+    request: Annotated[str, typer.Argument(help="A Task (.xml), or what the robot should do, in plain words.")],
+    site: SiteOption,
+    output: Annotated[Path, typer.Option("-o", "--output", help="Where to write the signed mission (.mission).")],
+    robot: RobotOption = "husky",
+    planner: PlannerOption = "auto",
+    key: Annotated[str | None, typer.Option("--key", help="Name of the key to sign with, if you have several.")] = None,
+    by: Annotated[str | None, typer.Option("--by", help="Who approves; else the name of the key.")] = None,
+    yes: Annotated[bool, typer.Option("--yes", "-y", help="Approve without asking.")] = False,
+    confirm: ConfirmOption = False,
+    picture: PictureOption = None,
+    answer: AnswerOption = None,
+    assume: AssumeOption = False,
+    transcript: TranscriptOption = None,
+    lenient: LenientOption = False,
+    lang: LangOption = None,
+    json: JsonOption = False,
+) -> None:
+    """Show what a mission will do and take, have it approved, and sign it for the robot."""
+    import os
+
+    from fieldhand import mission
+    from fieldhand.approval.keys.folder import config_folder
+    from fieldhand.approval.keys.signing import SigningKeys
+    from fieldhand.cli import show
+    from fieldhand.cli.approving import approve_plan, review_plan
+    from fieldhand.cli.asking import Replies, plan_or_read
+    from fieldhand.cli.bundles import require_ending
+    from fieldhand.cli.inputs import Ground, tell_left_out, write_whole
+    from fieldhand.cli.secrets import passphrase
+    from fieldhand.language import message, spoken
+    from fieldhand.robot.loader import parse_profile, profile_bytes
+    from fieldhand.site.geojson import site_files, site_of
+
+    require_ending(output)
+    language = spoken(lang, os.environ)
+    own = SigningKeys(config_folder(os.environ))
+    chosen = own.choose(key)
+    files = site_files(site)
+    profile, source = profile_bytes(robot)
+    ground = Ground(site=site_of(files, lenient=lenient), robot=parse_profile(profile, source=source))
+    tell_left_out(ground.site, lenient=lenient)
+    replies = Replies(given=tuple(answer or ()), assume=assume, ask=not json)
+    task, document, planned_by = plan_or_read(request, ground, planner, transcript, replies)
+    consent = _Consent(ask=not yes, confirm=confirm, by=by or chosen.public.name, quiet=json, language=language)
+    review = review_plan(ground, task, document, consent)
+    if picture is not None:
+        from fieldhand.cli.pictures import draw_plan
+
+        draw_plan(picture, review, ground, language)
+        if not json:
+            show.out.print(language.say(message("Map: {file}", file=str(picture))))
+    authorized = approve_plan(ground, review, consent, message("Approve and sign?"))
+    signing = own.open(chosen, passphrase)
+    data = mission.pack(
+        authorized,
+        ground.site,
+        ground.robot,
+        files=files,
+        lenient=lenient,
+        profile=profile,
+        key=signing,
+        planner=planned_by,
+    )
+    write_whole(output, data)
+    if json:
+        from fieldhand.cli.bundles import signed_record
+
+        show.print_json(signed_record(output, data, authorized.authorization, signing.public))
+        return
+    signed = message(
+        "Signed by {who} with the key {key}.", who=authorized.authorization.by, key=chosen.public.fingerprint
+    )
+    show.out.print()
+    show.out.print(language.say(signed))
+    show.out.print(language.say(message("Mission: {file}", file=str(output))))

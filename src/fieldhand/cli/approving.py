@@ -1,0 +1,124 @@
+"""The approval of a plan at the terminal: it is shown, warnings are confirmed, and the person says yes."""
+
+from __future__ import annotations
+
+import getpass
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Protocol
+
+from fieldhand import mission
+from fieldhand.cli import show
+from fieldhand.cli.inputs import Ground, may_ask
+from fieldhand.errors import NotApprovedError, NotConfirmedError
+from fieldhand.language import Language, Message, counted
+from fieldhand.task.frames import Task
+
+if TYPE_CHECKING:
+    from fieldhand.task.authorization import AuthorizedTask
+
+
+class Consent(Protocol):
+    """How a person's consent is had."""
+
+    @property
+    def ask(self) -> bool:
+        """Ask the person; else ``confirm`` alone decides about warnings."""
+        ...
+
+    @property
+    def confirm(self) -> bool:
+        """Every warning is confirmed without asking."""
+        ...
+
+    @property
+    def by(self) -> str | None:
+        """Who approves; None for the user who is logged in."""
+        ...
+
+    @property
+    def quiet(self) -> bool:
+        """Show nothing."""
+        ...
+
+    @property
+    def language(self) -> Language:
+        """In which the plan is read."""
+        ...
+
+
+def review_plan(ground: Ground, task: Task, document: bytes | None, consent: Consent) -> mission.Review:
+    """Check a Task and show what it will do.
+
+    Raises:
+        NotApprovedError: A check fails.
+    """
+    review = mission.review(task, ground.site, ground.robot, document=document)
+    if not consent.quiet:
+        show.show_review(review, consent.language)
+        if review.errors:
+            raise NotApprovedError("not approved: mend the errors above first")
+    elif review.errors:
+        raise NotApprovedError("; ".join(consent.language.say(p.line()) for p in review.errors))
+    return review
+
+
+def approve_plan(ground: Ground, review: mission.Review, consent: Consent, question: Message) -> AuthorizedTask:
+    """Have the warnings confirmed and the plan approved.
+
+    Args:
+        ground: For which it is approved.
+        review: As it was shown.
+        consent: Whose it is, and how it is asked for.
+        question: What a person is asked at the end.
+
+    Raises:
+        NotConfirmedError: There are warnings, and nobody is asked about them.
+        NotApprovedError: The person says no, or nobody is there.
+    """
+    if consent.ask and not may_ask():
+        raise NotApprovedError("nobody is here to approve", advice="give --yes if you have read the plan")
+    if review.warnings and not consent.confirm:
+        _confirm(consent.language.read(review.warnings), consent)
+    if consent.ask:
+        _ask(consent.language.say(question))
+    return mission.authorize(
+        review.task,
+        ground.site,
+        ground.robot,
+        by=consent.by or user_name(),
+        at=datetime.now(UTC),
+        confirmed=consent.language.read(review.warnings),
+        language=consent.language.code,
+    )
+
+
+def _confirm(warnings: tuple[str, ...], consent: Consent) -> None:
+    """Have the operator confirm the warnings; they were shown with the review.
+
+    Raises:
+        NotConfirmedError: Nobody is asked.
+        NotApprovedError: The operator says no.
+    """
+    if not consent.ask:
+        raise NotConfirmedError(warnings, advice="give --confirm, too, if the plan is right in spite of that")
+    question = counted(
+        "Is the plan right in spite of the warning above?",
+        "Is the plan right in spite of the {count} warnings above?",
+        len(warnings),
+    )
+    _ask(consent.language.say(question))
+
+
+def _ask(question: str) -> None:
+    import typer
+
+    if not typer.confirm(f"\n{question}"):
+        raise NotApprovedError("not approved, nothing was done")
+
+
+def user_name() -> str:
+    """Who is logged in."""
+    try:
+        return getpass.getuser()
+    except (KeyError, OSError):
+        return "unknown"

@@ -1,0 +1,103 @@
+"""Signed missions at the command line: opened, and held against what else was given."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import asdict
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from fieldhand import mission
+from fieldhand.errors import BundleError, InputError
+
+if TYPE_CHECKING:
+    from fieldhand.approval.bundle.opening import Bundle
+    from fieldhand.approval.keys.public import PublicKey
+    from fieldhand.task.authorization import Authorization
+
+ENDING = ".mission"
+
+
+def is_bundle(words: str) -> bool:
+    """Whether what was given is the name of a bundle, and no request."""
+    return words.lower().endswith(ENDING) and "\n" not in words
+
+
+def open_mission(file: str, site: str | None, robot: str | None, *, lenient: bool) -> Bundle:
+    """The mission of a bundle that somebody trusted has signed.
+
+    Args:
+        file: The bundle.
+        site, robot: What was given beside it, if anything: it must be what was approved.
+        lenient: How a site that was given is read.
+
+    Raises:
+        BundleError: It cannot be used, or was approved for another site or robot.
+        NotTrustedError: Nobody who is trusted here has signed it.
+    """
+    from fieldhand.approval.bundle.container import read_bundle_file
+    from fieldhand.approval.keys.folder import config_folder
+    from fieldhand.approval.keys.trust import TrustStore
+    from fieldhand.robot.loader import load_robot
+    from fieldhand.site.geojson import open_site
+
+    trusted = TrustStore(config_folder(os.environ))
+    bundle = mission.open_bundle(read_bundle_file(Path(file)), source=file, trusted=trusted, now=datetime.now(UTC))
+    if robot is not None and load_robot(robot).sha256 != bundle.robot.sha256:
+        raise _another("--robot", robot, bundle.robot.name)
+    if site is not None:
+        given = open_site(site, lenient=lenient)
+        if (given.sha256, given.content_sha256) != (bundle.site.sha256, bundle.site.content_sha256):
+            raise _another("--site", site, bundle.site.name)
+    return bundle
+
+
+def require_ending(path: Path) -> None:
+    """Refuse another ending than that by which a bundle is known.
+
+    Raises:
+        InputError: It has another one.
+    """
+    if path.suffix.lower() != ENDING:
+        raise InputError(
+            "a signed mission ends in .mission", where=str(path), advice=f"write it to {path.with_suffix(ENDING)}"
+        )
+
+
+def signed_record(path: Path, data: bytes, authorization: Authorization, public: PublicKey) -> dict[str, Any]:
+    """What was signed, as JSON."""
+    from hashlib import sha256
+
+    return {
+        "file": str(path),
+        "sha256": sha256(data).hexdigest(),
+        "bytes": len(data),
+        "authorization": asdict(authorization),
+        "key": {"name": public.name, "fingerprint": public.fingerprint},
+    }
+
+
+def tell_signer(bundle: Bundle) -> str:
+    """Who approved a mission, and with which key, in a line."""
+    approved, signer = bundle.manifest.approved, bundle.signer
+    return f"Approved by {approved.by} at {approved.at}, signed with the key of {signer.name} ({signer.fingerprint})"
+
+
+def require_site(site: str | None) -> str:
+    """The site, which only a bundle does without.
+
+    Raises:
+        InputError: None was given.
+    """
+    if site is None:
+        raise InputError("no site is given", where="--site", advice="give its file, or demo for the built-in orchard")
+    return site
+
+
+def _another(where: str, given: str, approved: str) -> BundleError:
+    return BundleError(
+        f"{given} is not what the mission was approved for ({approved}, byte by byte)",
+        where=where,
+        advice="leave it out, and what was approved is used; or approve the mission for this one",
+    )

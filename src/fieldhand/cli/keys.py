@@ -1,0 +1,180 @@
+"""``fieldhand keys``: make a key to sign with, and say on a robot whose keys it trusts."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from fieldhand.cli.options import JsonOption
+
+if TYPE_CHECKING:
+    from fieldhand.approval.keys.signing import OwnKey, SigningKeys
+    from fieldhand.approval.keys.trust import KnownKey, TrustStore
+
+keys = typer.Typer(
+    name="keys", help="Keys that approve missions: make one, and say whose a robot trusts.", no_args_is_help=True
+)
+
+
+@keys.command("new")
+def new(
+    name: Annotated[str | None, typer.Option("--name", help="Whose key it is; else the user who is logged in.")] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="Write the public line to this file, too, to be sent.")
+    ] = None,
+    passphrase: Annotated[
+        bool, typer.Option("--passphrase", help="Ask for a passphrase (or set FIELDHAND_KEY_PASSPHRASE).")
+    ] = False,
+    json: JsonOption = False,
+) -> None:
+    """Make a key to approve missions with; the private half stays on this machine."""
+    from fieldhand.cli import show
+    from fieldhand.cli.approving import user_name
+    from fieldhand.cli.inputs import write_file
+    from fieldhand.cli.secrets import new_passphrase
+
+    own, _ = _folders()
+    key, file = own.make(name or user_name(), new_passphrase(asked=passphrase))
+    public = key.public
+    if output is not None:
+        write_file(output, f"{public.line()}\n".encode())
+    if json:
+        record = {"name": public.name, "fingerprint": public.fingerprint, "public_key": public.line()}
+        show.print_json(record | {"file": str(file)})
+        return
+    show.out.print(f"A key for {public.name}, in {file.with_suffix('.key')}")
+    show.out.print("\nSend this line to whoever looks after the robot (it is no secret); it also stands in")
+    show.out.print(f"{file}:\n\n  {public.line()}\n")
+    show.out.print(
+        f"They give it to fieldhand keys trust, and compare the fingerprint with you:\n\n  {public.fingerprint}"
+    )
+
+
+@keys.command("list")
+def list_keys(json: JsonOption = False) -> None:
+    """List your own keys, and those that this machine trusts or has revoked."""
+    from fieldhand.cli import show
+
+    own, trust = _folders()
+    held, known = own.held(), tuple(trust.known().values())
+    if json:
+        show.print_json({"own": [_own_record(k) for k in held], "known": [_known_record(k) for k in known]})
+        return
+    show.out.print("Your own keys" if held else "No key of your own; fieldhand keys new makes one.")
+    for key in held:
+        guarded = "takes a passphrase" if key.encrypted else "no passphrase"
+        show.out.print(f"  {key.public.fingerprint}  {key.public.name}  ({guarded})")
+    show.out.print("\nTrusted here" if known else "\nNo key is trusted here; fieldhand keys trust FILE trusts one.")
+    for other in known:
+        state = "trusted" if other.revoked is None else f"REVOKED {other.revoked}"
+        show.out.print(f"  {other.fingerprint}  {other.name}  since {other.since}  {state}")
+
+
+@keys.command("trust")
+def trust(
+    file: Annotated[
+        Path, typer.Argument(help="The line of a public key, as keys new wrote it, or a mail that holds it.")
+    ],
+    name: Annotated[str | None, typer.Option("--name", help="Whose it is; else what the line says.")] = None,
+    fingerprint: Annotated[
+        str | None, typer.Option("--fingerprint", help="As its owner read it to you; another one is refused.")
+    ] = None,
+    yes: Annotated[bool, typer.Option("--yes", "-y", help="You have compared the fingerprint.")] = False,
+    json: JsonOption = False,
+) -> None:
+    """Run from now on what this key has signed."""
+    from datetime import UTC, datetime
+
+    from fieldhand.approval.keys.public import parse_fingerprint, parse_public
+    from fieldhand.approval.keys.rights import MAX_BYTES
+    from fieldhand.cli import show
+    from fieldhand.errors import KeyFileError
+
+    try:
+        with file.open("rb") as opened:
+            text = opened.read(MAX_BYTES).decode(errors="replace")
+    except OSError as error:
+        raise KeyFileError(f"cannot be read: {error.strerror}", where=str(file), advice="check the path") from None
+    public = parse_public(text, source=str(file))
+    if fingerprint is not None and parse_fingerprint(fingerprint) != public.fingerprint:
+        raise KeyFileError(
+            f"the key has another fingerprint: {public.fingerprint}",
+            where=str(file),
+            advice="do not trust it; ask its owner to send the line again",
+        )
+    whose = name or public.name
+    if not whose:
+        raise KeyFileError("the line does not say whose it is", where=str(file), advice="say it with --name")
+    if fingerprint is None and not yes:
+        _compared(public.fingerprint, whose)
+    known = _folders()[1].trust(public, name=whose, at=datetime.now(UTC))
+    if json:
+        show.print_json(_known_record(known))
+    else:
+        show.out.print(f"Trusted from now on: {known.name}, {known.fingerprint}")
+
+
+@keys.command("revoke")
+def revoke(
+    fingerprint: Annotated[str, typer.Argument(help="Of the key, as keys list shows it.")], json: JsonOption = False
+) -> None:
+    """Never again run what this key has signed, whenever it did."""
+    from datetime import UTC, datetime
+
+    from fieldhand.cli import show
+
+    known = _folders()[1].revoke(fingerprint, at=datetime.now(UTC))
+    if json:
+        show.print_json(_known_record(known))
+    else:
+        show.out.print(f"Revoked for good: {known.name}, {known.fingerprint}")
+
+
+def _folders() -> tuple[SigningKeys, TrustStore]:
+    import os
+
+    from fieldhand.approval.keys.folder import config_folder
+    from fieldhand.approval.keys.signing import SigningKeys
+    from fieldhand.approval.keys.trust import TrustStore
+
+    folder = config_folder(os.environ)
+    return SigningKeys(folder), TrustStore(folder)
+
+
+def _compared(fingerprint: str, whose: str) -> None:
+    """Have the fingerprint compared: whoever brought the file may have changed it."""
+    from fieldhand.cli import show
+    from fieldhand.cli.inputs import may_ask
+    from fieldhand.errors import NotApprovedError
+
+    if not may_ask():
+        raise NotApprovedError(
+            f"nobody is here to compare the fingerprint {fingerprint}",
+            advice="give --fingerprint as its owner read it to you, or --yes if you have compared it",
+        )
+    show.out.print(f"The fingerprint of this key: {fingerprint}")
+    if not typer.confirm(f"Has {whose} told you the same?"):
+        raise NotApprovedError("not trusted, nothing was changed")
+
+
+def _own_record(key: OwnKey) -> dict[str, Any]:
+    public = key.public
+    return {
+        "name": public.name,
+        "fingerprint": public.fingerprint,
+        "public_key": public.line(),
+        "file": str(key.file),
+        "encrypted": key.encrypted,
+    }
+
+
+def _known_record(key: KnownKey) -> dict[str, Any]:
+    return {
+        "name": key.name,
+        "fingerprint": key.fingerprint,
+        "state": key.state,
+        "since": key.since,
+        "revoked": key.revoked,
+    }

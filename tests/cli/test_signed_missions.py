@@ -1,0 +1,237 @@
+"""From a key to a finished mission on a robot that trusts it, at the command line; and nothing else in production."""
+
+from __future__ import annotations
+
+import io
+import json
+import sys
+from collections.abc import Callable
+from datetime import UTC, datetime
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.main import get_command
+
+from browser import browser, corner_warnings, corner_xml
+from command import Run
+from fieldhand.approval.keys.signing import SigningKeys
+from fieldhand.approval.keys.trust import TrustStore
+from fieldhand.cli import app, approving, inputs, main
+from fieldhand.errors import OutputError
+from fieldhand.task.codec import encode
+from signed import good, pack_mission, signing_key
+
+REQUEST = "Read CO2 at tree 4."
+Command = Callable[..., Run]
+
+
+@cache
+def _commands() -> Any:
+    """Every command, put together once: that takes longer than most of what they do here."""
+    return get_command(app.assemble())
+
+
+@pytest.fixture
+def fieldhand(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Command:
+    """The command line in this process, on a machine where nobody has made or trusted a key."""
+    monkeypatch.setenv("FIELDHAND_CONFIG", str(tmp_path / "config"))
+    monkeypatch.chdir(tmp_path)
+    commands = _commands()
+    monkeypatch.setattr(app, "assemble", lambda *_: commands)
+
+    def command(*words: str, typed: str = "") -> Run:
+        monkeypatch.setattr(sys, "argv", ["fieldhand", *words])
+        monkeypatch.setattr(sys, "stdin", io.StringIO(typed))
+        capsys.readouterr()
+        status: Any = 0
+        try:
+            main()
+        except SystemExit as end:
+            status = end.code
+        said = capsys.readouterr()
+        assert "Traceback" not in said.err
+        return Run(status=status or 0, out=said.out, err=said.err)
+
+    return command
+
+
+def approved(fieldhand: Command, *more: str) -> None:
+    run = fieldhand("approve", REQUEST, "--site", "demo", "-o", "m.mission", "--yes", *more)
+    assert run.status == 0, run.err
+
+
+def refuses(run: Run, status: int, *words: str) -> None:
+    assert run.status == status, (run.out, run.err)
+    lines = [line for line in run.err.splitlines() if line.startswith("fieldhand: ")]
+    assert len(lines) == 1, run.err
+    for word in words:
+        assert word in lines[0]
+
+
+def test_the_whole_way(fieldhand: Command, tmp_path: Path) -> None:
+    refuses(fieldhand("approve", REQUEST, "--site", "demo", "-o", "m.mission", "--yes"), 2, "fieldhand keys new")
+    assert not Path("m.mission").exists()
+    made = json.loads(fieldhand("keys", "new", "--name", "Ada", "--json").out)
+    assert "PRIVATE" not in json.dumps(made)
+    approved(fieldhand)
+    signed = Path("m.mission").read_bytes()
+
+    refuses(fieldhand("run", "m.mission"), 1, "not trusted here", made["fingerprint"])
+    Path("mail.txt").write_text(f"Hello,\n> {made['public_key']}\nAda\n")
+    wrong = signing_key(9).public.fingerprint
+    refuses(fieldhand("keys", "trust", "mail.txt", "--fingerprint", wrong), 2, "another fingerprint")
+    refuses(fieldhand("keys", "trust", "mail.txt"), 1, "nobody is here to compare")
+    assert json.loads(fieldhand("keys", "list", "--json").out)["known"] == []
+    trusted = fieldhand("keys", "trust", "mail.txt", "--fingerprint", made["fingerprint"], "--name", "Ada L.", "--json")
+    assert json.loads(trusted.out)["state"] == "trusted"
+
+    found = json.loads(fieldhand("inspect", "m.mission", "--json").out)
+    assert (found["runs"], found["problems"], found["signature"]["state"]) == (True, [], "trusted")
+    assert found["manifest"]["approved"]["by"] == "Ada"
+    assert any("read CO₂" in line for line in found["review"]["read_back"])
+    flown = fieldhand("run", "m.mission", "--production", "--seed", "3", "--events", "signed.jsonl")
+    assert flown.status == 0, flown.err
+    assert "signed with the key of Ada L." in flown.out
+    fieldhand("run", REQUEST, "--site", "demo", "--yes", "--seed", "3", "--events", "asked.jsonl")
+    assert Path("signed.jsonl").read_text() == Path("asked.jsonl").read_text()
+    assert Path("m.mission").read_bytes() == signed
+
+    assert fieldhand("keys", "revoke", made["fingerprint"].lower()).status == 0
+    assert "REVOKED" in fieldhand("keys", "list").out
+    refuses(fieldhand("run", "m.mission"), 1, "Ada L.", "revoked on")
+    told = fieldhand("inspect", "m.mission", "--json")
+    assert (told.status, json.loads(told.out)["signature"]["state"]) == (1, "revoked")
+    refuses(fieldhand("keys", "trust", "mail.txt", "--yes"), 2, "revoked")
+
+
+@pytest.fixture
+def trusting(fieldhand: Command) -> Command:
+    """A machine that has and trusts the key of Ada."""
+    key, _ = SigningKeys(Path("config")).make("Ada")
+    TrustStore(Path("config")).trust(key.public, name="Ada", at=datetime.now(UTC))
+    return fieldhand
+
+
+def test_production_takes_nothing_unsigned(trusting: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+    approved(trusting)
+    Path("task.xml").write_bytes(b"<task/>")
+    for words in ((REQUEST,), ("task.xml",), ("m.zip",)):
+        refuses(trusting("run", *words, "--site", "demo", "--yes", "--production"), 1, "only signed missions")
+    monkeypatch.setenv("FIELDHAND_PRODUCTION", "1")
+    for words in (("run", REQUEST, "--site", "demo", "--yes"), ("demo",)):
+        refuses(trusting(*words), 1, "only signed missions")
+    assert not Path("out").exists()
+    answer = browser().post(
+        "/api/run", {"xml": corner_xml(), "approved_by": "Ana", "confirmed": corner_warnings(), "seed": 3}
+    )
+    assert answer.status_code == 422
+    assert "only signed missions" in answer.json()["what"]
+    assert trusting("run", "m.mission").status == 0
+    monkeypatch.setenv("FIELDHAND_PRODUCTION", "perhaps")
+    refuses(trusting("run", REQUEST, "--site", "demo", "--yes"), 2, "neither yes nor no")
+
+
+def test_what_is_given_beside_a_mission_must_be_what_was_approved(trusting: Command) -> None:
+    approved(trusting)
+    assert trusting("run", "m.mission", "--site", "demo", "--robot", "husky").status == 0
+    refuses(trusting("run", "m.mission", "--robot", "amiga"), 2, "--robot", "amiga", "husky")
+    from fieldhand.site.geojson import demo_path
+
+    Path("demo.geojson").write_bytes(demo_path().read_bytes() + b"\n")
+    refuses(trusting("run", "m.mission", "--site", "demo.geojson"), 2, "--site", "Demo orchard")
+    refuses(trusting("run", REQUEST), 2, "no site is given")
+
+
+def test_a_mission_that_was_changed_is_broken(trusting: Command) -> None:
+    approved(trusting)
+    data = bytearray(Path("m.mission").read_bytes())
+    data[-300] ^= 4
+    Path("m.mission").write_bytes(data)
+    refuses(trusting("run", "m.mission"), 2, "m.mission")
+    told = trusting("inspect", "m.mission", "--json")
+    found = json.loads(told.out)
+    assert (told.status, found["runs"], found["signature"]["state"]) == (1, False, "broken")
+    shown = trusting("inspect", "m.mission")
+    refuses(shown, 1, "m.mission")
+    assert "would not run here" in shown.out
+
+
+def test_a_mission_of_a_stranger_is_shown_and_not_run(trusting: Command) -> None:
+    Path("m.mission").write_bytes(pack_mission(key=signing_key(5, "Mallory"), by="Ada"))
+    shown = trusting("inspect", "m.mission")
+    refuses(shown, 1, "not trusted here")
+    assert "Signature unknown" in shown.out
+    assert "read CO₂" in shown.out
+    refuses(trusting("run", "m.mission"), 1, "not trusted here")
+
+
+def test_a_missing_mission_and_another_ending_are_said(trusting: Command) -> None:
+    for command in ("run", "inspect"):
+        refuses(trusting(command, "none.mission"), 2, "none.mission", "no such file")
+    run = trusting("approve", REQUEST, "--site", "demo", "-o", "m.zip", "--yes")
+    refuses(run, 2, "m.zip", "m.mission")
+
+
+@pytest.mark.parametrize(("typed", "signed"), [("y\ny\n", True), ("n\n", False), ("y\nn\n", False)])
+def test_a_person_confirms_the_warnings_and_then_signs(
+    trusting: Command, typed: str, signed: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(approving, "may_ask", lambda: True)
+    Path("task.xml").write_bytes(_doubtful())
+    run = trusting("approve", "task.xml", "--site", "demo", "-o", "m.mission", "--picture", "map.png", typed=typed)
+    assert "Is the plan right in spite of the" in run.out
+    assert ("Approve and sign?" in run.out) == typed.startswith("y")
+    assert Path("map.png").read_bytes().startswith(b"\x89PNG")
+    assert Path("m.mission").exists() == signed
+    assert run.status == (0 if signed else 1)
+
+
+def _doubtful() -> bytes:
+    """A Task for two readings of which the request says three."""
+    from fieldhand.cli.inputs import open_ground
+    from fieldhand.planning.english.planner import EnglishPlanner
+    from fieldhand.planning.planner import Planned
+
+    ground = open_ground("demo", "husky")
+    outcome = EnglishPlanner().plan("Take 2 pictures of tree 4.", ground.site, ground.robot)
+    assert isinstance(outcome, Planned)
+    return encode(outcome.task).replace(b"Take 2", b"Take 3")
+
+
+def test_yes_alone_signs_nothing_that_is_warned_of(trusting: Command) -> None:
+    Path("task.xml").write_bytes(_doubtful())
+    words = ("approve", "task.xml", "--site", "demo", "-o", "m.mission", "--yes", "--json")
+    refuses(trusting(*words), 1, "not confirmed")
+    assert not Path("m.mission").exists()
+    record = json.loads(trusting(*words, "--confirm").out)
+    assert any("3 pictures" in warning for warning in record["authorization"]["confirmed"])
+    assert json.loads(trusting("inspect", "m.mission", "--json").out)["hashes"]["bundle"] == record["sha256"]
+
+
+def test_a_passphrase_comes_from_the_environment(fieldhand: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+    refuses(fieldhand("keys", "new", "--passphrase"), 2, "FIELDHAND_KEY_PASSPHRASE")
+    monkeypatch.setenv("FIELDHAND_KEY_PASSPHRASE", "correct horse")
+    assert fieldhand("keys", "new", "--name", "Ada").status == 0
+    assert b"ENCRYPTED" in Path("config/keys/ada.key").read_bytes()
+    approved(fieldhand)
+    for passphrase in ("wrong horse", ""):
+        monkeypatch.setenv("FIELDHAND_KEY_PASSPHRASE", passphrase)
+        run = fieldhand("approve", REQUEST, "--site", "demo", "-o", "other.mission", "--yes")
+        refuses(run, 2, "ada.key", "passphrase")
+    assert not Path("other.mission").exists()
+
+
+def test_a_mission_is_written_as_a_whole_or_not_at_all(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(_: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    path = tmp_path / "m.mission"
+    inputs.write_whole(path, b"the first")
+    with monkeypatch.context() as patch:
+        patch.setattr(inputs.os, "fsync", full)
+        with pytest.raises(OutputError, match="No space left"):
+            inputs.write_whole(path, good())
+    assert path.read_bytes() == b"the first"
+    assert list(tmp_path.iterdir()) == [path]
