@@ -266,7 +266,7 @@ def report(
     assessment: Assessment,
     forecast: Estimate,
 ) -> ReportFiles:
-    """Write the report of a mission: Markdown, a picture of the driven path, observations as CSV and GeoJSON.
+    """Write the report of a mission: one page, and the observations as CSV and GeoJSON.
 
     Raises:
         OutputError: The folder cannot be written.
