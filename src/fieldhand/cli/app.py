@@ -15,6 +15,7 @@ from fieldhand.cli.bench_planning import bench_planning
 from fieldhand.cli.check import check
 from fieldhand.cli.demo import demo
 from fieldhand.cli.plan import plan
+from fieldhand.cli.report import report
 from fieldhand.cli.robot import robot
 from fieldhand.cli.run import run
 from fieldhand.cli.site import site
@@ -30,9 +31,10 @@ def assemble(*others: Callable[..., None]) -> typer.Typer:
         add_completion=False,
         context_settings={"help_option_names": ["-h", "--help"]},
     )
-    commands: tuple[Callable[..., None], ...] = (plan, check, run, site, robot, demo, *others)
+    commands: tuple[Callable[..., None], ...] = (plan, check, run, report, site, demo, *others)
     for command in commands:
         app.command()(command)
+    app.add_typer(robot)
     bench.command("orienteering")(bench_orienteering)
     bench.command("guard")(bench_guard)
     bench.command("missions")(bench_missions)

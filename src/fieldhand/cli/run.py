@@ -39,6 +39,9 @@ def run(
         bool, typer.Option("--confirm", help="Confirm every warning without asking; --yes alone does not.")
     ] = False,
     by: Annotated[str | None, typer.Option("--by", help="Who approves; else the user who is logged in.")] = None,
+    no_history: Annotated[
+        bool, typer.Option("--no-history", help="Do not keep what the mission cost, for fieldhand robot calibrate.")
+    ] = False,
     answer: AnswerOption = None,
     assume: AssumeOption = False,
     transcript: TranscriptOption = None,
@@ -49,7 +52,7 @@ def run(
     """Plan, approve and carry out a mission in simulation, then judge it."""
     import os
 
-    from fieldhand import mission
+    from fieldhand import mission, past
     from fieldhand.cli.asking import Replies, plan_or_read
     from fieldhand.cli.flight import Orders, fly, parse_speed
     from fieldhand.cli.inputs import open_ground
@@ -72,6 +75,7 @@ def run(
         speed=pace,
         log=events,
         folder=output,
+        history=None if no_history else past.history_folder(os.environ),
         quiet=json,
         language=language,
     )

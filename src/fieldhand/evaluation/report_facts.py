@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
+from fieldhand.errors import InputError
 from fieldhand.forecast.estimate import BranchEstimate, Estimate
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.task.frames import Task
 from fieldhand.task.results import Acted, Decided, Ended, Event, Started
+
+#: What of an event must be a number for anything to be said of it. Positions may be unknown.
+_FIGURES = ("t", "leg_m", "travelled_m", "charge_percent")
 
 
 def captures(events: Sequence[Event]) -> list[Acted]:
@@ -47,3 +55,38 @@ def clock_time(seconds: float) -> str:
     minutes, rest = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours}:{minutes:02d}:{rest:02d}" if hours else f"{minutes}:{rest:02d}"
+
+
+def require_fitting(events: Sequence[Event], task: Task, site: Site, robot: RobotProfile, *, where: str) -> None:
+    """See whether a log can be reported as one of this Task, on this site, by this robot.
+
+    Raises:
+        InputError: It has no beginning, is of another, or its figures are no numbers; says which.
+    """
+    started = start_of(events)
+    if started is None:
+        raise InputError(
+            "has no line that says of which mission it is",
+            where=where,
+            advice="give the whole log, from its first line",
+        )
+    for what, wanted, found in (
+        ("Task", task.id, started.task),
+        ("robot", robot.name, started.robot),
+        ("site", site.name, started.site),
+    ):
+        if wanted != found:
+            raise InputError(
+                f"is of the {what} {found!r}, not {wanted!r}",
+                where=where,
+                advice=f"give the {what} that it was made with",
+            )
+    for number, event in enumerate(events, start=1):
+        for name in _FIGURES:
+            value = getattr(event, name, 0.0)
+            if not math.isfinite(value) or abs(value) > 1e12:
+                raise InputError(
+                    f"{name} of event {number} ({event.event}) is {value}, which no mission has",
+                    where=where,
+                    advice="was the log edited?",
+                )

@@ -69,6 +69,15 @@ def parse_profile(data: bytes, *, source: str = "profile") -> RobotProfile:
     return _profile(document, sha256=hashlib.sha256(data).hexdigest(), source=source)
 
 
+def profile_bytes(name_or_path: str) -> bytes:
+    """The text of a profile as it stands, by what it was loaded by (:attr:`RobotProfile.source`).
+
+    Raises:
+        ProfileError: There is no such robot any more, or it cannot be read.
+    """
+    return _bytes_of(name_or_path)[0]
+
+
 def _bytes_of(name_or_path: str) -> tuple[bytes, str]:
     names = builtin_names()
     if name_or_path in names:
