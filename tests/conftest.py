@@ -23,11 +23,13 @@ _LOCAL = ("127.0.0.1", "::1", "localhost", None, b"localhost")
 
 
 @pytest.fixture(scope="session", autouse=True)
-def _no_private_environment() -> Iterator[None]:
+def _no_private_environment(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Nor must a test leave anything in the developer's own folders."""
     with pytest.MonkeyPatch.context() as patch:
         for name in list(os.environ):
             if name.startswith(_PRIVATE) or name.lower() in _PROXIES:
                 patch.delenv(name)
+        patch.setenv("XDG_STATE_HOME", str(tmp_path_factory.mktemp("state")))
         yield
 
 

@@ -108,8 +108,13 @@ def make_planner(
 
 def transcript_path(environ: Mapping[str, str]) -> Path:
     """Where transcripts are kept unless the user says otherwise: in the user's state folder, added to."""
+    return state_folder(environ) / "transcripts.jsonl"
+
+
+def state_folder(environ: Mapping[str, str]) -> Path:
+    """Where Fieldhand keeps what is its user's own."""
     state = environ.get("XDG_STATE_HOME") or str(Path(environ.get("HOME") or "~").expanduser() / ".local" / "state")
-    return Path(state) / "fieldhand" / "transcripts.jsonl"
+    return Path(state) / "fieldhand"
 
 
 def plan(request: str, site: Site, robot: RobotProfile, planner: Planner, answers: tuple[Answer, ...] = ()) -> Outcome:
@@ -316,9 +321,9 @@ def report(
     robot: RobotProfile,
     events: Sequence[Event],
     assessment: Assessment,
-    forecast: Estimate,
+    forecast: Estimate | None,
 ) -> ReportFiles:
-    """Write the report of a mission: Markdown, a picture of the driven path, observations as CSV and GeoJSON.
+    """Write the report of a mission: one page, and the observations as CSV and GeoJSON.
 
     Raises:
         OutputError: The folder cannot be written.

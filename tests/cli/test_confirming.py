@@ -53,7 +53,7 @@ def test_yes_approves_and_confirms_nothing(task: str, quiet: tuple[str, ...]) ->
 def test_confirming_is_said_and_stands_in_the_report(task: str, tmp_path: Path) -> None:
     run = fieldhand("run", task, "--site", "demo", "--yes", "--confirm", "-o", "out", cwd=tmp_path)
     assert run.status == 0, run.err
-    assert "Confirmed: " in (tmp_path / "out" / "report.md").read_text()
+    assert "Warnings that were confirmed" in (tmp_path / "out" / "report.html").read_text()
 
 
 @pytest.mark.parametrize(("typed", "flown"), [("y\ny\n", True), ("n\n", False), ("y\nn\n", False)])

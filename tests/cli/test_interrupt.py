@@ -60,7 +60,7 @@ def test_a_signal_keeps_what_was_gathered(number: signal.Signals, tmp_path: Path
     assert events[-1]["event"] == "mission"
     assert events[-1]["status"] == "aborted"
     assert any(e["event"] == "action" and e["status"] == "success" for e in events)
-    assert (tmp_path / "out" / "report.md").exists()
+    assert (tmp_path / "out" / "report.html").exists()
 
 
 def test_a_mission_in_the_background_is_ended_by_a_kill_alone(tmp_path: Path) -> None:
@@ -85,4 +85,4 @@ def test_a_reader_that_goes_away_ends_no_mission(tmp_path: Path) -> None:
     assert "Traceback" not in err, err
     last = json.loads((tmp_path / "e.jsonl").read_text().splitlines()[-1])
     assert (last["event"], last["status"]) == ("mission", "completed")
-    assert (tmp_path / "out" / "report.md").exists()
+    assert (tmp_path / "out" / "report.html").exists()

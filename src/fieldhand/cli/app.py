@@ -18,6 +18,7 @@ from fieldhand.cli.demo import demo
 from fieldhand.cli.inspect import inspect
 from fieldhand.cli.keys import keys
 from fieldhand.cli.plan import plan
+from fieldhand.cli.report import report
 from fieldhand.cli.robot import robot
 from fieldhand.cli.run import run
 from fieldhand.cli.site import site
@@ -33,9 +34,10 @@ def assemble(*others: Callable[..., None]) -> typer.Typer:
         add_completion=False,
         context_settings={"help_option_names": ["-h", "--help"]},
     )
-    commands: tuple[Callable[..., None], ...] = (plan, check, approve, inspect, run, site, robot, demo, *others)
+    commands: tuple[Callable[..., None], ...] = (plan, check, approve, inspect, run, report, site, demo, *others)
     for command in commands:
         app.command()(command)
+    app.add_typer(robot)
     bench.command("orienteering")(bench_orienteering)
     bench.command("guard")(bench_guard)
     bench.command("missions")(bench_missions)

@@ -6,14 +6,16 @@ import math
 from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fieldhand import mission
+from fieldhand import mission, past
 from fieldhand.cli import show
 from fieldhand.cli.approving import approve_plan, review_plan
 from fieldhand.cli.inputs import Ground, write_file
-from fieldhand.errors import InputError
+from fieldhand.cli.show import note
+from fieldhand.errors import InputError, OutputError
 from fieldhand.language import ENGLISH, Language, message
 from fieldhand.task.frames import Task
 from fieldhand.task.results import Ended, Event
@@ -35,6 +37,7 @@ class Orders:
         speed: Simulated seconds in a second; None for as fast as it goes.
         log: Where to write the event log beside the one in ``folder``.
         folder: Where to leave Task, map, events and report.
+        history: Folder in which it is kept what missions cost the robot; None to keep nothing.
         quiet: Print one JSON object at the end and nothing else.
         language: In which the plan is read back.
     """
@@ -47,6 +50,7 @@ class Orders:
     speed: float | None = None
     log: Path | None = None
     folder: Path | None = None
+    history: Path | None = None
     quiet: bool = False
     language: Language = ENGLISH
 
@@ -158,6 +162,8 @@ def _conclude(
             orders.folder, authorized, ground.site, ground.robot, events, assessment, review.estimate
         )
         written = [*(orders.folder / name for name in ("task.xml", "map.png", "events.jsonl")), *files.paths]
+    if orders.history is not None:
+        _keep_history(orders.history, ground, events)
     status = 0 if ended is not None and ended.status == "completed" and assessment.success else 1
     if orders.quiet:
         show.print_json(show.mission_record(review.task, planner, ended, assessment.outcomes, written))
@@ -173,3 +179,11 @@ def _conclude(
         for path in written:
             show.out.print(f"  {path}")
     return status
+
+
+def _keep_history(folder: Path, ground: Ground, events: Sequence[Event]) -> None:
+    """A mission that was flown is not lost because what it cost cannot be kept: that is said, and no more."""
+    try:
+        past.keep_history(folder, ground.robot, events, datetime.now(UTC))
+    except OutputError as error:
+        note(str(error))

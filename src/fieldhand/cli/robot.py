@@ -1,19 +1,39 @@
-"""``fieldhand robot``: what a robot can do."""
+"""``fieldhand robot``: what a robot can do; ``fieldhand robot calibrate`` stands in a file of its own."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 
+from fieldhand.cli.calibrate import calibrate
 from fieldhand.cli.options import JsonOption
 
 if TYPE_CHECKING:
     from fieldhand.robot.model import RobotProfile
 
 
-def robot(
+class _ShowUnlessTold(TyperGroup):
+    """A group whose first word may be a robot: ``fieldhand robot husky`` is ``fieldhand robot show husky``."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        named = args and args[0] not in (*self.commands, *ctx.help_option_names)
+        return super().parse_args(ctx, ["show", *args] if named else args)
+
+
+robot = typer.Typer(
+    name="robot",
+    cls=_ShowUnlessTold,
+    help="Say what a robot can do (fieldhand robot husky), or fit its profile to what its missions cost.",
+    no_args_is_help=True,
+)
+robot.command("calibrate")(calibrate)
+
+
+@robot.command("show")
+def show_robot(
     name: Annotated[str, typer.Argument(help="Built-in robot (husky, amiga) or a profile file (YAML).")],
     xsd: Annotated[Path | None, typer.Option("--xsd", help="Write the schema of this robot's Tasks here.")] = None,
     json: JsonOption = False,

@@ -45,6 +45,9 @@ def run(
     production: Annotated[
         bool, typer.Option("--production", help="Run nothing but a mission that a trusted key has signed.")
     ] = False,
+    no_history: Annotated[
+        bool, typer.Option("--no-history", help="Do not keep what the mission cost, for fieldhand robot calibrate.")
+    ] = False,
     answer: AnswerOption = None,
     assume: AssumeOption = False,
     transcript: TranscriptOption = None,
@@ -55,7 +58,7 @@ def run(
     """Carry a mission out in simulation and judge it: plan and approve it first, unless it is signed."""
     import os
 
-    from fieldhand import mission
+    from fieldhand import mission, past
     from fieldhand.approval.production import require_unsigned_allowed
     from fieldhand.cli import show
     from fieldhand.cli.asking import Replies, plan_or_read
@@ -92,6 +95,7 @@ def run(
         speed=pace,
         log=events,
         folder=output,
+        history=None if no_history else past.history_folder(os.environ),
         quiet=json,
         language=language,
     )

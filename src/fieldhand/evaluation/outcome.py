@@ -119,8 +119,13 @@ def _not_called_for(tally: Tally) -> str:
 
 def _because(tally: Tally) -> str:
     """The last reason: what was left out earlier was out of reach for the like of it."""
-    reasons = [" ".join(reason.split()) for reason in tally.reasons if reason]
-    return f" ({textwrap.shorten(reasons[-1], _LONGEST_REASON, placeholder=' …')})" if reasons else ""
+    reasons = [reason for reason in tally.reasons if reason]
+    return because(reasons[-1]) if reasons else ""
+
+
+def because(reason: str) -> str:
+    """A reason as it stands in brackets behind what was left out: whoever says it elsewhere finds it by this."""
+    return f" ({textwrap.shorten(' '.join(reason.split()), _LONGEST_REASON, placeholder=' …')})"
 
 
 def _said(ended: Ended) -> str:

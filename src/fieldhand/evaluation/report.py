@@ -1,4 +1,4 @@
-"""The report of a mission: Markdown with a picture of the driven path, observations as CSV and GeoJSON."""
+"""The report of a mission: one page that stands alone, and the observations as CSV and GeoJSON beside it."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from pathlib import Path
 
 from fieldhand.errors import OutputError
 from fieldhand.evaluation.report_data import observations_csv, observations_geojson
-from fieldhand.evaluation.report_text import report_markdown
+from fieldhand.evaluation.report_left_out import not_reached
+from fieldhand.evaluation.report_text import tell
 from fieldhand.forecast.estimate import Estimate
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -21,15 +22,14 @@ from fieldhand.task.results import Event, GoalOutcome
 class ReportFiles:
     """Where a report was written."""
 
-    markdown: Path
-    picture: Path
+    page: Path
     csv: Path
     geojson: Path
 
     @property
     def paths(self) -> tuple[Path, ...]:
         """All of them, the one to read first first."""
-        return (self.markdown, self.picture, self.csv, self.geojson)
+        return (self.page, self.csv, self.geojson)
 
 
 def write_report(
@@ -40,8 +40,9 @@ def write_report(
     robot: RobotProfile,
     events: Sequence[Event],
     outcomes: Sequence[GoalOutcome],
-    authorization: Authorization,
+    authorization: Authorization | None,
     estimate: Estimate | None,
+    hashes: Sequence[tuple[str, str]] = (),
 ) -> ReportFiles:
     """Write the report of a mission into a folder, which is made if needed; files of the same names are replaced.
 
@@ -50,23 +51,21 @@ def write_report(
         task, site, robot: What was carried out, where and with what.
         events: The event log; it may have been cut off.
         outcomes: What came of each goal, from :func:`fieldhand.evaluation.outcome.judge`.
-        authorization: Who approved what.
+        authorization: Who approved what; None where that is not known.
         estimate: What it was expected to take; None leaves the comparison out.
+        hashes: SHA-256 of what the report rests on beside what was approved, each with its name.
 
     Raises:
         OutputError: The folder or a file in it cannot be written.
     """
     files = ReportFiles(
-        markdown=folder / "report.md",
-        picture=folder / "path.png",
-        csv=folder / "observations.csv",
-        geojson=folder / "observations.geojson",
+        page=folder / "report.html", csv=folder / "observations.csv", geojson=folder / "observations.geojson"
     )
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as fault:
         raise _cannot_write(folder, fault) from None
-    text = report_markdown(
+    told = tell(
         task=task,
         site=site,
         robot=robot,
@@ -74,13 +73,14 @@ def write_report(
         outcomes=outcomes,
         authorization=authorization,
         estimate=estimate,
+        hashes=hashes,
     )
+    from fieldhand.evaluation.report_maps import report_maps
+    from fieldhand.evaluation.report_page import page
+
     _write(files.csv, observations_csv(events))
     _write(files.geojson, observations_geojson(events))
-    from fieldhand.evaluation.report_picture import save_path_picture
-
-    save_path_picture(site, events, files.picture)
-    _write(files.markdown, text)
+    _write(files.page, page(told, report_maps(site, events, told.summaries, not_reached(task, events))))
     return files
 
 

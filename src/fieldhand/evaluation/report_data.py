@@ -9,6 +9,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from fieldhand.evaluation.report_facts import captures
 from fieldhand.task.results import Acted, Event
 
 COLUMNS = (
@@ -67,11 +68,6 @@ def observations_geojson(events: Sequence[Event]) -> str:
     """One point feature a capture; readings are properties by quantity, units by ``<quantity>_unit``."""
     features = [_feature(event) for event in captures(events)]
     return json.dumps({"type": "FeatureCollection", "features": features}, ensure_ascii=False, indent=1) + "\n"
-
-
-def captures(events: Sequence[Event]) -> list[Acted]:
-    """The captures of a log, those that failed included."""
-    return [e for e in events if isinstance(e, Acted)]
 
 
 def as_text(cell: str) -> str:

@@ -1,223 +1,282 @@
-"""The report of a mission as Markdown: what was asked, what came of it, what it took, what was read."""
+"""What the report of a mission says, in plain text, in the order in which it is read; how it looks is said elsewhere.
+
+Every sentence and heading of the report is made here or in the modules that this one calls, none in the page itself.
+"""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
-from fieldhand.evaluation.report_data import captures
-from fieldhand.forecast.estimate import BranchEstimate, Estimate, Figure
+from fieldhand.evaluation.outcome import because
+from fieldhand.evaluation.report_facts import branch_taken, captures, clock_time, end_of, start_of, used
+from fieldhand.evaluation.report_left_out import LeftOut, left_out
+from fieldhand.evaluation.report_places import PlaceNames
+from fieldhand.evaluation.report_readings import MOST_ROWS, ReadingRow, Summary, reading_rows, summaries
+from fieldhand.forecast.estimate import Estimate, Figure
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.account import NAMES, account, has_ranges
 from fieldhand.task.authorization import Authorization
 from fieldhand.task.frames import BudgetKind, Task
-from fieldhand.task.results import Decided, Ended, Event, Faulted, GoalOutcome, Shed, Started
-from fieldhand.task.words import (
-    capitalised,
-    listed,
-    say_action,
-    say_count,
-    say_duration,
-    say_name,
-    say_number,
-    say_quantity,
-)
+from fieldhand.task.results import Acted, Arrived, Decided, Event, Faulted, GoalOutcome, Shed
+from fieldhand.task.words import capitalised, listed, say_action, say_count, say_duration, say_number
 
-_MARKS = {"success": "✓ success", "failure": "✗ failure", "indeterminate": "? indeterminate"}
-#: Markup anywhere in a line, and markup at its beginning (heading, list, number of a list).
-_MARKDOWN, _AT_BEGINNING = re.compile(r"([\\`*_\[\]|<>&~$])"), re.compile(r"^(#|[-+=]|\d+(?=[.)]))")
-#: Longer tables stand in the CSV file alone; places beyond these are counted, not named.
-_MOST_ROWS, _NAMED = 200, 12
+_MARKS = {"success": "✓ met", "failure": "✗ not met", "indeterminate": "? not known"}
+#: More conditions and faults than the few are folded; more than the most are counted, not told.
+_FEW_LINES, _MOST_LINES = 12, 200
+
+#: Headings and heads of tables, by what stands below them.
+HEADINGS = {
+    "page": "Mission report",
+    "asked": "What was asked",
+    "words": "What became of the words",
+    "maps": "Map",
+    "readings": "Readings",
+    "goals": "What was done",
+    "left_out": "What was not done, and why",
+    "details": "Each decision",
+    "faults": "Faults",
+    "conditions": "Conditions",
+    "took": "What it took, and what was forecast",
+    "bars": "Dark: used. Grey: what nine missions in ten stay within. Orange: the average. Red: the budget.",
+    "table": "Every reading",
+    "warnings": "Warnings that were confirmed",
+    "record": "Record",
+}
+GOAL_HEAD = ("Goal", "Done", "Wanted", "Outcome")
+TABLE_HEAD = ("Time", "Place", "Reading", "Against its threshold")
 
 
-def report_markdown(
+@dataclass(frozen=True, kw_only=True)
+class GoalRow:
+    """A goal, how much of it was done, and why not more."""
+
+    goal: str
+    done: str
+    wanted: str
+    outcome: str
+    mark: str
+    why: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bar:
+    """What was used of a resource beside its forecast and its limit.
+
+    Attributes:
+        used, mean, high, limit: As parts of the bar's length, 0 to 1; None where it is not known.
+        words: The same in words.
+    """
+
+    name: str
+    value: str
+    words: tuple[str, ...]
+    used: float
+    mean: float | None
+    high: float | None
+    limit: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Folded:
+    """Lines, and where they are many a sentence that stands for them."""
+
+    said: str
+    lines: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Report:
+    """All that a report says, but its maps."""
+
+    title: str
+    subtitle: str
+    status: str
+    verdict: str
+    tiles: tuple[tuple[str, str], ...]
+    request: str
+    words: tuple[tuple[str, str], ...]
+    goals: tuple[GoalRow, ...]
+    left_out: tuple[LeftOut, ...]
+    faults: Folded
+    conditions: Folded
+    bars: tuple[Bar, ...]
+    summaries: tuple[Summary, ...]
+    rows: tuple[ReadingRow, ...]
+    more_rows: str
+    warnings: tuple[str, ...]
+    record: tuple[tuple[str, str], ...]
+
+
+def tell(
     *,
     task: Task,
     site: Site,
     robot: RobotProfile,
     events: Sequence[Event],
     outcomes: Sequence[GoalOutcome],
-    authorization: Authorization,
+    authorization: Authorization | None,
     estimate: Estimate | None,
-) -> str:
-    """The whole report; text that came from outside is escaped."""
-    blocks = [
-        "# Mission report",
-        f"> {escape(task.command.request) or '(no request)'}",
-        *_words(task),
-        verdict(events, outcomes),
-        "![The way that was driven, with its captures](path.png)",
-        "## Goals",
-        _goals(task, outcomes),
-        "## What it took",
-        _took(events, estimate),
-        *_given_up(events),
-        *_faults(events),
-        *_decisions(events),
-        "## Readings",
-        _readings(events),
-        "## Record",
-        _record(task, site, robot, events, authorization),
-    ]
-    return "\n\n".join(blocks) + "\n"
+    hashes: Sequence[tuple[str, str]] = (),
+) -> Report:
+    """What there is to say of a mission.
+
+    Args:
+        task, site, robot: What was carried out, where and with what.
+        events: The event log; it may have been cut off.
+        outcomes: What came of each goal.
+        authorization: Who approved what; None where that is not known.
+        estimate: What it was expected to take; None leaves the comparison out.
+        hashes: SHA-256 of what the report rests on, each with its name.
+    """
+    names = PlaceNames(site)
+    read = summaries(task, robot, events)
+    rows = reading_rows({s.quantity: s for s in read}, events, names)
+    status, verdict = _verdict(events, outcomes)
+    return Report(
+        title=HEADINGS["page"],
+        subtitle=_subtitle(robot, site, authorization),
+        status=status,
+        verdict=verdict,
+        tiles=_tiles(events),
+        request=task.command.request or "(no request)",
+        words=_words(task),
+        goals=tuple(_goal_rows(task, events, outcomes)),
+        left_out=left_out(task, events, names),
+        faults=_faults(events, names),
+        conditions=_conditions(events, names),
+        bars=tuple(_bars(task, events, estimate)),
+        summaries=read,
+        rows=rows[:MOST_ROWS],
+        more_rows=f"More than {MOST_ROWS:,} readings: all are in observations.csv." if len(rows) > MOST_ROWS else "",
+        warnings=() if authorization is None else authorization.confirmed,
+        record=tuple(_record(task, site, robot, events, authorization, hashes)),
+    )
 
 
-def _words(task: Task) -> Sequence[str]:
-    """What became of the words of the request; nothing where the Task does not say it."""
-    if not has_ranges(task):
-        return ()
-    found = {role: [p.text.strip() for p in account(task) if p.role == role] for role in NAMES}
-    lines = [f"- {NAMES[role]}: {escape('; '.join(texts))}" for role, texts in found.items() if texts]
-    return ("The words of the request, by what became of them:", "\n".join(lines))
+def _subtitle(robot: RobotProfile, site: Site, authorization: Authorization | None) -> str:
+    day = f", approved {authorization.at[:16].replace('T', ' ')}" if authorization else ""
+    return f"{robot.name} on {site.name}{day}"
 
 
-def escape(text: str) -> str:
-    """Text in which nothing is markup, on one line."""
-    line = _MARKDOWN.sub(r"\\\1", " ".join(text.split()))
-    begins = _AT_BEGINNING.match(line)
-    if begins is None:
-        return line
-    # A number is escaped behind its last digit, where its full stop or bracket stands.
-    cut = begins.end() if begins[0].isdigit() else 0
-    return f"{line[:cut]}\\{line[cut:]}"
-
-
-def verdict(events: Sequence[Event], outcomes: Sequence[GoalOutcome]) -> str:
-    """The outcome in one line."""
+def _verdict(events: Sequence[Event], outcomes: Sequence[GoalOutcome]) -> tuple[str, str]:
+    """How it ended, in a word, and the outcome in one line."""
     ended = end_of(events)
     met = sum(o.outcome == "success" for o in outcomes)
     goals = f"{met} of {say_count(len(outcomes), 'goal')} met" if outcomes else "no goals"
     if ended is None:
-        return f"**Cut off**: the log ends before the mission does; {goals} so far."
-    reason = f" ({escape(ended.reason)})" if ended.reason else ""
-    return f"**{capitalised(ended.status)}**{reason}: {goals}."
+        return "cut off", f"Cut off: the log ends before the mission does; {goals} so far."
+    reason = f" ({ended.reason})" if ended.reason else ""
+    short_of = ended.status == "completed" and met < len(outcomes)
+    return "short" if short_of else ended.status, f"{capitalised(ended.status)}{reason}: {goals}."
 
 
-def end_of(events: Sequence[Event]) -> Ended | None:
-    """The end of the mission, if the log has it."""
-    return next((e for e in reversed(events) if isinstance(e, Ended)), None)
+def _tiles(events: Sequence[Event]) -> tuple[tuple[str, str], ...]:
+    metres, seconds, percent = used(events)
+    made = sum(e.status == "success" for e in captures(events))
+    return (
+        (str(made), "capture" if made == 1 else "captures"),
+        (f"{metres:,.0f} m", "driven"),
+        (say_duration(seconds), "under way"),
+        (f"{percent:.1f} %", "of the battery"),
+    )
 
 
-def branch_taken(events: Sequence[Event], estimate: Estimate) -> BranchEstimate:
-    """The estimate of the branch that was taken; where it was not looked at, that of the most demanding one."""
-    answers = [(e.node, e.holds) for e in events if isinstance(e, Decided)]
-    for branch in estimate.branches:
-        if [(d.node, d.answer) for d in branch.decisions if d.kind == "holds"] == answers:
-            return branch
-    return estimate.worst
+def _words(task: Task) -> tuple[tuple[str, str], ...]:
+    """What became of the words of the request; nothing where the Task does not say it."""
+    if not has_ranges(task):
+        return ()
+    pieces = account(task)
+    found = {role: [p.text.strip() for p in pieces if p.role == role] for role in NAMES}
+    return tuple((capitalised(NAMES[role]), "; ".join(texts)) for role, texts in found.items() if texts)
 
 
-def _goals(task: Task, outcomes: Sequence[GoalOutcome]) -> str:
+def _goal_rows(task: Task, events: Sequence[Event], outcomes: Sequence[GoalOutcome]) -> Iterable[GoalRow]:
+    reasons = {because(e.reason) for e in events if isinstance(e, Shed) and e.reason}
     goals = {goal.id: goal for goal in task.command.goals}
-    rows = []
     for outcome in outcomes:
         goal = goals.get(outcome.goal)
-        name = capitalised(say_action(goal.action)) if goal else outcome.goal
         wanted = "?" if outcome.wanted is None else str(outcome.wanted)
         if goal and goal.optional:
             wanted = "as many as fit" if goal.expected is None else f"{goal.expected}, if the budget allows"
-        rows.append((escape(name), str(outcome.done), wanted, _MARKS[outcome.outcome], escape(outcome.why)))
-    return _table(("Goal", "Done", "Wanted", "Outcome", "Why"), rows) if rows else "None were asked for."
+        yield GoalRow(
+            goal=capitalised(say_action(goal.action)) if goal else outcome.goal,
+            done=str(outcome.done),
+            wanted=wanted,
+            outcome=outcome.outcome,
+            mark=_MARKS[outcome.outcome],
+            why=_without_reasons(outcome.why, reasons),
+        )
 
 
-def _took(events: Sequence[Event], estimate: Estimate | None) -> str:
-    """Driven distance, time and battery against the estimate of the branch that was taken."""
+def _without_reasons(why: str, reasons: Iterable[str]) -> str:
+    """Why no more was done, without what the section on what was left out says at length."""
+    for reason in reasons:
+        why = why.replace(reason, "")
+    return why
+
+
+def _faults(events: Sequence[Event], names: PlaceNames) -> Folded:
+    """What went wrong, captures that had to be tried again included."""
+    lines = []
+    for event in events:
+        if isinstance(event, Acted) and event.status != "success":
+            what = f"{say_action(event.action)} failed at {names.name(event.kind, event.place)}"
+            lines.append(f"{clock_time(event.t)}: {what} (attempt {event.attempt}): {event.what}")
+        elif isinstance(event, Faulted):
+            worked = " (worked around)" if event.handled else ""
+            lines.append(f"{clock_time(event.t)}: {event.what or event.fault}{worked}")
+    return _folded(lines, say_count(len(lines), "fault"))
+
+
+def _conditions(events: Sequence[Event], names: PlaceNames) -> Folded:
+    lines, held, at = [], 0, ""
+    for event in events:
+        if isinstance(event, Arrived):
+            at = f" at {names.name(event.kind, event.place)}"
+        elif isinstance(event, Decided):
+            held += event.holds
+            lines.append(f"{clock_time(event.t)}{at}: {event.why}")
+    return _folded(lines, f"{say_count(len(lines), 'condition')} tested: {held} held, {len(lines) - held} did not.")
+
+
+def _folded(lines: Sequence[str], said: str) -> Folded:
+    """Lines as they are where they are few."""
+    more = len(lines) - _MOST_LINES
+    kept = (*lines[:_MOST_LINES], f"and {more} more in the event log") if more > 0 else tuple(lines)
+    return Folded(said=said if len(lines) > _FEW_LINES else "", lines=kept)
+
+
+def _bars(task: Task, events: Sequence[Event], estimate: Estimate | None) -> Iterable[Bar]:
+    """Driven distance, time and battery against the forecast of the branch that was taken, and against the budget."""
     metres, seconds, percent = used(events)
     branch = branch_taken(events, estimate) if estimate else None
-
-    def row(name: str, value: str, figure: Figure | None, unit: str) -> tuple[str, ...]:
-        if figure is None:
-            return (name, value, "", "")
-        said = (say_duration(figure.mean), say_duration(figure.p90)) if unit == "s" else None
-        digits = 1 if unit == "%" else 0
-        mean, high = said or (f"{figure.mean:.{digits}f} {unit}", f"{figure.p90:.{digits}f} {unit}")
-        return (name, value, mean, high)
-
-    rows = [
-        row("Distance", f"{metres:.0f} m", branch.metres if branch else None, "m"),
-        row("Time", say_duration(seconds), branch.seconds if branch else None, "s"),
-        row("Battery", f"{percent:.1f} %", branch.percent if branch else None, "%"),
-    ]
-    return _table(("", "Used", "Expected", "At most, 9 times in 10"), rows)
+    limits: dict[BudgetKind, float] = {b.kind: b.limit for b in task.constraints.budgets}
+    yield _bar("Distance", metres, branch.metres if branch else None, limits.get("distance_m"), "m")
+    yield _bar("Time", seconds, branch.seconds if branch else None, limits.get("duration_s"), "s")
+    yield _bar("Battery", percent, branch.percent if branch else None, limits.get("energy_percent"), "%")
 
 
-def used(events: Sequence[Event]) -> tuple[float, float, float]:
-    """Metres, seconds and percent of a full battery that the log shows as used."""
-    metres = max((getattr(e, "travelled_m", 0.0) for e in events), default=0.0)
-    seconds = max((e.t for e in events), default=0.0)
-    started = next((e for e in events if isinstance(e, Started)), None)
-    charges = [e.charge_percent for e in events if hasattr(e, "charge_percent")]
-    percent = started.charge_percent - charges[-1] if started and charges else 0.0
-    return metres, seconds, max(0.0, percent)
+def _bar(name: str, value: float, figure: Figure | None, limit: float | None, unit: str) -> Bar:
+    amounts = [value, *([figure.mean, figure.p90] if figure else []), *([] if limit is None else [limit])]
+    whole = max(1.04 * max(amounts), 1e-9)
 
+    def say(amount: float) -> str:
+        return say_duration(amount) if unit == "s" else f"{amount:,.{1 if unit == '%' else 0}f} {unit}"
 
-def _given_up(events: Sequence[Event]) -> Iterable[str]:
-    shed = [e for e in events if isinstance(e, Shed)]
-    if not shed:
-        return
-    yield "## Given up to stay inside the budget"
-    yield "\n".join(
-        f"- {'optional' if e.optional else '**mandatory**'}: {_places(e.places)}: {escape(e.reason)}" for e in shed
+    words = [f"forecast {say(figure.mean)} on average, at most {say(figure.p90)} nine times in ten"] if figure else []
+    if limit is not None:
+        words.append(f"budget {say(limit)}")
+    return Bar(
+        name=name,
+        value=say(value),
+        words=tuple(words),
+        used=value / whole,
+        mean=figure.mean / whole if figure else None,
+        high=figure.p90 / whole if figure else None,
+        limit=None if limit is None else limit / whole,
     )
-
-
-def _places(places: Sequence[str]) -> str:
-    if not places:
-        return "a place"
-    named = [escape(p) for p in places[:_NAMED]]
-    if len(places) > _NAMED:
-        named.append(f"{len(places) - _NAMED} more")
-    return f"{say_count(len(places), 'place')} ({listed(named)})"
-
-
-def _faults(events: Sequence[Event]) -> Iterable[str]:
-    faults = [e for e in events if isinstance(e, Faulted)]
-    if not faults:
-        return
-    yield "## Faults"
-    yield "\n".join(
-        f"- at {clock_time(e.t)}: {escape(e.what or e.fault)}{' (worked around)' if e.handled else ''}" for e in faults
-    )
-
-
-def _decisions(events: Sequence[Event]) -> Iterable[str]:
-    decided = [e for e in events if isinstance(e, Decided)]
-    if not decided:
-        return
-    yield "## Conditions"
-    rows = "\n".join(f"- at {clock_time(e.t)}: {escape(e.why)}" for e in decided[:_MOST_ROWS])
-    more = len(decided) - _MOST_ROWS
-    yield rows + (f"\n- and {more} more in the event log" if more > 0 else "")
-
-
-def _readings(events: Sequence[Event]) -> str:
-    made = [e for e in captures(events) if e.status == "success"]
-    if not made:
-        return "Nothing was captured."
-    rows = []
-    for event in made[:_MOST_ROWS]:
-        values = [
-            f"{say_name(q)} {say_quantity(float(f'{v:.4g}'), event.units.get(q, ''))}"
-            for q, v in sorted(event.readings.items())
-        ]
-        rows.append(
-            (
-                clock_time(event.t),
-                escape(f"{event.kind} {event.place}"),
-                escape(say_action(event.action)),
-                escape("; ".join(values)),
-            )
-        )
-    table = _table(("Time", "Place", "Action", "Reading"), rows)
-    more = len(made) - _MOST_ROWS
-    return table + (f"\n\nand {more} more in observations.csv" if more > 0 else "")
-
-
-def clock_time(seconds: float) -> str:
-    """Minutes and seconds since the mission began: "3:07"."""
-    minutes, rest = divmod(round(seconds), 60)
-    return f"{minutes}:{rest:02d}"
 
 
 _BUDGETS: dict[BudgetKind, str] = {
@@ -227,24 +286,38 @@ _BUDGETS: dict[BudgetKind, str] = {
 }
 
 
-def _record(task: Task, site: Site, robot: RobotProfile, events: Sequence[Event], authorization: Authorization) -> str:
-    started = next((e for e in events if isinstance(e, Started)), None)
+def _record(
+    task: Task,
+    site: Site,
+    robot: RobotProfile,
+    events: Sequence[Event],
+    authorization: Authorization | None,
+    hashes: Sequence[tuple[str, str]],
+) -> Iterable[tuple[str, str]]:
+    started = start_of(events)
+    yield "Task", task.id
     seed = f", simulated with seed {started.seed}" if started and started.seed is not None else ""
-    lines = [
-        f"Task `{task.id}` for {escape(robot.name)} on {escape(site.name)}{seed}.",
-        f"Approved by {escape(authorization.by)} at {escape(authorization.at)}.",
-        f"SHA-256: Task `{authorization.task_sha256}`, site `{authorization.site_sha256}`, "
-        f"robot `{authorization.robot_sha256}`.",
+    yield "Robot", f"{robot.name}{seed}"
+    yield "Site", site.name
+    if authorization is None:
+        yield "Approved by", "not known: the report was made from a log and a Task document"
+    else:
+        yield "Approved by", f"{authorization.by}, {authorization.at}"
+    budgets = [
+        f"{say_number(b.limit)} {_BUDGETS[b.kind]}"
+        f" ({say_number(100 * b.failure_probability)} % chance of more accepted)"
+        for b in task.constraints.budgets
     ]
-    lines += [f"Confirmed: {escape(text)}" for text in authorization.confirmed]
-    lines += [f"Assumed: {escape(text)}" for text in task.command.assumptions]
-    budgets = [f"{say_number(b.limit)} {_BUDGETS[b.kind]}" for b in task.constraints.budgets]
     if budgets:
-        lines.append(f"Budget: at most {listed(budgets)}.")
-    return "\n\n".join(lines)
-
-
-def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table; its cells are escaped by the caller."""
-    lines = [f"| {' | '.join(cells)} |" for cells in (head, ["---"] * len(head), *rows)]
-    return "\n".join(lines)
+        yield "Budget", f"at most {listed(budgets)}"
+    for text in task.command.assumptions:
+        yield "Assumed", text
+    if authorization is not None:
+        hashes = (
+            ("Task", authorization.task_sha256),
+            ("site", authorization.site_sha256),
+            ("robot", authorization.robot_sha256),
+            *hashes,
+        )
+    for name, value in hashes:
+        yield f"SHA-256 of the {name}", value

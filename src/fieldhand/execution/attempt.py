@@ -235,7 +235,17 @@ class Attempt:
             length_m=drive.length_m,
             speed_m_s=self.robot.speed_m_s if wanted is None else min(wanted, self.robot.speed_m_s),
         )
-        self.emit(Driving(t=self.t, node=node, kind=place.kind, place=place.id, planned_m=drive.length_m, path=degrees))
+        self.emit(
+            Driving(
+                t=self.t,
+                node=node,
+                kind=place.kind,
+                place=place.id,
+                planned_m=drive.length_m,
+                path=degrees,
+                speed_m_s=goal.speed_m_s,
+            )
+        )
         self._open = OpenDrive(node=node, place=place)
         self.driver.start_drive(goal)
 

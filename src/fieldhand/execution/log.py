@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
 from pathlib import Path
 from types import TracebackType
 from typing import TextIO
 
-from fieldhand.errors import InputError, OutputError
+from fieldhand.errors import InputError, OutputError, TaskError
 from fieldhand.task.results import Event, from_json, to_json
+
+#: A mission of ten thousand captures is 10 MB; a file beyond this is something else.
+MAX_BYTES = 500_000_000
 
 
 class EventLog:
@@ -65,23 +69,33 @@ class EventLog:
         )
 
 
-def read_events(path: Path) -> tuple[Event, ...]:
+def read_events(path: Path, *, whole: bool = True) -> tuple[Event, ...]:
     """The events of a log, in order; those of types that this version does not know are left out.
+
+    Args:
+        path: The file.
+        whole: Refuse a last line that was cut off in mid-write; else it is left out.
 
     Raises:
         InputError: The file cannot be read.
         TaskError: A line is no event; says which.
     """
     try:
+        if path.stat().st_size > MAX_BYTES:
+            raise InputError(
+                f"is larger than {MAX_BYTES:,} bytes", where=str(path), advice="give a log that --events wrote"
+            )
         text = path.read_text(encoding="utf-8")
     except (OSError, ValueError) as error:
         why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         raise InputError(
             f"the event log cannot be read: {why}", where=str(path), advice="give a log that --events wrote"
         ) from None
-    events = (
-        from_json(line, where=f"{path}, line {number}")
-        for number, line in enumerate(text.split("\n"), start=1)
-        if line.strip()
-    )
+    lines = text.split("\n")
+    # Every line ends in a line break once it is written whole.
+    last = [] if whole else [lines.pop()]
+    events = [from_json(line, where=f"{path}, line {k}") for k, line in enumerate(lines, start=1) if line.strip()]
+    for line in last:
+        with contextlib.suppress(TaskError):
+            events.append(from_json(line))
     return tuple(event for event in events if event is not None)

@@ -11,9 +11,13 @@ import dataclasses
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, Literal
+from functools import cache
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from fieldhand.errors import TaskError
+
+if TYPE_CHECKING:
+    from pydantic import TypeAdapter
 
 MissionStatus = Literal["completed", "returned", "faulted", "aborted"]
 
@@ -47,7 +51,7 @@ class Visiting:
 
 @dataclass(frozen=True, kw_only=True)
 class Driving:
-    """A drive begins; ``path`` holds its corners as (lat, lon)."""
+    """A drive begins; ``path`` holds its corners as (lat, lon), ``speed_m_s`` how fast the robot was told to drive."""
 
     event: ClassVar[str] = "drive"
     t: float
@@ -56,6 +60,7 @@ class Driving:
     place: str
     planned_m: float
     path: tuple[tuple[float, float], ...]
+    speed_m_s: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -191,9 +196,23 @@ def from_json(line: str, *, where: str = "") -> Event | None:
         if kind is None:
             return None
         known = {f.name for f in dataclasses.fields(kind)}
-        return kind(**{key: _frozen(value) for key, value in record.items() if key in known})
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise TaskError(f"not an event: {error}", where=where, advice="was the log cut off or edited?") from None
+        return _checked(kind, {key: _frozen(value) for key, value in record.items() if key in known})
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+        raise TaskError(
+            f"not an event: {' '.join(str(error).split())[:200]}", where=where, advice="was the log cut off or edited?"
+        ) from None
+
+
+def _checked(kind: type[Event], record: dict[str, Any]) -> Event:
+    """An event whose fields are what they are declared to be; a log may come from anywhere."""
+    return _adapters()[kind.event].validate_python(record)
+
+
+@cache
+def _adapters() -> dict[str, TypeAdapter[Event]]:
+    from pydantic import TypeAdapter
+
+    return {name: TypeAdapter(kind) for name, kind in _TYPES.items()}
 
 
 def _frozen(value: Any) -> Any:

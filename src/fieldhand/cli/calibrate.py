@@ -1,0 +1,124 @@
+"""``fieldhand robot calibrate``: the profile of a robot, fitted to what its missions cost."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from fieldhand.cli.options import JsonOption
+
+if TYPE_CHECKING:
+    from fieldhand.evaluation.calibration.figures import Fitted
+    from fieldhand.evaluation.calibration.fit import Calibration
+    from fieldhand.robot.model import RobotProfile
+
+
+def calibrate(
+    name: Annotated[str, typer.Argument(metavar="ROBOT", help="Built-in robot or a profile file (YAML).")] = "husky",
+    events: Annotated[
+        list[Path] | None, typer.Argument(help="Event logs of its missions; else those that were kept.")
+    ] = None,
+    output: Annotated[Path | None, typer.Option("-o", "--out", help="Write the new profile (YAML) here.")] = None,
+    simulated: Annotated[
+        bool, typer.Option("--simulated", help="Fit to simulated missions that were kept, not to driven ones.")
+    ] = False,
+    json: JsonOption = False,
+) -> None:
+    """Fit speed, energy, durations and the spread of legs to past missions, and say how well that predicts them."""
+    import os
+    from datetime import UTC, datetime
+
+    from fieldhand import past
+    from fieldhand.cli import show
+    from fieldhand.cli.inputs import write_file
+    from fieldhand.robot.loader import load_robot
+
+    robot = load_robot(name)
+    missions = past.missions_of(robot, events or (), past.history_folder(os.environ), simulated=simulated)
+    found = past.calibrate(robot, missions)
+    if output is not None:
+        write_file(output, past.calibrated_profile(robot, found, at=datetime.now(UTC)))
+    if json:
+        show.print_json(_record(robot, found, output))
+        return
+    for line in _lines(robot, found):
+        show.out.print(line, highlight=False)
+    if output is not None:
+        show.out.print(f"\nProfile: {output}")
+        show.out.print("  It is another profile than before: what was approved for the old one must be approved again.")
+    else:
+        show.out.print("\nGive -o profile.yaml to write the new profile.")
+
+
+def _rows(robot: RobotProfile, found: Calibration) -> Iterator[tuple[str, float, Fitted | None, str]]:
+    """Name, value in the profile, what was fitted, and unit of each figure."""
+    fit, energy = found.fit, robot.energy
+    yield "leg cost, alpha", robot.leg_cost.alpha, fit.legs.alpha, ""
+    yield "metres driven for one planned", 1.0, fit.legs.scale, ""
+    yield "speed", robot.speed_m_s, fit.speed, "m/s"
+    yield "driving", energy.drive_j_per_m, fit.drive, "J/m"
+    yield "idle", energy.idle_w, fit.idle, "W"
+    for action in robot.actions:
+        yield f"{action.name}, duration", action.duration_s, fit.durations.get(action.name), "s"
+        yield f"{action.name}, energy", action.energy_j, fit.energies.get(action.name), "J"
+
+
+def _lines(robot: RobotProfile, found: Calibration) -> Iterator[str]:
+    from fieldhand.task.words import say_count
+
+    yield (
+        f"{robot.name}: {say_count(found.missions, 'mission')}, {say_count(found.legs, 'leg')},"
+        f" {say_count(found.captures, 'capture')}"
+    )
+    for why, count in found.left_out.items():
+        yield f"  left out: {count} ({why})"
+    yield "Fitted (with 95 % confidence)"
+    for what, before, fitted, unit in _rows(robot, found):
+        if fitted is None:
+            yield f"  {what:<38} {before:>10.4g} {unit:<4} kept"
+            continue
+        yield (
+            f"  {what:<38} {fitted.value:>10.4g} {unit:<4} {fitted.low:.4g} to {fitted.high:.4g}"
+            f" from {fitted.count}; was {before:.4g}"
+        )
+    for why in found.fit.kept:
+        yield f"  kept {why}"
+    if found.fit.stretch != 1.0:
+        yield (
+            f"  A leg is {100 * (found.fit.stretch - 1):+.1f} % longer than planned: speed and energy in the profile"
+            " are those of a metre planned. A distance budget is still held against the odometer."
+        )
+    if found.fit.legs.likely < 0.01:
+        yield "  The legs do not spread as the model says (Kolmogorov-Smirnov, p < 0.01): take its chances with care."
+    seconds, percent = found.actual
+    yield "Predicted against actual (after: by fits that had not seen what they predict)"
+    for when, quality in (("before", found.before), ("after", found.after)):
+        yield (
+            f"  {when:<7} time {_off(quality.seconds, seconds)}, {quality.errors[0]:.2f} s a step;"
+            f" battery {_off(quality.percent, percent)}, {quality.errors[1]:.4f} % a step;"
+            f" {100 * quality.beyond:.0f} % of the legs longer than nine in ten should be"
+        )
+
+
+def _off(predicted: float, actual: float) -> str:
+    return f"{100 * (predicted / actual - 1):+.1f} %" if actual else "unknown"
+
+
+def _record(robot: RobotProfile, found: Calibration, output: Path | None) -> dict[str, Any]:
+    from dataclasses import asdict
+
+    return {
+        "robot": robot.name,
+        "robot_sha256": robot.sha256,
+        **{key: value for key, value in asdict(found).items() if key != "fit"},
+        "figures": {
+            what: {"before": before, "unit": unit, **({} if fitted is None else asdict(fitted))}
+            for what, before, fitted, unit in _rows(robot, found)
+        },
+        "likely": found.fit.legs.likely,
+        "kept": list(found.fit.kept),
+        "profile": None if output is None else str(output),
+    }

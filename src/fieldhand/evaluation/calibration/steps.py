@@ -1,0 +1,161 @@
+"""Legs and captures of a mission with what they cost, from its event log."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from fieldhand.errors import InputError
+from fieldhand.robot.model import RobotProfile
+from fieldhand.task.results import Acted, Arrived, Decided, Driving, Ended, Event, Shed, Started, Visiting, to_json
+
+StepKind = Literal["leg", "capture", "rest"]
+
+#: A capture begins where one of these ends; behind a fault, a pause or a power cut nobody knows since when it took.
+_PROMPT = (Arrived, Acted, Decided, Visiting, Shed)
+#: Percent by which a charge may seem to rise between two readings of it.
+_NOISE_PERCENT = 0.5
+
+
+@dataclass(frozen=True, kw_only=True)
+class Step:
+    """What lies between two readings of the charge: a leg, a capture, or the rest.
+
+    Attributes:
+        kind: What it is.
+        name: The action of a capture; else empty.
+        planned_m: Length of the leg as planned.
+        metres: Driven, by odometry; of a leg the leg's own.
+        seconds: Of the leg or the capture itself; nan where the log does not tell.
+        moved_m, whole_s, percent: Driven, passed and used of a full battery since the charge was read before.
+        sure: Whether those three are known.
+        speed_m_s: That the robot was told to drive; nan where the log does not say.
+        done: Whether the leg arrived or the capture succeeded.
+    """
+
+    kind: StepKind
+    name: str = ""
+    planned_m: float = 0.0
+    metres: float = 0.0
+    seconds: float = math.nan
+    moved_m: float = 0.0
+    whole_s: float = 0.0
+    percent: float = 0.0
+    sure: bool = True
+    speed_m_s: float = math.nan
+    done: bool = True
+
+
+@dataclass(frozen=True, kw_only=True)
+class Driven:
+    """A mission as it is kept: who drove it, and its steps.
+
+    Attributes:
+        key: SHA-256 of its events: the same mission is kept once.
+        simulated: Whether it took place in the simulation.
+        left_out: Steps whose figures are no numbers.
+    """
+
+    key: str
+    task: str
+    robot: str
+    simulated: bool
+    steps: tuple[Step, ...]
+    left_out: int = 0
+
+
+def steps_of(events: Sequence[Event], *, where: str = "the log") -> Driven:
+    """The steps of a mission.
+
+    Raises:
+        InputError: The log has no beginning, so that nobody knows which robot it is of.
+    """
+    started = next((e for e in events if isinstance(e, Started)), None)
+    if started is None:
+        raise InputError("has no line that says which robot it is of", where=where, advice="give a whole event log")
+    found = _Reader(started).read(events)
+    sound = tuple(step for step in found if _finite(step))
+    digest = hashlib.sha256("\n".join(to_json(e) for e in events).encode("utf-8", errors="replace"))
+    return Driven(
+        key=digest.hexdigest(),
+        task=started.task,
+        robot=started.robot,
+        simulated=started.seed is not None,
+        steps=sound,
+        left_out=len(found) - len(sound),
+    )
+
+
+def predicted(step: Step, robot: RobotProfile) -> tuple[float, float]:
+    """Seconds and percent of a full battery that a profile expects of a leg or a capture."""
+    if step.kind == "leg":
+        speed = robot.speed_m_s if math.isnan(step.speed_m_s) else min(robot.speed_m_s, step.speed_m_s)
+        seconds = step.planned_m / speed
+        return seconds, robot.percent(step.planned_m, seconds)
+    action = robot.action.get(step.name)
+    if action is None:
+        return 0.0, 0.0
+    return action.duration_s, robot.percent(0.0, action.duration_s, action.energy_j)
+
+
+def _finite(step: Step) -> bool:
+    numbers = (step.planned_m, step.metres, step.moved_m, step.whole_s, step.percent)
+    return all(math.isfinite(n) for n in numbers) and not math.isinf(step.seconds) and step.whole_s >= 0
+
+
+class _Reader:
+    """Goes along the log and remembers when the charge was read last."""
+
+    def __init__(self, started: Started) -> None:
+        self._charge, self._at_s, self._travelled = started.charge_percent, started.t, 0.0
+        self._astray = False
+        self._steps: list[Step] = []
+
+    def read(self, events: Sequence[Event]) -> list[Step]:
+        before: Event | None = None
+        for event in events:
+            match event:
+                case Driving():
+                    # Until the next arrival nobody knows how far it came.
+                    self._astray = True
+                case Arrived():
+                    self._arrive(event, before)
+                case Acted():
+                    timed = isinstance(before, _PROMPT) and event.attempt == 1
+                    seconds = event.t - before.t if timed and before is not None else math.nan
+                    done = event.status == "success"
+                    step = Step(kind="capture", name=event.action, seconds=seconds, done=done)
+                    self._close(step, event.t, event.charge_percent, self._travelled)
+                case Ended():
+                    self._astray = False
+                    self._close(Step(kind="rest"), event.t, event.charge_percent, event.travelled_m)
+                case _:
+                    if hasattr(event, "charge_percent"):
+                        # A power cut, a pause: what was used meanwhile belongs to no step.
+                        self._charge, self._at_s = event.charge_percent, event.t
+            before = event
+        return self._steps
+
+    def _arrive(self, event: Arrived, before: Event | None) -> None:
+        leg = before if isinstance(before, Driving) else None
+        self._astray = False
+        step = Step(
+            kind="leg",
+            planned_m=leg.planned_m if leg else 0.0,
+            metres=event.leg_m,
+            seconds=event.t - leg.t if leg else math.nan,
+            speed_m_s=math.nan if leg is None or leg.speed_m_s is None else leg.speed_m_s,
+            done=leg is not None,
+        )
+        self._close(step, event.t, event.charge_percent, event.travelled_m)
+
+    def _close(self, step: Step, t: float, charge: float, travelled: float) -> None:
+        used = self._charge - charge
+        known = not self._astray and used >= -_NOISE_PERCENT
+        self._steps.append(
+            replace(step, moved_m=travelled - self._travelled, whole_s=t - self._at_s, percent=used, sure=known)
+        )
+        self._charge, self._at_s, self._travelled = charge, t, travelled

@@ -1,0 +1,168 @@
+"""What is done with missions that are over: judge and report one from its log, keep what it cost, fit a robot to that.
+
+log ──report_log──▶ report      events ──keep_history──▶ history ──calibrate──▶ Calibration ──calibrated_profile──▶ YAML
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from fieldhand import mission
+from fieldhand.errors import InputError
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.task.frames import Task
+from fieldhand.task.results import Event
+
+if TYPE_CHECKING:
+    from fieldhand.evaluation.calibration.fit import Calibration
+    from fieldhand.evaluation.calibration.steps import Driven
+    from fieldhand.evaluation.report import ReportFiles
+
+
+def history_folder(environ: Mapping[str, str]) -> Path:
+    """Where it is kept what missions cost each robot: in the user's state folder."""
+    return mission.state_folder(environ) / "history"
+
+
+def report_log(
+    folder: Path, log: Path, task: Task, document: bytes, site: Site, robot: RobotProfile
+) -> tuple[ReportFiles, mission.Assessment, tuple[Event, ...]]:
+    """Judge and report a mission from its event log; who approved it is not known then.
+
+    Args:
+        folder: Where to write the report.
+        log: The event log.
+        task, document: What was carried out.
+        site, robot: Where and with what.
+
+    Raises:
+        InputError: The log is of another Task, robot or site, or its figures are no numbers.
+        TaskError: A line of it is no event.
+        OutputError: The folder cannot be written.
+    """
+    import hashlib
+
+    from fieldhand.evaluation.report import write_report
+    from fieldhand.evaluation.report_facts import require_fitting
+    from fieldhand.execution.log import read_events
+
+    events = read_events(log, whole=False)
+    require_fitting(events, task, site, robot, where=str(log))
+    assessment = mission.assess(task, events)
+    hashes = [("Task document", document), ("event log", log.read_bytes())]
+    files = write_report(
+        folder,
+        task=task,
+        site=site,
+        robot=robot,
+        events=events,
+        outcomes=assessment.outcomes,
+        authorization=None,
+        estimate=mission.review(task, site, robot, document=document).estimate,
+        hashes=(
+            *((name, hashlib.sha256(data).hexdigest()) for name, data in hashes),
+            ("site", site.sha256),
+            ("robot", robot.sha256),
+        ),
+    )
+    return files, assessment, events
+
+
+def keep_history(folder: Path, robot: RobotProfile, events: Sequence[Event], at: datetime) -> bool:
+    """Keep what a mission cost the robot, for ``fieldhand robot calibrate``; returns whether it was not kept before.
+
+    Raises:
+        OutputError: It cannot be written.
+    """
+    from fieldhand.evaluation.calibration.history import keep
+    from fieldhand.evaluation.calibration.steps import steps_of
+
+    return keep(folder, robot, steps_of(events), at)
+
+
+def missions_of(
+    robot: RobotProfile, logs: Sequence[Path], history: Path, *, simulated: bool = False
+) -> tuple[Driven, ...]:
+    """The missions of a robot: those of some event logs, or where there are none those that were kept.
+
+    Args:
+        robot: By its name.
+        logs: Event logs.
+        history: Folder of what was kept.
+        simulated: Take of the latter the simulated missions, not the driven ones.
+
+    Raises:
+        InputError: A log is of another robot or cannot be read; or nothing was kept.
+    """
+    from fieldhand.evaluation.calibration.history import kept
+    from fieldhand.evaluation.calibration.steps import steps_of
+    from fieldhand.execution.log import read_events
+
+    read = {}
+    for log in logs:
+        driven = steps_of(read_events(log, whole=False), where=str(log))
+        if driven.robot != robot.name:
+            raise InputError(
+                f"is of the robot {driven.robot!r}, not {robot.name!r}", where=str(log), advice="give logs of one robot"
+            )
+        read[driven.key] = driven
+    if read:
+        return tuple(read.values())
+    every = kept(history, robot.name)
+    found = tuple(m for m in every if m.simulated == simulated)
+    if not found:
+        others = len(every) - len(found)
+        kind, other = ("simulated", "driven") if simulated else ("driven", "simulated")
+        hint = f" ({others} {other} ones are{'' if simulated else ': --simulated takes them'})" if others else ""
+        raise InputError(
+            f"no {kind} missions of {robot.name} were kept{hint}",
+            where=str(history),
+            advice="drive some, or give their event logs",
+        )
+    return found
+
+
+def calibrate(robot: RobotProfile, missions: Sequence[Driven], *, seed: int = 0) -> Calibration:
+    """Fit the cost model of a robot to its missions.
+
+    Raises:
+        InputError: They hold too few legs.
+    """
+    from fieldhand.evaluation.calibration.fit import calibrate as fitted
+
+    return fitted(robot, missions, seed=seed)
+
+
+def calibrated_profile(robot: RobotProfile, found: Calibration, *, at: datetime) -> bytes:
+    """The robot's profile as text with what was fitted; all else stands as before. Its hash is another.
+
+    Raises:
+        ProfileError: The profile cannot be read any more, or what comes out is none.
+    """
+    from fieldhand.robot.loader import profile_bytes
+    from fieldhand.robot.rewrite import with_figures
+
+    changed = found.fit.profile(robot)
+    figures: dict[tuple[str, ...], float] = {
+        ("leg_cost", "alpha"): changed.leg_cost.alpha,
+        ("speed_m_s",): changed.speed_m_s,
+        ("energy", "drive_j_per_m"): changed.energy.drive_j_per_m,
+        ("energy", "idle_w"): changed.energy.idle_w,
+    }
+    for action in changed.actions:
+        figures["actions", action.name, "duration_s"] = action.duration_s
+        figures["actions", action.name, "energy_j"] = action.energy_j
+    before = {("leg_cost", "alpha"): robot.leg_cost.alpha, ("speed_m_s",): robot.speed_m_s}
+    before |= {("energy", key): getattr(robot.energy, key) for key in ("drive_j_per_m", "idle_w")}
+    for action in robot.actions:
+        before |= {("actions", action.name, key): getattr(action, key) for key in ("duration_s", "energy_j")}
+    note = (
+        f"Calibrated {at.date().isoformat()} from {found.legs} legs and {found.captures} captures of {found.missions}"
+        f" missions; the profile before had SHA-256 {robot.sha256}."
+    )
+    new = {keys: value for keys, value in figures.items() if value != before[keys]}
+    return with_figures(profile_bytes(robot.source)[0], new, note=note, source=robot.source)

@@ -1,0 +1,47 @@
+"""``fieldhand report`` and ``fieldhand robot calibrate`` as a user runs them."""
+
+from __future__ import annotations
+
+import json
+import os
+
+import pytest
+
+from command import fieldhand
+from driven import mission
+from fieldhand.task.results import to_json
+
+WORDS = ("run", "Take a picture of the middle tree.", "--site", "demo", "--planner", "english", "--yes")
+
+
+@pytest.mark.parametrize("keep", [True, False])
+def test_a_mission_is_kept_unless_that_is_not_wanted_and_reported_again_from_its_log(tmp_path, keep):
+    env = dict(os.environ) | {"XDG_STATE_HOME": str(tmp_path / "state")}
+    more = () if keep else ("--no-history",)
+    assert fieldhand(*WORDS, "-o", "out", *more, cwd=tmp_path, env=env).status == 0
+    assert [p.name for p in (tmp_path / "state").rglob("*.sqlite")] == ["husky.sqlite"] * keep
+    if keep:
+        words = ("report", "out/events.jsonl", "--task", "out/task.xml", "--site", "demo", "-o", "again", "--json")
+        again = fieldhand(*words, cwd=tmp_path)
+        assert again.status == 0, again.err
+        assert json.loads(again.out)["status"] == "completed"
+        for name in ("observations.csv", "observations.geojson"):
+            assert (tmp_path / "again" / name).read_bytes() == (tmp_path / "out" / name).read_bytes()
+
+
+def test_a_robot_is_calibrated_from_logs_and_its_new_profile_is_shown(tmp_path):
+    env = dict(os.environ) | {"XDG_STATE_HOME": str(tmp_path)}
+    for seed in range(2):
+        (tmp_path / f"{seed}.jsonl").write_text("".join(f"{to_json(e)}\n" for e in mission(seed)))
+    words = ("robot", "calibrate", "husky", "0.jsonl", "1.jsonl", "-o", "new.yaml")
+    run = fieldhand(*words, cwd=tmp_path, env=env)
+    assert run.status == 0, run.err
+    assert "husky: 2 missions, 60 legs, 60 captures" in run.out
+    assert "must be approved again" in run.out
+    record = json.loads(fieldhand(*words, "--json", cwd=tmp_path, env=env).out)
+    assert record["figures"]["speed"]["value"] == pytest.approx(0.8)
+    shown = json.loads(fieldhand("robot", "new.yaml", "--json", cwd=tmp_path).out)
+    assert (shown["name"], shown["speed_m_s"]) == ("husky", 0.8)
+    refused = fieldhand("robot", "calibrate", cwd=tmp_path, env=env)
+    assert refused.status == 2
+    assert "no driven missions of husky were kept" in refused.err
