@@ -9,6 +9,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from examples import examples
+from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.world import (
     ActionFails,
     BatteryDrains,
@@ -42,7 +43,7 @@ faults = st.one_of(
 worlds = st.builds(World, faults=st.lists(faults, max_size=3).map(tuple), charge_percent=st.floats(0.01, 100))
 
 
-class Moody:
+class Moody(NoGuard):
     """A guard that says what a list of numbers says, over and over."""
 
     def __init__(self, moods: Sequence[int]) -> None:
