@@ -245,7 +245,7 @@ def _ends(flown: Flown) -> list[str]:
 
 
 def _drives_over(flown: Flown) -> list[str]:
-    """No path, whole as it was announced, goes through a keep-out, out of the boundary, or over what was found blocked."""
+    """No path as it was announced goes through a keep-out, leaves the boundary, or goes over what was found blocked."""
     found, site = [], flown.site
     kept = [(z.name, z.polygon.buffer(-0.02)) for z in site.zones if z.kind == "keep_out"]
     inside = [z.polygon.buffer(0.02) for z in site.zones if z.kind == "boundary"]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Mapping
 
-from fieldhand.errors import ActionFault, BlockedFault, DriveFault, FieldhandError, LostFault
+from fieldhand.errors import ActionFault, BlockedFault, DriveFault, LostFault
 from fieldhand.execution.attempt import Attempt
 from fieldhand.execution.obstacles import avoid, open_a_way
 from fieldhand.execution.waiting import Steps, know_position, wait
@@ -70,8 +70,8 @@ def drive(attempt: Attempt, node: str, place: Place, *, patient: bool = True, as
             avoid(attempt, node, place, obstacle)
             if stops > MOST_STOPS:
                 raise BlockedFault(f"{what}; stopped {stops} times on the way there")
-            if ask is not None and _has_way(attempt, place):
-                yield from ask(place)
+            if ask is not None and (there := _stand(attempt, place)) is not None:
+                yield from ask(there)
             continue
         if progress.fault == "lost":
             if stops > MOST_STOPS:
@@ -139,12 +139,12 @@ def _tries(attempt: Attempt, action: Action) -> tuple[int, float]:
     return retries + 1, robot.patience.retry_wait_s if action.retry_wait_s is None else action.retry_wait_s
 
 
-def _has_way(attempt: Attempt, place: Place) -> bool:
+def _stand(attempt: Attempt, place: Place) -> Place | None:
+    """The place with where the robot will stand there; None where no way is left."""
     try:
-        attempt.way_to(place)
-    except FieldhandError:
-        return False
-    return True
+        return attempt.reached(place)
+    except DriveFault:
+        return None
 
 
 def _arrive_in_place(attempt: Attempt, node: str, place: Place) -> None:

@@ -83,6 +83,9 @@ def _explained(error: ValidationError, source: str) -> WorldError:
     # A reading may be a value or a mapping; pydantic blames it for being neither. The deepest blame is the one meant.
     first = max(problems, key=lambda p: (p["type"] == "extra_forbidden", len(p["loc"])))
     path = _path(first)
+    if first["type"] == "missing" and path[-1].isdigit():
+        what, where = f"has {path[-1]} of its entries, and needs more", ": ".join([source, *_dotted(path[:-1])])
+        return WorldError(what, where=where, advice=GUIDE)
     if first["type"] == "missing":
         return WorldError(
             f"the key '{path[-1]}' is missing", where=": ".join([source, *_dotted(path[:-1])]), advice=GUIDE
