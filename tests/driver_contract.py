@@ -26,6 +26,18 @@ class DriverContract(ABC):
     def make(self) -> tuple[Driver, Clock, Site]:
         """A driver in no goal at the start of a site, with a charged battery, and its clock."""
 
+    @abstractmethod
+    def make_blocked(self) -> tuple[Driver, Clock, Site]:
+        """The same, with something that it cannot pass on the way to the last tree."""
+
+    @abstractmethod
+    def make_lost(self) -> tuple[Driver, Clock, Site]:
+        """The same, with a localisation that is lost while it drives to the last tree, and is back some time later."""
+
+    @abstractmethod
+    def make_broken(self) -> tuple[Driver, Clock, Site]:
+        """The same, with an action that gives an error."""
+
     def test_it_begins_idle_at_the_start(self) -> None:
         driver, _, site = self.make()
         assert driver.poll().state == "idle"
@@ -111,6 +123,48 @@ class DriverContract(ABC):
         driver.start_drive(goal)
         with pytest.raises(RuntimeError, match="one at a time"):
             driver.start_drive(goal)
+
+    def test_what_succeeded_has_no_fault(self) -> None:
+        driver, clock, site = self.make()
+        driver.start_drive(drive_goal(site, site.start, site.trees[0].place))
+        assert finish(driver, clock).fault == "none"
+        assert driver.lost() is None
+
+    def test_a_blocked_drive_says_so_and_stands_before_what_blocks_it(self) -> None:
+        driver, clock, site = self.make_blocked()
+        goal = drive_goal(site, site.start, site.trees[-1].place)
+        driver.start_drive(goal)
+        progress = finish(driver, clock)
+        assert (progress.state, progress.fault) == ("failed", "blocked")
+        assert progress.what
+        here = driver.position()
+        assert 0.1 < math.dist((here.x, here.y), goal.path_m[-1]) < goal.length_m
+
+    def test_an_action_that_gives_an_error_says_that_it_failed(self) -> None:
+        driver, clock, site = self.make_broken()
+        driver.start_action(ActionGoal(action=self.action, place=site.trees[0].place))
+        progress = finish(driver, clock)
+        assert (progress.state, progress.fault) == ("failed", "failed")
+        assert not progress.readings
+
+    def test_a_lost_robot_stands_still_fails_every_goal_and_says_when_it_is_back(self) -> None:
+        driver, clock, site = self.make_lost()
+        driver.start_drive(drive_goal(site, site.start, site.trees[-1].place))
+        progress = finish(driver, clock)
+        assert (progress.state, progress.fault) == ("failed", "lost")
+        assert driver.lost()
+        stood = driver.position()
+        driver.start_action(ActionGoal(action=self.action, place=site.trees[0].place))
+        refused = finish(driver, clock)
+        assert (refused.state, refused.fault, dict(refused.readings)) == ("failed", "lost", {})
+        for _ in range(MANY):
+            if driver.lost() is None:
+                break
+            clock.advance(1.0)
+        assert driver.lost() is None
+        assert driver.position() == stood
+        driver.start_action(ActionGoal(action=self.action, place=site.trees[0].place))
+        assert finish(driver, clock).state == "succeeded"
 
     def test_a_goal_can_follow_a_cancelled_one(self) -> None:
         driver, clock, site = self.make()

@@ -132,7 +132,7 @@ class Rig:
 
 
 @dataclass
-class BudgetOf:
+class BudgetOf(NoGuard):
     """A guard that admits a number of visits in all and then none; optional visits in the order given.
 
     ``asked`` keeps what it was asked about: (node, place, ids of the visits still to come).

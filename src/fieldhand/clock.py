@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from typing import Protocol
 
 
@@ -16,6 +17,39 @@ class Clock(Protocol):
     def advance(self, seconds: float) -> None:
         """Let ``seconds`` (0 or more) pass."""
         ...
+
+
+class WallClock(Protocol):
+    """The time of day. Anyone may set it, so nothing is decided by it: it only says when a mission was."""
+
+    def now(self) -> float:
+        """Seconds since 1970 began, in UTC."""
+        ...
+
+
+class SystemWallClock:
+    """The computer's own time of day."""
+
+    def now(self) -> float:
+        return time.time()
+
+
+class SimulatedWallClock:
+    """A time of day that goes with a mission's clock, but for being set.
+
+    Args:
+        clock: The mission's.
+        begins_s: Seconds since 1970 when this object is made.
+        jumps: When it is set, in seconds from then on, and by how many seconds.
+    """
+
+    def __init__(self, clock: Clock, begins_s: float, jumps: Sequence[tuple[float, float]] = ()) -> None:
+        self._clock, self._begins_s, self._jumps = clock, begins_s, tuple(jumps)
+        self._made_s = clock.now()
+
+    def now(self) -> float:
+        passed = self._clock.now() - self._made_s
+        return self._begins_s + passed + sum(by for at, by in self._jumps if passed >= at)
 
 
 class SimulatedClock:

@@ -19,6 +19,8 @@
     │   └── NotTrustedError         nobody whom this robot trusts has signed
     └── ExecutionError              the robot
         ├── DriveFault              a leg that cannot be driven
+        │   ├── BlockedFault        what the robot found in its way leaves no other
+        │   └── LostFault           the robot does not know where it is
         └── ActionFault             an action or a sensor that failed
 
 A message says what is wrong, where, and what to do. ``exit_status`` is what a command line returns for it.
@@ -28,6 +30,7 @@ from __future__ import annotations
 
 __all__ = [
     "ActionFault",
+    "BlockedFault",
     "BundleError",
     "CaseError",
     "DriveFault",
@@ -35,6 +38,7 @@ __all__ = [
     "FieldhandError",
     "InputError",
     "KeyFileError",
+    "LostFault",
     "ModelError",
     "NotApprovedError",
     "NotConfirmedError",
@@ -154,6 +158,14 @@ class ExecutionError(FieldhandError):
 
 class DriveFault(ExecutionError):
     """A leg cannot be driven."""
+
+
+class BlockedFault(DriveFault):
+    """A place to which no way is left but those that the robot found blocked."""
+
+
+class LostFault(DriveFault):
+    """The robot does not know where it is, and has waited for that long enough."""
 
 
 class ActionFault(ExecutionError):

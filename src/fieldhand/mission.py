@@ -288,6 +288,7 @@ def carry_out(
     from fieldhand.clock import ScaledClock, SimulatedClock
     from fieldhand.evaluation.guard import BudgetGuard
     from fieldhand.execution.drivers.simulation import SimulatedDriver
+    from fieldhand.execution.drivers.surroundings import wall_clock_of, writing_in
     from fieldhand.execution.runtime import run
     from fieldhand.forecast.routes import drives_for
 
@@ -302,8 +303,9 @@ def carry_out(
         driver=driver,
         guard=watched(guard),
         clock=clock,
-        emit=emit,
+        emit=writing_in(world, emit),
         interrupted=interrupted,
+        wall=wall_clock_of(world, clock),
     )
 
 

@@ -199,17 +199,17 @@ def test_an_aborted_mission_comes_home_where_the_task_says_so_unless_stopped_aga
 
 
 def test_an_aborted_mission_whose_way_home_is_blocked_is_still_aborted() -> None:
-    """Aborted while it reads at the row's first tree; the end lies behind the tree that is blocked."""
+    """Aborted while it reads at the row's first tree; what stands at the last closes off the end."""
     task = task_for(
         Act(id="", action="read_co2", at=TreeIs(tree="r0c0"), count=9),
         faulted=(FaultedExit(fault="aborted", then="return_to_end"),),
     )
     asked = count()
-    one = Rig(world=World(faults=(Blocked(at=Spot(id="r0c2")),)))
+    one = Rig(world=World(faults=(Blocked(at=Spot(id="r0c4"), within_m=8),)))
     result = one.fly(task, interrupted=lambda: "stop" if next(asked) >= 8 else None)
     assert result.status == "aborted"
     assert result.reason.startswith("stop; then ")
-    assert "r0c2" in result.reason
+    assert "r0c4" in result.reason
 
 
 def test_a_robot_that_does_not_stop_is_said_so() -> None:

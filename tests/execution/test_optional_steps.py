@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import pytest
 
 from fieldhand.evaluation.outcome import judge
+from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.world import ActionFails, World
 from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, Node, Optional, Repeat, Sequence, Stop, Try
@@ -30,7 +31,7 @@ def optional(*steps: Node, reward: float = 1.0) -> Optional:
 
 
 @dataclass
-class Sheds:
+class Sheds(NoGuard):
     """A guard that sheds every optional visit, or those of some turns, and keeps what it was asked about."""
 
     turns: tuple[int, ...] | None = None

@@ -9,10 +9,13 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from examples import examples
+from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.world import (
     ActionFails,
     BatteryDrains,
     Blocked,
+    DriveFails,
+    LocalisationLost,
     RobotStops,
     SensorAbsurd,
     SensorSilent,
@@ -36,13 +39,17 @@ faults = st.one_of(
     st.builds(SensorSilent, quantity=st.sampled_from(sorted(husky().quantity)), times=TIMES, at=st.none() | TREES),
     st.builds(SensorAbsurd, quantity=st.just("co2"), value=st.floats(), times=TIMES, at=st.none() | TREES),
     st.builds(Blocked, at=TREES, within_m=st.floats(0.1, 8), times=TIMES),
-    st.builds(BatteryDrains, factor=st.floats(0.1, 500)),
+    st.builds(DriveFails, times=TIMES, at=st.none() | TREES),
+    st.builds(Blocked, between=st.tuples(TREES, TREES), within_m=st.floats(0.1, 4), from_s=st.floats(0, 99)),
+    st.builds(LocalisationLost, at_s=st.floats(0, 300), for_s=st.none() | st.floats(0, 100)),
+    st.builds(LocalisationLost, at=TREES, for_s=st.none() | st.floats(0, 100), times=TIMES),
+    st.builds(BatteryDrains, factor=st.floats(0.1, 500), from_s=st.floats(0, 99)),
     st.builds(RobotStops, at_s=st.floats(0, 500)),
 )
 worlds = st.builds(World, faults=st.lists(faults, max_size=3).map(tuple), charge_percent=st.floats(0.01, 100))
 
 
-class Moody:
+class Moody(NoGuard):
     """A guard that says what a list of numbers says, over and over."""
 
     def __init__(self, moods: Sequence[int]) -> None:

@@ -12,7 +12,7 @@ from driver_contract import DriverContract, drive_goal, finish
 from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.execution.drivers.protocol import ActionGoal, Driver
 from fieldhand.execution.drivers.simulation import SimulatedDriver
-from fieldhand.execution.world import BatteryDrains, Blocked, RobotStops, Spot, World
+from fieldhand.execution.world import ActionFails, BatteryDrains, Blocked, LocalisationLost, RobotStops, Spot, World
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from rig import husky, orchard
@@ -32,7 +32,19 @@ def driver_of(
 
 class TestSimulatedDriver(DriverContract):
     def make(self) -> tuple[Driver, Clock, Site]:
-        return (*driver_of(robot=husky(alpha=0.5)), SITE)
+        return self.make_in(World())
+
+    def make_blocked(self) -> tuple[Driver, Clock, Site]:
+        return self.make_in(World(faults=(Blocked(at=Spot(id=FAR.id), within_m=2.0),)))
+
+    def make_lost(self) -> tuple[Driver, Clock, Site]:
+        return self.make_in(World(faults=(LocalisationLost(at_s=3.0, for_s=20.0),)))
+
+    def make_broken(self) -> tuple[Driver, Clock, Site]:
+        return self.make_in(World(faults=(ActionFails(action=self.action),)))
+
+    def make_in(self, world: World) -> tuple[Driver, Clock, Site]:
+        return (*driver_of(world, robot=husky(alpha=0.5)), SITE)
 
 
 def test_a_drive_without_chance_takes_exactly_what_the_profile_says() -> None:

@@ -11,7 +11,7 @@ from fieldhand.clock import SimulatedClock
 from fieldhand.execution.attempt import Attempt
 from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.tree import compile_tree
-from fieldhand.execution.world import ActionFails, Blocked, SensorSilent, Spot, Truth, World
+from fieldhand.execution.world import ActionFails, DriveFails, SensorSilent, Spot, Truth, World
 from fieldhand.forecast.routes import drives_for
 from fieldhand.task.conditions import Compare, TreeHas
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Sequence, Stop, Try, walk
@@ -282,16 +282,14 @@ def test_try_leaves_a_body_that_went_well_alone() -> None:
 
 
 def test_try_catches_a_drive_that_failed_and_goes_on_from_there() -> None:
-    rig = Rig(robot=husky(retries=0), world=World(faults=(Blocked(at=Spot(id="r0c2"), within_m=2),)))
+    rig = Rig(robot=husky(retries=0), world=World(faults=(DriveFails(at=Spot(id="r0c2")),)))
     result = rig.fly(Try(id="", body=act(at=tree("r0c2")), otherwise=act(CO2, at=tree("r3c0"))))
     assert result.status == "completed"
     assert captured(result.events) == [(CO2, "r3c0")]
     drives = of_type(result.events, Driving)
-    stopped = orchard().projection.metres(*drives[1].path[0])[0]
-    assert math.dist(stopped, orchard().by_id["r0c2"].place.xy) == pytest.approx(2.0, abs=0.01)
+    assert result.spent.metres - sum(d.planned_m for d in drives[1:]) == pytest.approx(drives[0].planned_m / 2)
     arrived = of_type(result.events, Arrived)[0]
     assert drives[2].path[0] == pytest.approx((arrived.lat, arrived.lon), abs=1e-9)
-    assert drives[0].planned_m - 3.0 < result.spent.metres - sum(d.planned_m for d in drives[1:]) < drives[0].planned_m
 
 
 def test_try_catches_a_place_that_is_not_there() -> None:

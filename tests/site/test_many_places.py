@@ -114,7 +114,7 @@ def test_over_the_roads_no_way_is_shorter_than_the_drive_and_hardly_any_is_longe
     assert [p.stand for p in roads.places] == [p.stand for p in drives.stands(places)]
     assert roads.at[: len(places)].tolist() == [list(p.stand) for p in roads.places]
     assert (roads.lengths > 0.0).all()
-    assert len(roads.ways) <= 40 * len(places) + len(drives._layout.graph.ways(0)[0])
+    assert len(roads.ways) <= 40 * len(places) + len(drives.layout.graph.ways(0)[0])
     lengths, found = drives.lengths(roads.places), over(roads)
     assert (found >= lengths * (1.0 - 1e-9) - 1e-5).all()  # corners may be cut by a millionth of a metre
     apart = lengths > 1e-6

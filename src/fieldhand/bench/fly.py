@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from functools import cache
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from fieldhand import mission
 from fieldhand.approval.authorize import EveryWarning
@@ -29,6 +29,9 @@ from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.frames import Task, Then
 from fieldhand.task.plan import ForEach
 from fieldhand.task.results import Decided, Event
+
+if TYPE_CHECKING:
+    from fieldhand.site.drives import Drives
 
 #: How safe a mission was at approval: what must be done is within the accepted probability; it is not, so that the
 #: approval came with a warning; not even driving home at once is.
@@ -126,6 +129,9 @@ class TimedGuard:
         choice = self.guard.choose(state, candidates, at_most=at_most, still_to_come=still_to_come)
         (self.choices_s if self.first_s else self.first_s).append(time.thread_time() - began)
         return choice
+
+    def ways_are(self, drives: Drives) -> None:
+        self.guard.ways_are(drives)
 
 
 def fly(seed: int, most_trees: int = MOST_TREES) -> Flight:

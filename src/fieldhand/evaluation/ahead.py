@@ -54,6 +54,10 @@ class Ahead:
         self._means = means
         self._loop: _Loop | None = None
 
+    def forget(self) -> None:
+        """What was found is found anew."""
+        self._loop = None
+
     def of(self, state: MissionState, visit: Visit, later: Sequence[Visit]) -> Following | None:
         """What follows, on the branch that takes most; None where there is no way.
 

@@ -75,6 +75,12 @@ class Choosing:
     def __init__(self, means: Means, rng: np.random.Generator) -> None:
         self._means, self._rng = means, rng
         self._runs: dict[str, _Run] = {}
+        self._begun: dict[str, float] = {}
+
+    def forget(self) -> None:
+        """Runs under way are planned anew, with the chance of running short that they were begun with."""
+        self._begun = {**self._begun, **{node: run.accepted for node, run in self._runs.items()}}
+        self._runs.clear()
 
     def next(
         self, state: MissionState, candidates: Sequence[Visit], at_most: int | None, to_come: Sequence[Visit]
@@ -125,7 +131,8 @@ class Choosing:
         here = state.context.here
         if run is not None and run.rest is rest and run.here(here) is not None and not _fewer(run, visits, at_most):
             return run
-        accepted = self._accepted(state, rest) if run is None else run.accepted
+        begun = self._begun.pop(state.node, None) if run is None else run.accepted
+        accepted = self._accepted(state, rest) if begun is None else begun
         problem = visits_problem(
             legs=legs_between(here, visits, rest, self._means.drives, self._means.distances.between),
             rewards=[v.reward for v in visits],
@@ -151,7 +158,7 @@ class Choosing:
             start=_key(here),
             rest=rest,
             accepted=accepted,
-            new=run is None,
+            new=begun is None,
         )
         self._runs[state.node] = made
         return made

@@ -8,7 +8,7 @@ decision anew (:mod:`fieldhand.forecast.allowance`); docs/evaluation.md says how
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -84,10 +84,18 @@ class BudgetGuard:
         What must follow and the way home are set aside first. Candidates that have no way to them, and those that have
         come out of reach, are given up as soon as that is so; all others, in one go, when no visit is worth its risk.
         """
+        self._means.drain.learn(state.spent)
         choice = self._optional.next(state, candidates, at_most, still_to_come)
         if choice.index is not None:
             self._grant(state.node, candidates[choice.index])
-        return choice
+        return replace(choice, reason=self._and_the_battery(choice.reason))
+
+    def ways_are(self, drives: Drives) -> None:
+        """The robot found a way blocked, or free again: what was thought ahead over the old ways is forgotten."""
+        self._means.are(drives)
+        self._optional.forget()
+        self._ahead.forget()
+        self._threshold, self._granted = None, ()
 
     def admit(self, state: MissionState, visit: Visit, still_to_come: Sequence[Visit] = ()) -> Verdict:
         """May the robot make this mandatory visit?
@@ -96,6 +104,7 @@ class BudgetGuard:
         to run short. After that, and from the beginning where there is more to do than will last, a visit is made
         where going there and straight home is safe enough, or no riskier than going home at once.
         """
+        self._means.drain.learn(state.spent)
         if self._is_granted(state, visit.place):
             return Verdict(go=True)
         means, here = self._means, state.context.here
@@ -114,7 +123,11 @@ class BudgetGuard:
             if way is not None and self._may(state, way, chances, safe, home_now):
                 return self._go(state, visit, chances)
         reason = running_short(means, state, Errand(way=short, to=visit.place), there)
-        return Verdict(go=False, reason=reason, chance_short=float(there.max()))
+        return Verdict(go=False, reason=self._and_the_battery(reason), chance_short=float(there.max()))
+
+    def _and_the_battery(self, reason: str) -> str:
+        said = str(self._means.drain)
+        return f"{reason}; {said}" if reason and said else reason
 
     def _may(self, state: MissionState, way: Way, chances: Floats, safe: Floats, home_now: Way) -> bool:
         """Whether a way is safe enough, or else no riskier than home; where even home is too far, no detour."""

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldhand.errors import DriveFault
+from fieldhand.evaluation.drain import Drain
 from fieldhand.forecast.allowance import Allowance
 from fieldhand.forecast.distances import Distances
 from fieldhand.forecast.limits import Resource, resources_of
@@ -37,14 +39,26 @@ class Means:
     Attributes:
         accepted: For each limit the chance of running short that the Task accepts.
         distances: Between places, asked for once.
+        drain: How fast the battery empties.
     """
 
     def __init__(self, task: Task, site: Site, robot: RobotProfile, drives: Drives, charge_percent: float) -> None:
-        self.task, self.site, self.robot, self.drives = task, site, robot, drives
+        self.task, self.site, self.drives = task, site, drives
+        self.drain = Drain(robot)
+        self._blocked = False
         limits = resources_of(task.constraints, robot, charge_percent)
         self.accepted: Floats = np.array([r.failure_probability for r in limits])
         self.distances = Distances(drives)
         self._allowance: Allowance | None = None
+
+    @property
+    def robot(self) -> RobotProfile:
+        """The robot, with a battery that empties as fast as it has been seen to."""
+        return self.drain.robot
+
+    def are(self, drives: Drives) -> None:
+        """Let these be the ways from now on."""
+        self.drives, self.distances, self._blocked = drives, Distances(drives), True
 
     def allowance(self, mandatory: Floats) -> Allowance:
         """What may still be added to the chance of running short.
@@ -84,5 +98,19 @@ class Means:
         return home if self.distances.linked(at, home) else at
 
     def rest(self, node: str, context: Context, rounds: Mapping[str, int], to_come: Sequence[Visit] = ()) -> Rest:
-        """What must be done after a node (:func:`fieldhand.forecast.rest.rest_after`)."""
-        return rest_after(self.task, self.site, self.robot, self.drives, node, context, to_come=to_come, rounds=rounds)
+        """What must be done after a node (:func:`fieldhand.forecast.rest.rest_after`).
+
+        Where the robot has found its ways blocked, what cannot be reached now is not set aside.
+
+        Raises:
+            DriveFault: There is no way on that was ever there.
+        """
+        for visits in (to_come, ()):
+            try:
+                return rest_after(
+                    self.task, self.site, self.robot, self.drives, node, context, to_come=visits, rounds=rounds
+                )
+            except DriveFault:
+                if not self._blocked:
+                    raise
+        return Rest()

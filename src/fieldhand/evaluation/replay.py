@@ -12,7 +12,21 @@ from enum import Enum, auto
 
 from fieldhand.evaluation.tally import Tallies, Tally
 from fieldhand.task import plan as p
-from fieldhand.task.results import Acted, Arrived, Decided, Driving, Ended, Event, Exited, Faulted, Shed, Visiting
+from fieldhand.task.results import (
+    Acted,
+    Arrived,
+    ClockSet,
+    Decided,
+    Driving,
+    Ended,
+    Event,
+    Exited,
+    Faulted,
+    Obstructed,
+    Shed,
+    Visiting,
+    Waited,
+)
 
 
 class _Flow(Enum):
@@ -40,7 +54,9 @@ class _Replay:
         over = next((k for k, e in enumerate(events) if isinstance(e, Exited | Ended)), len(events))
         self._orderly = any(isinstance(e, Ended) and e.status in ("completed", "returned") for e in events)
         # The exit itself belongs to the plan only where a stop took it: then it names that stop.
-        self._events = [e for e in events[: over + 1] if e.node in own]
+        # What stood in the way, and waiting, say nothing of the plan.
+        aside = (Obstructed, Waited, ClockSet)
+        self._events = [e for e in events[: over + 1] if e.node in own and not isinstance(e, aside)]
         self._next = 0
 
     def run(self) -> dict[str, Tally]:

@@ -10,14 +10,17 @@ from fieldhand.task.frames import Task
 from fieldhand.task.results import (
     Acted,
     Arrived,
+    ClockSet,
     Decided,
     Ended,
     Event,
     Exited,
     Faulted,
+    Obstructed,
     Shed,
     Started,
     Visiting,
+    Waited,
 )
 from fieldhand.task.words import capitalised, say_count, say_name, say_number, say_unit
 
@@ -43,8 +46,8 @@ class Teller:
             case Visiting():
                 return f"{say_count(len(event.places), 'place')} to visit: {_names(event.places)}"
             case Arrived():
-                place = f"tree {event.place}" if event.kind == "tree" else f"the {event.place}"
-                return f"at {place} ({event.travelled_m:.0f} m, battery at {event.charge_percent:.0f} %)"
+                so_far = f"{event.travelled_m:.0f} m, battery at {event.charge_percent:.0f} %"
+                return f"at {_place(event.kind, event.place)} ({so_far})"
             case Acted(status="success"):
                 readings = ", ".join(
                     f"{say_name(q)} {say_number(value, 3)} {say_unit(event.units.get(q, ''))}".rstrip()
@@ -59,6 +62,20 @@ class Teller:
                 return f"   left out: {_names(event.places)} ({event.reason})"
             case Shed():
                 return f"GIVEN UP: {_names(event.places) or event.node}: {event.reason}"
+            case Obstructed(free=True):
+                return f"a blocked way to {_place(event.kind, event.place)} is tried again"
+            case Obstructed():
+                lost = f"; no way is left to {_trees(event.unreachable)}" if event.unreachable else ""
+                return f"BLOCKED on the way to {_place(event.kind, event.place)}: {event.what}{lost}"
+            case Waited():
+                if event.wanted == "way":
+                    return f"waited {clock_time(event.seconds)} for a way to come free"
+                return (
+                    f"waited {clock_time(event.seconds)} for its position: {'it is back' if event.over else 'in vain'}"
+                )
+            case ClockSet():
+                way = "forward" if event.by_s > 0 else "back"
+                return f"the wall clock was set {way} by {clock_time(abs(event.by_s))}; the mission's time goes on"
             case Faulted():
                 return f"fault: {event.what}{' (handled)' if event.handled else ''}"
             case Exited():
@@ -84,6 +101,14 @@ def noun(robot: RobotProfile, action: str) -> str:
     """What an action yields, as people say it."""
     known = robot.action.get(action)
     return known.words[0] if known and known.words else say_name(action)
+
+
+def _place(kind: str, name: str) -> str:
+    return f"tree {name}" if kind == "tree" else f"the {name}"
+
+
+def _trees(names: tuple[str, ...]) -> str:
+    return f"{'tree' if len(names) == 1 else 'trees'} {_names(names)}"
 
 
 def _names(places: tuple[str, ...]) -> str:

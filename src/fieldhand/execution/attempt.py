@@ -12,26 +12,32 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from fieldhand.clock import Clock
-from fieldhand.errors import ActionFault, DriveFault, FieldhandError, PlaceError
+from fieldhand.clock import Clock, WallClock
+from fieldhand.errors import ActionFault, BlockedFault, DriveFault, FieldhandError, LostFault, PlaceError
 from fieldhand.execution.conditions import Facts
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, Progress
 from fieldhand.execution.guard import Guard
+from fieldhand.execution.recording import OpenCapture, OpenDrive, end_capture, end_drive
+from fieldhand.execution.timeofday import TimeOfDay
 from fieldhand.forecast.routes import beginning
 from fieldhand.forecast.state import MissionState, Spent
 from fieldhand.forecast.visits import Visits
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.blockages import Blockages
 from fieldhand.site.context import Context
-from fieldhand.site.drives import Drives
+from fieldhand.site.drives import Drive, Drives
 from fieldhand.site.model import Place, Site
 from fieldhand.site.places import resolve, resolve_one
 from fieldhand.task.build import exit_of
 from fieldhand.task.frames import Fault, Task, Then
-from fieldhand.task.results import Acted, Arrived, Driving, Event, Faulted, MissionStatus
+from fieldhand.task.results import ClockSet, Driving, Event, Faulted, MissionStatus
 from fieldhand.task.selectors import Selector
 
 #: Metres within which the robot counts as standing at a place.
 AT_M = 0.5
+
+#: Seconds of the mission between two looks while the robot waits for something.
+LOOK_AGAIN_S = 1.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,23 +51,6 @@ class Ending:
     node: str = ""
 
 
-@dataclass(frozen=True, kw_only=True)
-class OpenDrive:
-    """A drive that the driver has begun and whose end is not recorded yet."""
-
-    node: str
-    place: Place
-
-
-@dataclass(frozen=True, kw_only=True)
-class OpenCapture:
-    """A capture that the driver has begun and whose end is not recorded yet."""
-
-    node: str
-    action: str
-    number: int
-
-
 class Attempt:
     """Where the robot is and has been, what was bound and read, what was used, what happened.
 
@@ -72,12 +61,16 @@ class Attempt:
         clock: The mission's time; the attempt begins now.
         drives: Ways between places.
         emit: Takes each event as it happens.
+        wall: The time of day, where there is one.
 
     Attributes:
+        blockages: What it found in its way.
         here: The place in hand (:mod:`fieldhand.task.plan`).
         standing: Where the robot itself is: ``here``, or a point on the way where a drive failed.
         visited: Ids of the trees at which it has stopped, each once.
-        visits: Makes visits of what is optional.
+        action_j: Energy of the actions done, by the profile.
+        time_of_day: When the mission began, and whether the wall clock was set since.
+        driven: The path of the last drive, in local metres.
         readings: For each reading that is bound, its value by quantity.
         rounds: Further rounds of each repeat that is under way, by node id.
         ending: Set when the plan is over before its last node: the tree is ticked no more.
@@ -96,6 +89,7 @@ class Attempt:
         clock: Clock,
         drives: Drives,
         emit: Callable[[Event], None],
+        wall: WallClock | None = None,
     ) -> None:
         self.task = task
         self.site = site
@@ -103,10 +97,12 @@ class Attempt:
         self.driver = driver
         self.guard = guard
         self.clock = clock
-        self.drives = drives
-        self.visits = Visits(task, site, robot, drives)
+        self.blockages = Blockages(drives)
         self._emit = emit
         self._begun_s = clock.now()
+        self.time_of_day = TimeOfDay(clock, wall)
+        self._wake_s: float | None = None
+        self.action_j = 0.0
         self._full = driver.charge_percent()
         self._open: OpenDrive | OpenCapture | None = None
         self.events: list[Event] = []
@@ -118,6 +114,7 @@ class Attempt:
         self.readings: dict[str, Mapping[str, float]] = {}
         self.rounds: dict[str, int] = {}
         self.travelled_m = 0.0
+        self.driven: tuple[tuple[float, float], ...] = ()
         self.ending: Ending | None = None
         self.giving_up = ""
         self.fault: Fault = "action_failed"
@@ -132,7 +129,17 @@ class Attempt:
     def spent(self) -> Spent:
         """What was used so far."""
         percent = self._full - self.driver.charge_percent()
-        return Spent(metres=self.travelled_m, seconds=self.t, percent=percent)
+        return Spent(metres=self.travelled_m, seconds=self.t, percent=percent, joules=self.action_j)
+
+    @property
+    def drives(self) -> Drives:
+        """The ways between places that are left."""
+        return self.blockages.drives
+
+    @property
+    def visits(self) -> Visits:
+        """Makes visits of what is optional."""
+        return Visits(self.task, self.site, self.robot, self.drives)
 
     @property
     def facts(self) -> Facts:
@@ -140,7 +147,9 @@ class Attempt:
         return Facts(site=self.site, robot=self.robot, here=self.here, readings=self.readings)
 
     def emit(self, event: Event) -> None:
-        """Record what happened."""
+        """Record what happened; first that the wall clock was set, if it was."""
+        if by_s := self.time_of_day.set_by():
+            self.emit(ClockSet(t=self.t, by_s=by_s))
         self.events.append(event)
         self._emit(event)
 
@@ -168,7 +177,20 @@ class Attempt:
         """
         if (self.standing.kind, self.standing.id) == (place.kind, place.id):
             return self.standing
-        return self.drives.between(self.standing, place).end
+        return self.way_to(place).end
+
+    def way_to(self, place: Place) -> Drive:
+        """The way to a place; to its other side, if what stands in the way leaves no other.
+
+        Raises:
+            DriveFault: There is none.
+        """
+        try:
+            return self.drives.between(self.standing, place)
+        except DriveFault:
+            if not self.blockages.stretches or place.stand is None:
+                raise
+            return self.drives.between(self.standing, dataclasses.replace(place, stand=None))
 
     def state(self, node: str) -> MissionState:
         """What the guard decides on. ``here`` is where the robot itself stands: from there it has to come home."""
@@ -197,6 +219,10 @@ class Attempt:
     def fail(self, node: str, error: FieldhandError, *, handled: bool) -> None:
         """Record that a node failed for good; ``handled`` where a try/otherwise will go on from there."""
         match error:
+            case BlockedFault():
+                self.fault, name = "drive_failed", "blocked"
+            case LostFault():
+                self.fault, name = "drive_failed", "lost"
             case DriveFault():
                 self.fault, name = "drive_failed", "drive_failed"
             case ActionFault():
@@ -217,13 +243,17 @@ class Attempt:
         if place.kind == "tree" and place.id not in self.visited:
             self.visited.append(place.id)
 
+    def stranded(self) -> None:
+        """A drive ended on its way: the robot is at no place, or at the one in hand still."""
+        self.arrived_at, self.standing = None, self._stands()
+
     def start_drive(self, node: str, place: Place) -> None:
         """Let the driver begin a drive.
 
         Raises:
             DriveFault, PlaceError: There is no way to the place.
         """
-        drive = self.drives.between(self.standing, place)
+        drive = self.way_to(place)
         place = drive.end
         corners = tuple((float(x), float(y)) for x, y in drive.points)
         degrees = tuple((float(lat), float(lon)) for lat, lon in self.site.projection.degrees(corners))
@@ -246,7 +276,7 @@ class Attempt:
                 speed_m_s=goal.speed_m_s,
             )
         )
-        self._open = OpenDrive(node=node, place=place)
+        self._open, self.driven = OpenDrive(node=node, goal=goal), corners
         self.driver.start_drive(goal)
 
     def start_capture(self, node: str, action: str, parameters: Mapping[str, str | float], number: int) -> None:
@@ -261,81 +291,32 @@ class Attempt:
         if goal is None or not progress.over:
             return progress
         self._open = None
-        if isinstance(goal, OpenDrive):
-            self._conclude_drive(goal, progress)
-            return progress
-        return self._conclude_capture(goal, progress)
+        if isinstance(goal, OpenCapture):
+            return end_capture(self, goal, progress)
+        end_drive(self, goal, progress)
+        return progress
 
     def stop_driver(self) -> None:
         """Ask the driver to end the goal in hand, if there is one."""
         if self._open is not None:
             self.driver.cancel()
 
+    def wait_until(self, mission_s: float | None) -> None:
+        """Stand still until that moment of the clock; None: no longer."""
+        self._wake_s = mission_s
+
+    def next_event_in(self) -> float | None:
+        """Seconds until there is something to look at; None where the robot does nothing and waits for nothing."""
+        soon = self.driver.next_event_in()
+        if self._wake_s is None:
+            return soon
+        left = min(LOOK_AGAIN_S, max(0.0, self._wake_s - self.clock.now()))
+        return left if soon is None else min(soon, left)
+
     @property
     def busy(self) -> bool:
         """Whether a goal is in hand whose end is not recorded yet."""
         return self._open is not None
-
-    def _conclude_drive(self, goal: OpenDrive, progress: Progress) -> None:
-        self.travelled_m += progress.metres
-        if progress.state != "succeeded":
-            self.arrived_at, self.standing = None, self._stands()
-            return
-        self.stop_at(goal.place)
-        position = self.driver.position()
-        self.emit(
-            Arrived(
-                t=self.t,
-                node=goal.node,
-                kind=goal.place.kind,
-                place=goal.place.id,
-                lat=position.lat,
-                lon=position.lon,
-                leg_m=progress.metres,
-                travelled_m=self.travelled_m,
-                charge_percent=self.driver.charge_percent(),
-            )
-        )
-
-    def _conclude_capture(self, goal: OpenCapture, progress: Progress) -> Progress:
-        if progress.state == "cancelled":
-            return progress  # nothing was done, so nothing happened
-        measures = self.robot.action[goal.action].measures
-        if progress.state == "succeeded":
-            what = next(filter(None, (self._unusable(q, progress.readings.get(q)) for q in measures)), "")
-            if what:
-                progress = dataclasses.replace(progress, state="failed", readings={}, what=what)
-        done = progress.state == "succeeded"
-        self.emit(
-            Acted(
-                t=self.t,
-                node=goal.node,
-                action=goal.action,
-                status="success" if done else "failed",
-                kind=self.here.kind,
-                place=self.here.id,
-                lat=self.here.lat,
-                lon=self.here.lon,
-                attempt=goal.number,
-                readings={q: progress.readings[q] for q in measures} if done else {},
-                units={q: self.robot.quantity[q].unit for q in measures} if done else {},
-                what=progress.what,
-                charge_percent=self.driver.charge_percent(),
-            )
-        )
-        return progress
-
-    def _unusable(self, name: str, value: float | None) -> str:
-        """Why a reading cannot be believed; empty if it can."""
-        quantity = self.robot.quantity[name]
-        if value is None:
-            return f"the sensor gave no {name}"
-        if not math.isfinite(value) or not quantity.minimum <= value <= quantity.maximum:
-            return (
-                f"{name} {value:g} {quantity.unit} is outside {quantity.minimum:g} to {quantity.maximum:g}:"
-                " the sensor cannot be believed"
-            )
-        return ""
 
     def _context(self, here: Place) -> Context:
         return Context(here=here, visited=tuple(self.visited), bound=dict(self.bound))

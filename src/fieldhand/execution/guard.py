@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
+
+if TYPE_CHECKING:
+    from fieldhand.site.drives import Drives
 
 
 class Guard(Protocol):
@@ -30,6 +33,10 @@ class Guard(Protocol):
         """
         ...
 
+    def ways_are(self, drives: Drives) -> None:
+        """The ways have changed: the robot found one blocked, or free again. From now on these count."""
+        ...
+
 
 class NoGuard:
     """A guard for missions without limits: everything is allowed, optional visits in the order given."""
@@ -46,3 +53,6 @@ class NoGuard:
         still_to_come: Sequence[Visit] = (),  # noqa: ARG002
     ) -> Choice:
         return Choice(index=0 if candidates else None)
+
+    def ways_are(self, drives: Drives) -> None:
+        pass

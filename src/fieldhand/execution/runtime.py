@@ -6,13 +6,14 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from fieldhand.clock import Clock, ScaledClock
+from fieldhand.clock import Clock, ScaledClock, WallClock
 from fieldhand.errors import DriveFault, FieldhandError, NotApprovedError, OutputError
 from fieldhand.execution.attempt import Attempt, Ending
 from fieldhand.execution.drivers.protocol import Driver
-from fieldhand.execution.goals import Steps, drive
+from fieldhand.execution.goals import drive
 from fieldhand.execution.guard import Guard
 from fieldhand.execution.interrupts import ctrl_c_as_request
+from fieldhand.execution.waiting import Steps
 from fieldhand.forecast.routes import drives_for
 from fieldhand.forecast.state import Spent
 from fieldhand.robot.model import RobotProfile
@@ -60,6 +61,7 @@ def run(
     clock: Clock,
     emit: Callable[[Event], None],
     interrupted: Asked = never,
+    wall: WallClock | None = None,
 ) -> Result:
     """Carry out a mission, whatever comes: it always ends with one ``Ended`` event, the last.
 
@@ -69,8 +71,10 @@ def run(
         driver: The robot, real or simulated, in no goal.
         guard: Asked before every drive and every action; it has the last word on the budget.
         clock: The mission's time, the driver's too.
-        emit: Takes each event as it happens. What it raises ends the mission at once and comes out of here.
+        emit: Takes each event as it happens. What it raises ends the mission at once and comes out of here, when the
+            robot stands.
         interrupted: Asked at every tick; a reason ends the mission as ``aborted``. So does Ctrl-C.
+        wall: The time of day, to be written down.
 
     Raises:
         NotApprovedError: The site or the profile is not the one that was approved; nothing was done.
@@ -85,14 +89,23 @@ def run(
         clock=clock,
         drives=drives_for(site, robot),
         emit=emit,
+        wall=wall,
     )
     with ctrl_c_as_request() as pressed:
         try:
             ending = _attempt_plan(attempt, lambda: pressed() or interrupted())
         finally:
             # Whatever came, an error of this program too: no wheel turns when nobody looks.
-            attempt.stop_driver()
+            _come_to_rest(attempt)
         return _end(attempt, ending)
+
+
+def _come_to_rest(attempt: Attempt) -> None:
+    """Stop the robot and wait until it stands, and write nothing: there may be nothing that can be written to."""
+    attempt.stop_driver()
+    given_up_s = attempt.clock.now() + CANCEL_WITHIN_S
+    while not attempt.driver.poll().over and attempt.clock.now() < given_up_s:
+        _let_time_pass(attempt)
 
 
 def _require_approved(authorized: AuthorizedTask, site: Site, robot: RobotProfile) -> None:
@@ -136,6 +149,7 @@ def _start(attempt: Attempt) -> None:
             lon=position.lon,
             charge_percent=attempt.driver.charge_percent(),
             seed=attempt.driver.seed,
+            at=attempt.time_of_day.began_at,
         )
     )
 
@@ -225,7 +239,7 @@ def _settled(attempt: Attempt, ending: Ending) -> Ending:
 
 def _let_time_pass(attempt: Attempt) -> None:
     """Until the driver has something to say; in small slices where that takes real time."""
-    seconds = attempt.driver.next_event_in()
+    seconds = attempt.next_event_in()
     if seconds is None:
         return
     longest = LOOK_EVERY_S * attempt.clock.speed if isinstance(attempt.clock, ScaledClock) else math.inf

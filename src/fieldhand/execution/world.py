@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -66,19 +67,68 @@ class SensorAbsurd:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Blocked:
-    """Something stands in the way: a leg that passes within ``within_m`` metres of ``at`` ends there."""
+class DriveFails:
+    """A drive to a tree, or any drive, fails half-way for a reason that is not on the way: a motor, the navigation."""
 
-    at: Spot
+    times: int | None = None
+    at: Spot | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Blocked:
+    """Something stands in the way: a leg that passes within ``within_m`` metres of it ends there.
+
+    Attributes:
+        at: The tree that it stands at; or else the two trees halfway between which it stands, ``between``.
+        times: How many legs it ends before it is gone (None: any number).
+        from_s, until_s: When it stands there, in seconds of the mission (None: to the end).
+    """
+
+    at: Spot | None = None
+    between: tuple[Spot, Spot] | None = None
     within_m: float = 1.0
     times: int | None = None
+    from_s: float = 0.0
+    until_s: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class LocalisationLost:
+    """The robot does not know where it is for ``for_s`` seconds (None: never again).
+
+    Attributes:
+        at_s: When, in seconds of the mission; or else ``at`` which tree it comes within ``within_m`` metres of.
+        times: At a tree: how often it happens there.
+    """
+
+    at_s: float | None = None
+    at: Spot | None = None
+    within_m: float = 5.0
+    for_s: float | None = None
+    times: int | None = 1
 
 
 @dataclass(frozen=True, kw_only=True)
 class BatteryDrains:
-    """The battery empties ``factor`` times as fast as the profile says."""
+    """From ``from_s`` seconds on the battery empties ``factor`` times as fast as the profile says."""
 
     factor: float
+    from_s: float = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClockJumps:
+    """``at_s`` seconds into the mission somebody sets the wall clock by ``by_s`` seconds, back if that is negative."""
+
+    at_s: float
+    by_s: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class DiskFull:
+    """From ``at_s`` seconds into the mission nothing can be written any more."""
+
+    at_s: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,7 +139,18 @@ class RobotStops:
     why: str = "power cut"
 
 
-WorldFault = ActionFails | SensorSilent | SensorAbsurd | Blocked | BatteryDrains | RobotStops
+WorldFault = (
+    ActionFails
+    | SensorSilent
+    | SensorAbsurd
+    | DriveFails
+    | Blocked
+    | LocalisationLost
+    | BatteryDrains
+    | ClockJumps
+    | DiskFull
+    | RobotStops
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,6 +161,7 @@ class World:
         readings: By quantity.
         seed: Of every random thing in it, where the run names none.
         charge_percent: Of the battery at the start.
+        begins: The time of day when a mission begins, with its zone; None for a robot without a wall clock.
         source: File, for messages.
     """
 
@@ -107,6 +169,7 @@ class World:
     faults: tuple[WorldFault, ...] = ()
     seed: int = 0
     charge_percent: float = 100.0
+    begins: datetime | None = None
     source: str = "world"
 
 

@@ -4,24 +4,14 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal, get_args
+from typing import Annotated, Any, get_args
 
-from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, StrictBool, StrictInt, ValidationError, model_validator
+from pydantic import AwareDatetime, BaseModel, Field, FiniteFloat, StrictBool, StrictInt, ValidationError
 from pydantic_core import ErrorDetails
 
 from fieldhand.errors import WorldError
-from fieldhand.execution.world import (
-    ActionFails,
-    BatteryDrains,
-    Blocked,
-    RobotStops,
-    SensorAbsurd,
-    SensorSilent,
-    Spot,
-    Truth,
-    World,
-    WorldFault,
-)
+from fieldhand.execution.world import Truth, World
+from fieldhand.execution.world_faults import AnyFault, FaultModel, SpotModel, Strict
 
 GUIDE = "see docs/formats.md, 'World file'"
 
@@ -29,32 +19,6 @@ _KINDS: dict[type, str] = {dict: "a mapping", list: "a list", type(None): "empty
 
 #: A sensor's value: a number, or yes or no.
 SensorValue = StrictBool | FiniteFloat
-Times = Annotated[StrictInt, Field(ge=1)] | None
-
-
-class _Model(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class SpotModel(_Model):
-    """``{id: "12"}`` or ``{lat: 37.2664, lon: -120.4201}``."""
-
-    id: str | StrictInt | None = None
-    lat: Annotated[float, Field(ge=-90, le=90, allow_inf_nan=False)] | None = None
-    lon: Annotated[float, Field(ge=-180, le=180, allow_inf_nan=False)] | None = None
-
-    @model_validator(mode="after")
-    def _named_once(self) -> SpotModel:
-        given = (self.id is not None, self.lat is not None, self.lon is not None)
-        if given not in ((True, False, False), (False, True, True)):
-            raise ValueError("a tree is named by id, or by lat and lon")
-        return self
-
-    def spot(self) -> Spot:
-        """As execution uses it."""
-        if self.id is not None:
-            return Spot(id=str(self.id))
-        return Spot(lat=self.lat or 0.0, lon=self.lon or 0.0)
 
 
 class TreeValueModel(SpotModel):
@@ -63,7 +27,7 @@ class TreeValueModel(SpotModel):
     value: SensorValue
 
 
-class TruthModel(_Model):
+class TruthModel(Strict):
     """A value for everywhere, and values at trees."""
 
     default: SensorValue | None = None
@@ -75,102 +39,19 @@ class TruthModel(_Model):
         return Truth(default=default, trees=tuple((t.spot(), float(t.value)) for t in self.trees))
 
 
-class _AtModel(_Model):
-    times: Times = None
-    at: SpotModel | None = None
-
-    @property
-    def spot(self) -> Spot | None:
-        return None if self.at is None else self.at.spot()
-
-
-class ActionFailsModel(_AtModel):
-    """An action that fails."""
-
-    fault: Literal["action_fails"]
-    action: str
-
-    def made(self) -> WorldFault:
-        """As execution uses it."""
-        return ActionFails(action=self.action, times=self.times, at=self.spot)
-
-
-class SensorSilentModel(_AtModel):
-    """A sensor that gives nothing."""
-
-    fault: Literal["sensor_silent"]
-    quantity: str
-
-    def made(self) -> WorldFault:
-        """As execution uses it."""
-        return SensorSilent(quantity=self.quantity, times=self.times, at=self.spot)
-
-
-class SensorAbsurdModel(_AtModel):
-    """A sensor that gives nonsense."""
-
-    fault: Literal["sensor_absurd"]
-    quantity: str
-    value: FiniteFloat
-
-    def made(self) -> WorldFault:
-        """As execution uses it."""
-        return SensorAbsurd(quantity=self.quantity, value=self.value, times=self.times, at=self.spot)
-
-
-class BlockedModel(_Model):
-    """Something in the way."""
-
-    fault: Literal["blocked"]
-    at: SpotModel
-    within_m: Annotated[float, Field(gt=0, allow_inf_nan=False)] = 1.0
-    times: Times = None
-
-    def made(self) -> WorldFault:
-        """As execution uses it."""
-        return Blocked(at=self.at.spot(), within_m=self.within_m, times=self.times)
-
-
-class BatteryDrainsModel(_Model):
-    """A battery that empties faster than the profile says."""
-
-    fault: Literal["battery_drains"]
-    factor: Annotated[float, Field(gt=0, allow_inf_nan=False)]
-
-    def made(self) -> WorldFault:
-        """As execution uses it."""
-        return BatteryDrains(factor=self.factor)
-
-
-class RobotStopsModel(_Model):
-    """The end of the robot's part."""
-
-    fault: Literal["robot_stops"]
-    at_s: Annotated[float, Field(ge=0, allow_inf_nan=False)]
-    why: Annotated[str, Field(min_length=1)] = "power cut"
-
-    def made(self) -> WorldFault:
-        """As execution uses it."""
-        return RobotStops(at_s=self.at_s, why=self.why)
-
-
-AnyFault = (
-    ActionFailsModel | SensorSilentModel | SensorAbsurdModel | BlockedModel | BatteryDrainsModel | RobotStopsModel
-)
-FaultModel = Annotated[AnyFault, Field(discriminator="fault")]
-
 _KINDS_OF_FAULT: dict[str, type[BaseModel]] = {
     get_args(model.model_fields["fault"].annotation)[0]: model for model in get_args(AnyFault)
 }
 
 
-class WorldModel(_Model):
+class WorldModel(Strict):
     """The whole file."""
 
-    readings: dict[str, SensorValue | TruthModel] = {}
+    readings: Mapping[str, SensorValue | TruthModel] = Field(default_factory=dict)
     faults: tuple[FaultModel, ...] = ()
     seed: Annotated[StrictInt, Field(ge=0)] = 0
     charge_percent: Annotated[float, Field(gt=0, le=100, allow_inf_nan=False)] = 100.0
+    begins: AwareDatetime | None = None
 
 
 def world_of(content: Mapping[str, Any], *, source: str) -> World:
@@ -191,6 +72,7 @@ def world_of(content: Mapping[str, Any], *, source: str) -> World:
         faults=tuple(f.made() for f in model.faults),
         seed=model.seed,
         charge_percent=model.charge_percent,
+        begins=model.begins,
         source=source,
     )
 
@@ -201,6 +83,9 @@ def _explained(error: ValidationError, source: str) -> WorldError:
     # A reading may be a value or a mapping; pydantic blames it for being neither. The deepest blame is the one meant.
     first = max(problems, key=lambda p: (p["type"] == "extra_forbidden", len(p["loc"])))
     path = _path(first)
+    if first["type"] == "missing" and path[-1].isdigit():
+        what, where = f"has {path[-1]} of its entries, and needs more", ": ".join([source, *_dotted(path[:-1])])
+        return WorldError(what, where=where, advice=GUIDE)
     if first["type"] == "missing":
         return WorldError(
             f"the key '{path[-1]}' is missing", where=": ".join([source, *_dotted(path[:-1])]), advice=GUIDE
@@ -262,7 +147,7 @@ def _keys_at(problem: ErrorDetails, path: list[str]) -> list[str]:
     if path[0] == "readings":
         inner = TruthModel if len(path) == 3 else TreeValueModel
     elif path[0] == "faults":
-        inner = SpotModel if "at" in path[2:-1] else _KINDS_OF_FAULT[str(problem["loc"][2])]
+        inner = SpotModel if {"at", "between"} & set(path[2:-1]) else _KINDS_OF_FAULT[str(problem["loc"][2])]
     return list(inner.model_fields)
 
 

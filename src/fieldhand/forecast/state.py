@@ -11,17 +11,23 @@ from fieldhand.site.model import Place
 
 @dataclass(frozen=True, kw_only=True)
 class Spent:
-    """Resources used so far, or by a part of a mission."""
+    """Resources used so far, or by a part of a mission.
+
+    Attributes:
+        joules: Of actions, by the profile (without idle power).
+    """
 
     metres: float = 0.0
     seconds: float = 0.0
     percent: float = 0.0
+    joules: float = 0.0
 
     def __add__(self, other: Spent) -> Spent:
         return Spent(
             metres=self.metres + other.metres,
             seconds=self.seconds + other.seconds,
             percent=self.percent + other.percent,
+            joules=self.joules + other.joules,
         )
 
 

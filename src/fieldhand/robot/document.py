@@ -76,6 +76,8 @@ def _each_once(values: tuple[str, ...]) -> tuple[str, ...]:
 Number = Annotated[float, BeforeValidator(_no_bool), Field(allow_inf_nan=False)]
 Positive = Annotated[Number, Field(gt=0)]
 NotNegative = Annotated[Number, Field(ge=0)]
+Retries = Annotated[int, BeforeValidator(_no_bool), Field(ge=0, le=10)]
+Wait = Annotated[Number, Field(ge=0, le=3600)]
 Name = Annotated[str, AfterValidator(_name)]
 Words = Annotated[tuple[Annotated[str, AfterValidator(_word)], ...], AfterValidator(_each_once)]
 Choice = Annotated[str, AfterValidator(_choice)]
@@ -179,6 +181,16 @@ class ActionDocument(Keyed):
     parameters: dict[Name, ParameterDocument] = {}
     duration_s: Positive
     energy_j: NotNegative
+    retries: Retries | None = None
+    retry_wait_s: Wait | None = None
+
+
+class PatienceDocument(Keyed):
+    """How long the robot waits when something is wrong."""
+
+    retry_wait_s: Wait = 0.0
+    blocked_wait_s: Wait = 60.0
+    lost_wait_s: Wait = 60.0
 
 
 class EnergyDocument(Keyed):
@@ -204,7 +216,8 @@ class ProfileDocument(Keyed):
     speed_m_s: Positive
     width_m: Positive
     standoff_m: Positive | None = None
-    retries: Annotated[int, BeforeValidator(_no_bool), Field(ge=0, le=10)] = 1
+    retries: Retries = 1
+    patience: PatienceDocument = PatienceDocument()
     energy: EnergyDocument
     leg_cost: LegCostDocument
     quantities: dict[Name, QuantityDocument] = {}

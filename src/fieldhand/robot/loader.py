@@ -21,7 +21,7 @@ from fieldhand.robot.document import (
     ProfileDocument,
     QuantityDocument,
 )
-from fieldhand.robot.model import Action, Energy, LegCost, Level, Parameter, Quantity, RobotProfile
+from fieldhand.robot.model import Action, Energy, LegCost, Level, Parameter, Patience, Quantity, RobotProfile
 
 #: A profile is a page or two; a file beyond this is something else.
 MAX_BYTES = 1_000_000
@@ -208,6 +208,7 @@ def _profile(document: ProfileDocument, *, sha256: str, source: str) -> RobotPro
         ),
         leg_cost=LegCost(alpha=document.leg_cost.alpha),
         retries=document.retries,
+        patience=Patience(**document.patience.model_dump()),
         sha256=sha256,
         source=source,
     )
@@ -245,6 +246,8 @@ def _action(name: str, document: ActionDocument) -> Action:
         parameters=tuple(_parameter(key, p) for key, p in document.parameters.items()),
         description=document.description,
         labels=document.labels,
+        retries=document.retries,
+        retry_wait_s=document.retry_wait_s,
     )
 
 

@@ -65,6 +65,8 @@ class Action:
         verbs: Verbs that by themselves mean this action ("photograph"); take, measure and read need no entry.
         measures: Names of the quantities that one capture yields.
         duration_s, energy_j: Of one capture.
+        retries: How often it is tried again when it fails; None for as often as the robot's ``retries`` say.
+        retry_wait_s: Seconds between two tries; None for the robot's.
         labels: What is done, once, in other languages, by their codes ("tomar una fotografía").
     """
 
@@ -77,6 +79,23 @@ class Action:
     parameters: tuple[Parameter, ...] = ()
     description: str = ""
     labels: Mapping[str, str] = field(default_factory=dict)
+    retries: int | None = None
+    retry_wait_s: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Patience:
+    """How long a robot waits when something is wrong that may come right by itself.
+
+    Attributes:
+        retry_wait_s: Before a failed drive or action is tried again.
+        blocked_wait_s: For what stands in the only way to a place.
+        lost_wait_s: To know again where it is.
+    """
+
+    retry_wait_s: float = 0.0
+    blocked_wait_s: float = 60.0
+    lost_wait_s: float = 60.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -115,7 +134,8 @@ class RobotProfile:
         width_m: Over all; it keeps half of it from tree lines, keep-outs and the boundary.
         standoff_m: From a trunk to the middle of the robot when it works on that tree from the aisle; in a narrower
             aisle it stands in the middle.
-        retries: Of a failed action.
+        retries: Of a failed action or drive.
+        patience: How long it waits when something is wrong.
     """
 
     name: str
@@ -130,6 +150,7 @@ class RobotProfile:
     retries: int
     sha256: str
     source: str = ""
+    patience: Patience = Patience()
 
     @cached_property
     def action(self) -> Mapping[str, Action]:

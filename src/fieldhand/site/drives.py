@@ -72,8 +72,8 @@ class Drives:
         self.site = site
         self.standoff_m = standoff_m
         self.clearance_m = clearance_m
-        self._layout = Layout(site, clearance_m, standoff_m)
-        self._stands = Stands(site, self._layout, clearance_m, standoff_m)
+        self.layout = Layout(site, clearance_m, standoff_m)
+        self._stands = Stands(site, self.layout, clearance_m, standoff_m)
         self._closed: dict[Key, str] = {}
         self._problems: dict[Key, str] = {}
         self._ways: dict[tuple[XY, XY], tuple[tuple[XY, ...], float] | None] = {}
@@ -116,11 +116,11 @@ class Drives:
         self._check(standing)
         xy = [p.stand or p.xy for p in standing]
         one, two = xy[: len(places)], xy[len(places) :] if to is not None else xy
-        if not self._layout.open:
+        if not self.layout.open:
             at, there = np.array(one).reshape(-1, 2), np.array(two).reshape(-1, 2)
             return np.asarray(np.hypot(*(at[:, None, :] - there[None, :, :]).transpose(2, 0, 1)))
-        spots = self._layout.spots
-        lengths = self._layout.lengths(spots.at(one), None if to is None else spots.at(two))
+        spots = self.layout.spots
+        lengths = self.layout.lengths(spots.at(one), None if to is None else spots.at(two))
         if np.isinf(lengths).any():
             i, j = np.argwhere(np.isinf(lengths))[0].tolist()
             raise self._no_way(places[i], (places if to is None else to)[j])
@@ -137,7 +137,7 @@ class Drives:
         """
         standing = self.stands(places)
         self._check(standing)
-        roads = roads_of(self._layout, standing)
+        roads = roads_of(self.layout, standing)
         if (other := roads.cut_off()) is not None:
             raise self._no_way(places[0], places[other])
         return roads
@@ -181,7 +181,7 @@ class Drives:
         return body, line
 
     def _lane_at(self, xy: XY) -> tuple[int, int, int] | None:
-        aisle = self._layout.spot(xy).aisle
+        aisle = self.layout.spot(xy).aisle
         if aisle is None:
             return None
         below = aisle.body.lines.index(aisle.below)
@@ -191,7 +191,7 @@ class Drives:
         """From where stands are to be reached."""
         place = here or self.site.start
         able = self._able(place) or self._stands.of(place)
-        return self._layout.spot(able[0].xy)
+        return self.layout.spot(able[0].xy)
 
     def _metres(
         self, places: Sequence[Place], options: Sequence[Sequence[Candidate]], origin: Spot
@@ -205,7 +205,7 @@ class Drives:
             for c in option
             if not c.why_not
         ]
-        linked = self._layout.linked(self._layout.spots.at([c.xy for c in able]), origin)
+        linked = self.layout.linked(self.layout.spots.at([c.xy for c in able]), origin)
         away = np.hypot(*(np.array([c.xy for c in able]).reshape(-1, 2) - origin.xy).T).tolist()
         metres = {c.xy: m for c, m, is_linked in zip(able, away, linked, strict=True) if is_linked}
         return [
@@ -221,12 +221,12 @@ class Drives:
         """For each place the candidates for its stand at which the robot can be."""
         options = self._stands.of_all(places)
         able = [c.xy for option in options for c in option if not c.why_not]
-        free = iter(self._layout.are_free(np.array(able).reshape(-1, 2)).tolist())
+        free = iter(self.layout.are_free(np.array(able).reshape(-1, 2)).tolist())
         return [[c for c in option if not c.why_not and next(free)] for option in options]
 
     def network(self) -> Network:
         """Aisles, headlands, gates and the links between them, as lines."""
-        return network_of(self.site, self._layout)
+        return network_of(self.site, self.layout)
 
     # --- what cannot be driven --------------------------------------------------------------------------------
 
@@ -249,6 +249,13 @@ class Drives:
             self._problems.update((_key(p), reason or next(cut)) for p, reason in zip(new, reasons, strict=True))
         return tuple(self._problems[_key(p)] for p in places)
 
+    def linked(self, places: Sequence[Place], here: Place) -> tuple[bool, ...]:
+        """Which of the places can be driven to from here, wherever the robot will stand there."""
+        able = [[] if bad else c for bad, c in zip(self._impossible(places), self._able_of(places), strict=True)]
+        spots = self.layout.spots.at([c.xy for some in able for c in some])
+        linked = iter(self.layout.linked(spots, self._origin(here)))
+        return tuple(any([next(linked) for _ in some]) for some in able)  # noqa: C419 - each has its turn
+
     def _impossible(self, places: Sequence[Place]) -> list[str]:
         """Why a robot can never be at each of the places, wherever it comes from; remembered."""
         new = list({_key(p): p for p in places if _key(p) not in self._closed}.values())
@@ -269,18 +276,18 @@ class Drives:
         candidates = self._stands.of(place)
         if candidates[0].why_not:
             return no_stand(candidates, 2.0 * self.clearance_m)
-        return f"out of reach: {self._layout.in_the_way(candidates[0].xy) or 'a fence'} is there"
+        return f"out of reach: {self.layout.in_the_way(candidates[0].xy) or 'a fence'} is there"
 
     def _cut_off(self, places: Sequence[Place]) -> list[str]:
         """Why no way leads to each of the places from where the robot starts."""
-        if not self._layout.open or self._impossible((self.site.start,))[0]:
+        if not self.layout.open or self._impossible((self.site.start,))[0]:
             return [""] * len(places)
         start = self._origin(None)
         able = self._able_of(places)
-        linked = iter(self._layout.linked(self._layout.spots.at([c.xy for cs in able for c in cs]), start))
+        linked = iter(self.layout.linked(self.layout.spots.at([c.xy for cs in able for c in cs]), start))
         reached = [any([next(linked) for _ in candidates]) for candidates in able]  # noqa: C419 - each has its turn
         return [
-            "" if reach else cut_off(self._layout, self._layout.spots.at([c.xy for c in candidates]), start)
+            "" if reach else cut_off(self.layout, self.layout.spots.at([c.xy for c in candidates]), start)
             for reach, candidates in zip(reached, able, strict=True)
         ]
 
@@ -295,8 +302,8 @@ class Drives:
 
     def _find(self, one: XY, two: XY) -> tuple[tuple[XY, ...], float] | None:
         points: tuple[XY, ...] | None = (one, two)
-        if self._layout.open and one != two:
-            points = self._layout.way(self._layout.spot(one), self._layout.spot(two))
+        if self.layout.open and one != two:
+            points = self.layout.way(self.layout.spot(one), self.layout.spot(two))
         if points is None:
             return None
         steps = np.diff(np.array(points), axis=0)

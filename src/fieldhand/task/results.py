@@ -12,7 +12,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, get_args
 
 from fieldhand.errors import TaskError
 
@@ -24,7 +24,11 @@ MissionStatus = Literal["completed", "returned", "faulted", "aborted"]
 
 @dataclass(frozen=True, kw_only=True)
 class Started:
-    """The mission begins. ``seed`` is None where the robot is real."""
+    """The mission begins. ``seed`` is None where the robot is real.
+
+    ``at`` is the wall clock's time then (ISO 8601, UTC), empty where there is none: ``at`` and ``t`` give any event's
+    own, whatever is done to the wall clock meanwhile.
+    """
 
     event: ClassVar[str] = "started"
     t: float
@@ -36,6 +40,7 @@ class Started:
     lon: float
     charge_percent: float
     seed: int | None = None
+    at: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -117,7 +122,7 @@ class Decided:
 
 @dataclass(frozen=True, kw_only=True)
 class Shed:
-    """Work was given up to stay inside the budget: which places, and why."""
+    """Work was given up, to stay inside the budget or because no way leads to it: which places, and why."""
 
     event: ClassVar[str] = "shed"
     t: float
@@ -126,6 +131,55 @@ class Shed:
     optional: bool
     reason: str
     chance_short: float = 0.0
+    cause: Literal["budget", "unreachable"] = "budget"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Obstructed:
+    """Something stands in the way to a place, or what stood there is taken as gone (``free``) and will be tried again.
+
+    ``blocked`` is all that the robot will not drive over from now on, each area as its corners (lat, lon).
+    ``unreachable`` are the trees to which no way leads any more from where it stands, of those to which one led before.
+    """
+
+    event: ClassVar[str] = "obstacle"
+    t: float
+    node: str
+    kind: str
+    place: str
+    lat: float
+    lon: float
+    travelled_m: float
+    blocked: tuple[tuple[tuple[float, float], ...], ...]
+    unreachable: tuple[str, ...] = ()
+    free: bool = False
+    what: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Waited:
+    """The robot stood still for what may come right by itself: a way, or knowing where it is.
+
+    ``over``: it knows where it is again; there is a way that it will try again.
+    """
+
+    event: ClassVar[str] = "wait"
+    t: float
+    node: str
+    wanted: Literal["way", "position"]
+    seconds: float
+    over: bool
+    what: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClockSet:
+    """Somebody set the wall clock, by so many seconds forward or back. ``t`` does not know of it."""
+
+    event: ClassVar[str] = "clock"
+    t: float
+    node: str = ""
+    by_s: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -171,11 +225,23 @@ class Ended:
     reason: str = ""
 
 
-Event = Started | Visiting | Driving | Arrived | Acted | Decided | Shed | Faulted | Exited | Ended
+Event = (
+    Started
+    | Visiting
+    | Driving
+    | Arrived
+    | Acted
+    | Decided
+    | Shed
+    | Obstructed
+    | Waited
+    | ClockSet
+    | Faulted
+    | Exited
+    | Ended
+)
 
-_TYPES: dict[str, type[Event]] = {
-    c.event: c for c in (Started, Visiting, Driving, Arrived, Acted, Decided, Shed, Faulted, Exited, Ended)
-}
+_TYPES: dict[str, type[Event]] = {kind.event: kind for kind in get_args(Event)}
 
 
 def to_json(event: Event) -> str:

@@ -7,13 +7,17 @@ afresh, ``update`` takes it one step further, and ``terminate`` stops the robot 
 
 from __future__ import annotations
 
+from collections.abc import Generator
+
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from fieldhand.errors import FieldhandError, OutputError
+from fieldhand.errors import BlockedFault, FieldhandError, OutputError
 from fieldhand.execution.attempt import Attempt, Ending
-from fieldhand.execution.behaviors.surroundings import admitted, is_caught, visit_to
-from fieldhand.execution.goals import Steps, capture, drive
+from fieldhand.execution.behaviors.surroundings import admitted, gives_up_optional, is_caught, visit_to
+from fieldhand.execution.goals import capture, drive
+from fieldhand.execution.obstacles import open_a_way
+from fieldhand.execution.waiting import Steps
 from fieldhand.site.model import Place
 from fieldhand.task.plan import Act, GoTo, Node, Stop
 from fieldhand.task.results import MissionStatus
@@ -46,6 +50,8 @@ class Leaf(Behaviour):
         except OutputError:
             raise
         except FieldhandError as error:
+            if isinstance(error, BlockedFault) and gives_up_optional(self, self.attempt, error):
+                return Status.RUNNING
             self.attempt.fail(self.node.id, error, handled=is_caught(self))
             return Status.FAILURE
         return Status.RUNNING
@@ -55,6 +61,16 @@ class Leaf(Behaviour):
         if new_status == Status.INVALID and self.status == Status.RUNNING:
             self.attempt.stop_driver()
         self._steps = None
+
+    def drive(self, place: Place) -> Steps:
+        """Drive; where something in the way leads it another way, the guard is asked anew."""
+        yield from drive(self.attempt, self.node.id, place, ask=lambda to: self.permission(to, self.node))
+
+    def stand_at(self, place: Place) -> Generator[None, None, Place]:
+        """The place with where the robot will stand there; waits where what it found in its way leaves none."""
+        if not self.attempt.is_at(place) and self.attempt.standing != place:
+            yield from open_a_way(self.attempt, self.node.id, place)
+        return self.attempt.reached(place)
 
     def permission(self, place: Place, work: Node) -> Steps:
         """Wait for ever if the guard forbids the work: the tree is about to be cut off above this leaf."""
@@ -73,9 +89,9 @@ class GoToPlace(Leaf):
 
     def work(self) -> Steps:
         node, attempt = self._goto, self.attempt
-        place = attempt.reached(attempt.resolve_one(node.place))
+        place = yield from self.stand_at(attempt.resolve_one(node.place))
         yield from self.permission(place, node)
-        yield from drive(attempt, node.id, place)
+        yield from self.drive(place)
         attempt.bind(node.label, (place,))
 
 
@@ -94,10 +110,10 @@ class DoAction(Leaf):
         node, attempt = self._act, self.attempt
         # A reading of an earlier round must not decide anything if this one fails.
         attempt.readings.pop(node.reading, None)
-        place = attempt.here if node.at is None else attempt.reached(attempt.resolve_one(node.at))
+        place = attempt.here if node.at is None else (yield from self.stand_at(attempt.resolve_one(node.at)))
         yield from self.permission(place, node)
         if node.at is not None or attempt.standing != place:
-            yield from drive(attempt, node.id, place)
+            yield from self.drive(place)
         attempt.bind(node.label, (place,))
         for _ in range(node.count):
             readings = yield from capture(attempt, node)

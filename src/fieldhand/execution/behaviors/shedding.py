@@ -68,7 +68,7 @@ class DoIfItFits(Decorator):
             visit = attempt.visits.of_step(node, state.context)
         except DriveFault as fault:
             never = Choice(index=None, reason=f"cannot be reached: {fault.what}")
-            shed(attempt, node.id, first_places_of(node, attempt), never, optional=True)
+            shed(attempt, node.id, first_places_of(node, attempt), never, optional=True, cause="unreachable")
             return False
         self.place = visit.place
         choice = attempt.guard.choose(state, [visit], still_to_come=to_come_around(self))

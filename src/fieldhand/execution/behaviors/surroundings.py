@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Literal, Protocol, runtime_checkable
 
 from py_trees.behaviour import Behaviour
 from py_trees.composites import Selector as PyTreesSelector
 from py_trees.composites import Sequence as PyTreesSequence
 
-from fieldhand.errors import PlaceError
+from fieldhand.errors import BlockedFault, PlaceError
 from fieldhand.execution.attempt import Attempt, Ending
 from fieldhand.forecast.service import service_of
 from fieldhand.forecast.state import Choice, Verdict, Visit
@@ -110,6 +110,23 @@ def admitted(
     return False
 
 
+def gives_up_optional(behavior: Behaviour, attempt: Attempt, fault: BlockedFault) -> bool:
+    """Give up the optional visit or step around a behavior that no way leads to; False where none is nearer than a
+    try/otherwise that would catch the fault."""
+    optional = optional_around(behavior)
+    if optional is None:
+        return False
+    for parent, child in ancestors(behavior):
+        if isinstance(parent, PyTreesSelector) and child is parent.children[0]:
+            return False
+        if parent is optional:
+            break
+    given_up = [optional.place] if optional.place is not None else []
+    shed(attempt, optional.node.id, given_up, Choice(index=None, reason=fault.what), optional=True, cause="unreachable")
+    attempt.giving_up = optional.node.id
+    return True
+
+
 def turn_home(behavior: Behaviour, node: Node, attempt: Attempt, places: Sequence[Place], verdict: Verdict) -> None:
     """Give up this node and all that would come after it, say so, and take the exit for a low budget."""
     shed(attempt, node.id, places, verdict, optional=False)
@@ -125,8 +142,8 @@ def left_undone(behavior: Behaviour, attempt: Attempt) -> Iterator[tuple[Node, S
 
     for parent, child in ancestors(behavior):
         if isinstance(parent, ForEachPlace):
-            if parent.left:
-                yield parent.node, tuple(v.place for v in parent.left), parent.node.optional
+            if undone := parent.undone():
+                yield parent.node, undone, parent.node.optional
         elif isinstance(parent, RepeatBody):
             if parent.rounds_left:
                 yield parent.node, (), False
@@ -165,7 +182,15 @@ def _places_of(node: Node, attempt: Attempt) -> tuple[Place, ...]:
         return ()
 
 
-def shed(attempt: Attempt, node: str, places: Sequence[Place], verdict: Verdict | Choice, *, optional: bool) -> None:
+def shed(
+    attempt: Attempt,
+    node: str,
+    places: Sequence[Place],
+    verdict: Verdict | Choice,
+    *,
+    optional: bool,
+    cause: Literal["budget", "unreachable"] = "budget",
+) -> None:
     """Say what is given up, and why."""
     attempt.emit(
         Shed(
@@ -175,5 +200,6 @@ def shed(attempt: Attempt, node: str, places: Sequence[Place], verdict: Verdict 
             optional=optional,
             reason=verdict.reason,
             chance_short=verdict.chance_short,
+            cause=cause,
         )
     )

@@ -12,7 +12,8 @@ import hashlib
 import itertools
 import math
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -21,6 +22,8 @@ from fieldhand.execution.world import (
     ActionFails,
     BatteryDrains,
     Blocked,
+    DriveFails,
+    LocalisationLost,
     RobotStops,
     SensorAbsurd,
     SensorSilent,
@@ -38,6 +41,20 @@ NOISE = 0.02
 RIM = 1e-6
 
 Point = tuple[float, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Hindrance:
+    """What stops a drive: how many metres along its path, which fault of the world it is, and what it is.
+
+    Attributes:
+        for_s: Of a lost position: for how long.
+    """
+
+    at_m: float
+    number: int
+    what: str
+    for_s: float = 0.0
 
 
 class GroundTruth:
@@ -63,10 +80,11 @@ class GroundTruth:
         self._defaults = {name: t.default for name, t in world.readings.items() if t.default is not None}
         self._faults = world.faults
         self._trees: dict[int, Place] = {}
+        self._between: dict[int, tuple[Place, Place]] = {}
+        self._middles: dict[int, Point] = {}
         for number in range(len(world.faults)):
             self._bind_fault(number, site)
-        drains = [f.factor for f in world.faults if isinstance(f, BatteryDrains)]
-        self.drain = math.prod(drains)
+        self._drains = sorted((f.from_s, f.factor) for f in world.faults if isinstance(f, BatteryDrains))
         self.stop = min((f for f in world.faults if isinstance(f, RobotStops)), key=lambda f: f.at_s, default=None)
 
     def capture(self, action: str, place: Place) -> tuple[dict[str, float], str]:
@@ -81,20 +99,76 @@ class GroundTruth:
                 readings[name] = value
         return readings, ""
 
-    def obstacle(self, path: tuple[Point, ...]) -> tuple[float, str] | None:
-        """Where along a path, in metres from its start, something stands in the way, and what; None if it is free."""
+    def drive_fails(self, place: Place) -> str:
+        """Why a drive to a place fails half-way; empty if it does not. Counts it if so."""
+        fails = (n for n, fault in enumerate(self._faults) if isinstance(fault, DriveFails) and self._strikes(n, place))
+        return "the drive gave an error" if next(fails, None) is not None else ""
+
+    def obstacle(self, path: tuple[Point, ...], when: Callable[[float], float]) -> Hindrance | None:
+        """What stops a drive first; None if nothing does.
+
+        Args:
+            path: In local metres.
+            when: At which second of the mission the robot would be so many metres along it.
+        """
         found: list[tuple[float, int, str]] = []
         for number, fault in enumerate(self._faults):
-            if isinstance(fault, Blocked) and not self._exhausted(number):
-                tree = self._trees[number]
-                reach = _enters(path, tree.xy, fault.within_m)
-                if reach is not None:
-                    found.append((reach, number, f"something stands in the way at tree {tree.id}"))
+            if not isinstance(fault, Blocked) or self._exhausted(number):
+                continue
+            reach = _enters(path, self._middles[number], fault.within_m)
+            until_s = math.inf if fault.until_s is None else fault.until_s
+            if reach is not None and fault.from_s <= when(reach) < until_s:
+                found.append((reach, number, f"something stands in the way {self._said(number)}"))
         if not found:
             return None
-        at, number, what = min(found)
-        self._used[number] += 1
-        return at, what
+        at_m, number, what = min(found)
+        return Hindrance(at_m=at_m, number=number, what=what)
+
+    def met(self, hindrance: Hindrance) -> None:
+        """The robot has come to what stops it."""
+        self._used[hindrance.number] += 1
+
+    def lost_on(self, path: tuple[Point, ...]) -> Hindrance | None:
+        """Where along a path the robot first gets lost, if anywhere."""
+        found = [
+            (reach, number)
+            for number, fault in enumerate(self._faults)
+            if isinstance(fault, LocalisationLost) and fault.at is not None and not self._exhausted(number)
+            if (reach := _enters(path, self._middles[number], fault.within_m)) is not None
+        ]
+        if not found:
+            return None
+        at_m, number = min(found)
+        fault = self._faults[number]
+        assert isinstance(fault, LocalisationLost)  # noqa: S101  as filtered above
+        for_s = math.inf if fault.for_s is None else fault.for_s
+        return Hindrance(at_m=at_m, number=number, what=f"no position {self._said(number)}", for_s=for_s)
+
+    @property
+    def lost_spans(self) -> tuple[tuple[float, float], ...]:
+        """From which second of the mission to which the robot does not know where it is, wherever that may be."""
+        return tuple(
+            (f.at_s, math.inf if f.for_s is None else f.at_s + f.for_s)
+            for f in self._faults
+            if isinstance(f, LocalisationLost) and f.at_s is not None
+        )
+
+    def drain(self, from_s: float, to_s: float) -> float:
+        """How many times as fast as its model the battery empties, on average between two seconds of the mission."""
+        edges = [from_s, *(at for at, _ in self._drains if from_s < at < to_s), max(from_s, to_s)]
+        paces = [math.prod(factor for at, factor in self._drains if at <= edge) for edge in edges[:-1]]
+        if to_s <= from_s:
+            return paces[0]
+        spans = [b - a for a, b in itertools.pairwise(edges)]
+        return sum(pace * span for pace, span in zip(paces, spans, strict=True)) / (to_s - from_s)
+
+    def _said(self, number: int) -> str:
+        """Where a fault is, in words."""
+        tree = self._trees.get(number)
+        if tree is not None:
+            return f"at tree {tree.id}"
+        one, two = self._between[number]
+        return f"between tree {one.id} and tree {two.id}"
 
     def _sensed(self, quantity: Quantity, place: Place) -> float | None:
         for number, fault in enumerate(self._faults):
@@ -127,7 +201,7 @@ class GroundTruth:
         tree = self._trees.get(number)
         if self._exhausted(number) or (tree is not None and (place.kind, place.id) != ("tree", tree.id)):
             return False
-        if isinstance(fault, ActionFails | SensorSilent | SensorAbsurd):
+        if isinstance(fault, ActionFails | SensorSilent | SensorAbsurd | DriveFails):
             self._used[number] += 1
         return True
 
@@ -147,7 +221,12 @@ class GroundTruth:
                 pass
         spot = getattr(fault, "at", None)
         if isinstance(spot, Spot):
-            self._trees[number] = self._tree(spot, site, where)
+            tree = self._trees[number] = self._tree(spot, site, where)
+            self._middles[number] = tree.xy
+        if isinstance(fault, Blocked) and fault.between is not None:
+            one, two = (self._tree(spot, site, where) for spot in fault.between)
+            self._between[number] = (one, two)
+            self._middles[number] = ((one.x + two.x) / 2.0, (one.y + two.y) / 2.0)
 
     def _bound(self, truth: Truth, site: Site, name: str) -> dict[str, float]:
         """Values by tree id."""

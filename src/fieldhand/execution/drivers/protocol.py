@@ -7,7 +7,8 @@ twin keeps to it.
     start_drive / start_action ──▶ running ──▶ succeeded | failed
                                       └─cancel──▶ cancelled
 
-A goal that the robot's own stop cuts short (:meth:`Driver.stopped`) is cancelled, too.
+A goal that the robot's own stop cuts short (:meth:`Driver.stopped`) is cancelled, too. A goal that fails says
+what kind of failure it was (:data:`GoalFault`): execution decides by the kind what to do, never by the words.
 
 The outcome of a goal stays what :meth:`~Driver.poll` answers until the next goal starts, so that nothing is lost when
 a mission is interrupted between two calls. ``tests/driver_contract.py`` holds every driver to this.
@@ -22,6 +23,15 @@ from typing import Literal, Protocol
 from fieldhand.site.model import Place
 
 GoalState = Literal["idle", "running", "succeeded", "failed", "cancelled"]
+
+#: Why a goal failed; ``none`` of one that did not.
+#:
+#: * ``blocked``: something stands in the way that the robot's own avoidance found no way past; it stands before it.
+#: * ``lost``: the robot does not know where it is (:meth:`Driver.lost`). It stands still. A goal that is begun while it
+#:   is lost fails at once, and one that is under way when it gets lost is ended: no capture is made by a lost robot.
+#: * ``empty``: the battery is.
+#: * ``failed``: anything else.
+GoalFault = Literal["none", "failed", "blocked", "lost", "empty"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,6 +87,7 @@ class Progress:
         readings: What a capture measured, by quantity, in the units of the profile. A sensor that gave nothing is
             absent.
         what: Why it failed, in words.
+        fault: Why it failed, by its kind.
     """
 
     state: GoalState
@@ -84,6 +95,7 @@ class Progress:
     seconds: float = 0.0
     readings: Mapping[str, float] = field(default_factory=dict)
     what: str = ""
+    fault: GoalFault = "none"
 
     @property
     def over(self) -> bool:
@@ -129,6 +141,13 @@ class Driver(Protocol):
 
     def charge_percent(self) -> float:
         """Charge of the battery now, 0 to 100."""
+        ...
+
+    def lost(self) -> str | None:
+        """Why the robot does not know where it is at this moment ("no satellite fix"); None while it does.
+
+        :meth:`position` then is the last that it knew.
+        """
         ...
 
     def stopped(self) -> str | None:

@@ -5,13 +5,13 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from fieldhand.clock import Clock
-from fieldhand.execution.drivers.groundtruth import GroundTruth, Point
-from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, GoalState, Position, Progress
+from fieldhand.execution.drivers.groundtruth import GroundTruth, Hindrance, Point
+from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, GoalFault, GoalState, Position, Progress
 from fieldhand.execution.world import World
 from fieldhand.forecast.routes import beginning, drives_for
 from fieldhand.robot.model import RobotProfile
@@ -32,6 +32,7 @@ class _Course:
         path: Where it leads through, in local metres; empty for an action.
         reach: How much of the path is done by then, 0 to 1.
         action_j: Energy of the action, spread evenly over the time.
+        meets: What stops it at its end.
     """
 
     start_s: float
@@ -43,6 +44,21 @@ class _Course:
     action_j: float = 0.0
     readings: Mapping[str, float] = field(default_factory=dict)
     what: str = ""
+    fault: GoalFault = "none"
+    meets: Hindrance | None = None
+
+    def cut(self, part: float) -> _Course:
+        """The course, failed after this part of it."""
+        return replace(
+            self,
+            lasts_s=part * self.lasts_s,
+            outcome="failed",
+            metres=part * self.metres,
+            reach=part * self.reach,
+            action_j=part * self.action_j,
+            readings={},
+            meets=None,
+        )
 
     def done_at(self, now: float) -> float:
         """The part of the course that is done, 0 to 1."""
@@ -83,6 +99,7 @@ class SimulatedDriver:
         self._xy: Point = start.stand or start.xy
         self._course: _Course | None = None
         self._result = Progress(state="idle")
+        self._lost: list[tuple[float, Hindrance]] = []
 
     @property
     def seed(self) -> int | None:
@@ -92,33 +109,36 @@ class SimulatedDriver:
         self._begin()
         alpha = self._robot.leg_cost.alpha
         cost = goal.length_m * (alpha + self._rng.exponential(1.0 - alpha) if alpha < 1.0 else 1.0)
-        outcome: GoalState = "succeeded"
-        reach, what = 1.0, ""
-        hindrance = self._truth.obstacle(goal.path_m)
-        if hindrance is not None:
-            at, what = hindrance
-            outcome, reach = "failed", min(1.0, at / goal.length_m) if goal.length_m > 0 else 0.0
-        self._set_out(
-            _Course(
-                start_s=self._clock.now(),
-                lasts_s=reach * cost / goal.speed_m_s,
-                outcome=outcome,
-                metres=reach * cost,
-                path=goal.path_m,
-                reach=reach,
-                what=what,
-            )
+        pace = cost / goal.speed_m_s / goal.length_m if goal.length_m > 0 else 0.0  # seconds for a metre of the path
+        now_s = self._clock.now() - self._begun_s
+        course = whole = _Course(
+            start_s=self._clock.now(), lasts_s=cost / goal.speed_m_s, outcome="succeeded", metres=cost, path=goal.path_m
         )
+        if not self.lost() and (what := self._truth.drive_fails(goal.place)):
+            course = replace(course.cut(0.5), what=what, fault="failed")
+        met: list[tuple[Hindrance, GoalFault]] = []
+        if (hindrance := self._truth.obstacle(goal.path_m, lambda metres: now_s + pace * metres)) is not None:
+            met.append((hindrance, "blocked"))
+        if (hindrance := self._truth.lost_on(goal.path_m)) is not None:
+            met.append((hindrance, "lost"))
+        if met:
+            hindrance, fault = min(met, key=lambda pair: pair[0].at_m)
+            part = min(1.0, hindrance.at_m / goal.length_m) if goal.length_m > 0 else 0.0
+            if part <= course.reach:
+                course = replace(whole.cut(part), what=hindrance.what, fault=fault, meets=hindrance)
+        self._set_out(course)
 
     def start_action(self, goal: ActionGoal) -> None:
         self._begin()
         action = self._robot.action[goal.action]
-        readings, what = self._truth.capture(goal.action, goal.place)
+        # A robot that is lost makes no capture, so none is counted.
+        readings, what = ({}, "") if self.lost() else self._truth.capture(goal.action, goal.place)
         self._set_out(
             _Course(
                 start_s=self._clock.now(),
                 lasts_s=action.duration_s,
                 outcome="failed" if what else "succeeded",
+                fault="failed" if what else "none",
                 action_j=action.energy_j,
                 readings=readings,
                 what=what,
@@ -135,7 +155,11 @@ class SimulatedDriver:
             return self._finish(course, "cancelled", done, stopped)
         if done < 1.0:
             return Progress(state="running", metres=done * course.metres, seconds=done * course.lasts_s)
-        return self._finish(course, course.outcome, 1.0, course.what)
+        if course.meets is not None:
+            self._truth.met(course.meets)
+            if course.fault == "lost":
+                self._lost.append((self._clock.now() - self._begun_s, course.meets))
+        return self._finish(course, course.outcome, 1.0, course.what, course.fault)
 
     def cancel(self) -> None:
         progress = self.poll()
@@ -163,8 +187,15 @@ class SimulatedDriver:
         if self._course is not None:
             left -= self._used(self._course, self._course.done_at(self._clock.now()))
         else:
-            left -= self._truth.drain * self._robot.percent(0.0, self._clock.now() - self._charged_s)
+            idle = self._robot.percent(0.0, self._clock.now() - self._charged_s)
+            left -= self._drained(idle, self._charged_s, self._clock.now())
         return max(0.0, left)
+
+    def lost(self) -> str | None:
+        now_s = self._clock.now() - self._begun_s
+        if any(begins <= now_s + EPSILON_S and now_s < ends - EPSILON_S for begins, ends in self._truth.lost_spans):
+            return "no position"
+        return next((h.what for since_s, h in self._lost if now_s < since_s + h.for_s - EPSILON_S), None)
 
     def stopped(self) -> str | None:
         stop = self._truth.stop
@@ -178,23 +209,30 @@ class SimulatedDriver:
         self._charge, self._charged_s = self.charge_percent(), self._clock.now()
 
     def _set_out(self, course: _Course) -> None:
-        """Begin a course; one that the battery cannot hold out fails where it is empty."""
-        needs = self._used(course, 1.0)
-        if needs > self._charge:
-            part = self._charge / needs
-            course = _Course(
-                start_s=course.start_s,
-                lasts_s=part * course.lasts_s,
-                outcome="failed",
-                metres=part * course.metres,
-                path=course.path,
-                reach=part * course.reach,
-                action_j=part * course.action_j,
-                what="the battery is empty",
-            )
+        """Begin a course; it ends where the robot gets lost or the battery is empty."""
+        begins_s = course.start_s - self._begun_s
+        lost_s = [
+            at - begins_s for at, ends in self._truth.lost_spans if at < begins_s + course.lasts_s and begins_s < ends
+        ]
+        if (why := self.lost()) is not None:
+            course = replace(course.cut(0.0), what=why, fault="lost")
+        elif lost_s:
+            part = max(0.0, min(lost_s)) / course.lasts_s
+            course = replace(course.cut(part), what="no position", fault="lost")
+        if self._used(course, 1.0) > self._charge:
+            part = self._lasting(course)
+            course = replace(course.cut(part), what="the battery is empty", fault="empty")
         self._course = course
 
-    def _finish(self, course: _Course, state: GoalState, done: float, what: str) -> Progress:
+    def _lasting(self, course: _Course) -> float:
+        """How much of a course the battery holds out, 0 to 1."""
+        low, high = 0.0, 1.0
+        for _ in range(60):
+            middle = (low + high) / 2.0
+            low, high = (middle, high) if self._used(course, middle) <= self._charge else (low, middle)
+        return low
+
+    def _finish(self, course: _Course, state: GoalState, done: float, what: str, fault: GoalFault = "none") -> Progress:
         self._charge = max(0.0, self._charge - self._used(course, done))
         self._charged_s = course.start_s + done * course.lasts_s
         if course.path:
@@ -206,13 +244,18 @@ class SimulatedDriver:
             seconds=done * course.lasts_s,
             readings=course.readings if state == "succeeded" else {},
             what=what,
+            fault=fault,
         )
         return self._result
 
     def _used(self, course: _Course, done: float) -> float:
         """Percent of the battery that a part of a course takes."""
         used = self._robot.percent(done * course.metres, done * course.lasts_s, done * course.action_j)
-        return self._truth.drain * used
+        return self._drained(used, course.start_s, course.start_s + done * course.lasts_s)
+
+    def _drained(self, percent: float, from_s: float, to_s: float) -> float:
+        """What the battery loses where its model says so many percent, between two moments of the clock."""
+        return percent * self._truth.drain(from_s - self._begun_s, to_s - self._begun_s)
 
 
 def _along(path: tuple[Point, ...], part: float) -> Point:

@@ -1,0 +1,105 @@
+"""What came of a drive or a capture, written down when it is over."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.execution.drivers.protocol import DriveGoal, Progress
+from fieldhand.robot.model import RobotProfile
+from fieldhand.task.results import Acted, Arrived
+
+if TYPE_CHECKING:
+    from fieldhand.execution.attempt import Attempt
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenDrive:
+    """A drive that the driver has begun and whose end is not recorded yet."""
+
+    node: str
+    goal: DriveGoal
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenCapture:
+    """A capture that the driver has begun and whose end is not recorded yet."""
+
+    node: str
+    action: str
+    number: int
+
+
+def end_drive(attempt: Attempt, open_: OpenDrive, progress: Progress) -> None:
+    """A drive is over: the robot has arrived, or stands somewhere on the way."""
+    attempt.travelled_m += progress.metres
+    if progress.state != "succeeded":
+        attempt.stranded()
+        return
+    place = open_.goal.place
+    attempt.stop_at(place)
+    position = attempt.driver.position()
+    attempt.emit(
+        Arrived(
+            t=attempt.t,
+            node=open_.node,
+            kind=place.kind,
+            place=place.id,
+            lat=position.lat,
+            lon=position.lon,
+            leg_m=progress.metres,
+            travelled_m=attempt.travelled_m,
+            charge_percent=attempt.driver.charge_percent(),
+        )
+    )
+
+
+def end_capture(attempt: Attempt, open_: OpenCapture, progress: Progress) -> Progress:
+    """A capture is over.
+
+    Returns:
+        What came of it: one whose readings cannot be believed has failed.
+    """
+    action = attempt.robot.action[open_.action]
+    attempt.action_j += action.energy_j * min(1.0, progress.seconds / action.duration_s)
+    if progress.state == "cancelled":
+        return progress  # nothing was done, so nothing happened
+    measures = action.measures
+    if progress.state == "succeeded":
+        what = next(filter(None, (unusable(attempt.robot, q, progress.readings.get(q)) for q in measures)), "")
+        if what:
+            progress = dataclasses.replace(progress, state="failed", fault="failed", readings={}, what=what)
+    done, here = progress.state == "succeeded", attempt.here
+    attempt.emit(
+        Acted(
+            t=attempt.t,
+            node=open_.node,
+            action=open_.action,
+            status="success" if done else "failed",
+            kind=here.kind,
+            place=here.id,
+            lat=here.lat,
+            lon=here.lon,
+            attempt=open_.number,
+            readings={q: progress.readings[q] for q in measures} if done else {},
+            units={q: attempt.robot.quantity[q].unit for q in measures} if done else {},
+            what=progress.what,
+            charge_percent=attempt.driver.charge_percent(),
+        )
+    )
+    return progress
+
+
+def unusable(robot: RobotProfile, name: str, value: float | None) -> str:
+    """Why a reading cannot be believed; empty if it can."""
+    quantity = robot.quantity[name]
+    if value is None:
+        return f"the sensor gave no {name}"
+    if not math.isfinite(value) or not quantity.minimum <= value <= quantity.maximum:
+        return (
+            f"{name} {value:g} {quantity.unit} is outside {quantity.minimum:g} to {quantity.maximum:g}:"
+            " the sensor cannot be believed"
+        )
+    return ""

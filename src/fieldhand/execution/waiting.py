@@ -1,0 +1,45 @@
+"""To stand still for a while, and to wait until the robot knows where it is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator
+
+from fieldhand.errors import LostFault
+from fieldhand.execution.attempt import Attempt
+from fieldhand.task.results import Faulted, Waited
+
+Steps = Generator[None, None, None]
+
+#: Seconds within which two moments are one: clocks add floating-point numbers.
+_SAME_S = 1e-6
+
+
+def wait(attempt: Attempt, seconds: float, over: Callable[[], bool] = lambda: False) -> Steps:
+    """Stand still for so many seconds of the mission, or until it is over."""
+    until_s = attempt.clock.now() + seconds
+    attempt.wait_until(until_s)
+    try:
+        while attempt.clock.now() < until_s - _SAME_S and not over():
+            yield
+    finally:
+        attempt.wait_until(None)
+
+
+def know_position(attempt: Attempt, node: str) -> Steps:
+    """Where the robot does not know where it is, wait for that as long as its profile says.
+
+    Raises:
+        LostFault: It does not know it then either.
+    """
+    why = attempt.driver.lost()
+    if why is None:
+        return
+    begun_s, patience = attempt.clock.now(), attempt.robot.patience.lost_wait_s
+    what = f"the robot does not know where it is ({why})"
+    standing = f"{what}; it stands still for at most {patience:g} s"
+    attempt.emit(Faulted(t=attempt.t, node=node, fault="lost", what=standing, handled=True))
+    yield from wait(attempt, patience, over=lambda: attempt.driver.lost() is None)
+    known, waited_s = attempt.driver.lost() is None, attempt.clock.now() - begun_s
+    attempt.emit(Waited(t=attempt.t, node=node, wanted="position", seconds=waited_s, over=known, what=why))
+    if not known:
+        raise LostFault(f"{what}, {patience:g} s on still", advice="bring it back by hand")

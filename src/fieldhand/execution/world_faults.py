@@ -1,0 +1,220 @@
+"""The faults of a world file: a pydantic model for each, as its YAML has it."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, StrictInt, model_validator
+
+from fieldhand.execution.world import (
+    ActionFails,
+    BatteryDrains,
+    Blocked,
+    ClockJumps,
+    DiskFull,
+    DriveFails,
+    LocalisationLost,
+    RobotStops,
+    SensorAbsurd,
+    SensorSilent,
+    Spot,
+    WorldFault,
+)
+
+Second = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+Times = Annotated[StrictInt, Field(ge=1)] | None
+
+
+class Strict(BaseModel):
+    """A part of a world file: it has the keys that are declared and no others."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class SpotModel(Strict):
+    """``{id: "12"}`` or ``{lat: 37.2664, lon: -120.4201}``."""
+
+    id: str | StrictInt | None = None
+    lat: Annotated[float, Field(ge=-90, le=90, allow_inf_nan=False)] | None = None
+    lon: Annotated[float, Field(ge=-180, le=180, allow_inf_nan=False)] | None = None
+
+    @model_validator(mode="after")
+    def _named_once(self) -> SpotModel:
+        given = (self.id is not None, self.lat is not None, self.lon is not None)
+        if given not in ((True, False, False), (False, True, True)):
+            raise ValueError("a tree is named by id, or by lat and lon")
+        return self
+
+    def spot(self) -> Spot:
+        """As execution uses it."""
+        if self.id is not None:
+            return Spot(id=str(self.id))
+        return Spot(lat=self.lat or 0.0, lon=self.lon or 0.0)
+
+
+class _AtModel(Strict):
+    times: Times = None
+    at: SpotModel | None = None
+
+    @property
+    def spot(self) -> Spot | None:
+        return None if self.at is None else self.at.spot()
+
+
+class ActionFailsModel(_AtModel):
+    """An action that fails."""
+
+    fault: Literal["action_fails"]
+    action: str
+
+    def made(self) -> WorldFault:
+        """As execution uses it."""
+        return ActionFails(action=self.action, times=self.times, at=self.spot)
+
+
+class SensorSilentModel(_AtModel):
+    """A sensor that gives nothing."""
+
+    fault: Literal["sensor_silent"]
+    quantity: str
+
+    def made(self) -> WorldFault:
+        """As execution uses it."""
+        return SensorSilent(quantity=self.quantity, times=self.times, at=self.spot)
+
+
+class SensorAbsurdModel(_AtModel):
+    """A sensor that gives nonsense."""
+
+    fault: Literal["sensor_absurd"]
+    quantity: str
+    value: FiniteFloat
+
+    def made(self) -> WorldFault:
+        """As execution uses it."""
+        return SensorAbsurd(quantity=self.quantity, value=self.value, times=self.times, at=self.spot)
+
+
+class DriveFailsModel(_AtModel):
+    """A drive that fails."""
+
+    fault: Literal["drive_fails"]
+
+    def made(self) -> WorldFault:
+        """As execution uses it."""
+        return DriveFails(times=self.times, at=self.spot)
+
+
+class BlockedModel(Strict):
+    """Something in the way."""
+
+    fault: Literal["blocked"]
+    at: SpotModel | None = None
+    between: tuple[SpotModel, SpotModel] | None = None
+    within_m: Annotated[float, Field(gt=0, allow_inf_nan=False)] = 1.0
+    times: Times = None
+    from_s: Second = 0.0
+    until_s: Second | None = None
+
+    @model_validator(mode="after")
+    def _somewhere(self) -> BlockedModel:
+        if (self.at is None) == (self.between is None):
+            raise ValueError("give the tree that it stands at, or the two that it stands between")
+        if self.until_s is not None and self.until_s <= self.from_s:
+            raise ValueError(f"until_s {self.until_s:g} is not after from_s {self.from_s:g}")
+        return self
+
+    def made(self) -> WorldFault:
+        """As execution uses it."""
+        return Blocked(
+            at=None if self.at is None else self.at.spot(),
+            between=None if self.between is None else (self.between[0].spot(), self.between[1].spot()),
+            within_m=self.within_m,
+            times=self.times,
+            from_s=self.from_s,
+            until_s=self.until_s,
+        )
+
+
+class LocalisationLostModel(Strict):
+    """A robot that does not know where it is."""
+
+    fault: Literal["localisation_lost"]
+    at_s: Second | None = None
+    at: SpotModel | None = None
+    within_m: Annotated[float, Field(gt=0, allow_inf_nan=False)] = 5.0
+    for_s: Second | None = None
+    times: Times = 1
+
+    @model_validator(mode="after")
+    def _sometime(self) -> LocalisationLostModel:
+        if (self.at_s is None) == (self.at is None):
+            raise ValueError("give the second at which it happens, at_s, or the tree, at")
+        return self
+
+    def made(self) -> WorldFault:
+        """As execution uses it."""
+        at = None if self.at is None else self.at.spot()
+        return LocalisationLost(at_s=self.at_s, at=at, within_m=self.within_m, for_s=self.for_s, times=self.times)
+
+
+class BatteryDrainsModel(Strict):
+    """A battery that empties faster than the profile says."""
+
+    fault: Literal["battery_drains"]
+    factor: Annotated[float, Field(gt=0, allow_inf_nan=False)]
+    from_s: Second = 0.0
+
+    def made(self) -> WorldFault:
+        """As execution uses it."""
+        return BatteryDrains(factor=self.factor, from_s=self.from_s)
+
+
+class ClockJumpsModel(Strict):
+    """A wall clock that is set."""
+
+    fault: Literal["clock_jumps"]
+    at_s: Second
+    by_s: FiniteFloat
+
+    def made(self) -> WorldFault:
+        """As execution uses it."""
+        return ClockJumps(at_s=self.at_s, by_s=self.by_s)
+
+
+class DiskFullModel(Strict):
+    """A disk on which there is no room."""
+
+    fault: Literal["disk_full"]
+    at_s: Second
+
+    def made(self) -> WorldFault:
+        """As execution uses it."""
+        return DiskFull(at_s=self.at_s)
+
+
+class RobotStopsModel(Strict):
+    """The end of the robot's part."""
+
+    fault: Literal["robot_stops"]
+    at_s: Second
+    why: Annotated[str, Field(min_length=1)] = "power cut"
+
+    def made(self) -> WorldFault:
+        """As execution uses it."""
+        return RobotStops(at_s=self.at_s, why=self.why)
+
+
+AnyFault = (
+    ActionFailsModel
+    | SensorSilentModel
+    | SensorAbsurdModel
+    | DriveFailsModel
+    | BlockedModel
+    | LocalisationLostModel
+    | BatteryDrainsModel
+    | ClockJumpsModel
+    | DiskFullModel
+    | RobotStopsModel
+)
+FaultModel = Annotated[AnyFault, Field(discriminator="fault")]

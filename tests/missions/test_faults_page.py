@@ -1,0 +1,51 @@
+"""The examples of docs/faults.md: each world is flown, and the log says what the page says."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import get_args
+
+import pytest
+import yaml
+
+from fieldhand import mission
+from fieldhand.errors import OutputError
+from fieldhand.evaluation.telling import Teller
+from fieldhand.execution.world import parse_world
+from fieldhand.execution.world_faults import AnyFault
+from fieldhand.planning.english.planner import EnglishPlanner
+from fieldhand.planning.planner import Planned
+from fieldhand.robot.loader import load_robot
+from fieldhand.site.geojson import open_site
+from rig import authorized
+
+DOCS = Path(__file__).resolve().parents[2] / "docs"
+EXAMPLE = re.compile(r"```yaml\n# (.*?)\n(.*?)```\n\n```text\n(.*?)```", re.DOTALL)
+EXAMPLES = EXAMPLE.findall((DOCS / "faults.md").read_text())
+
+
+@pytest.mark.parametrize(("request_", "world", "said"), EXAMPLES, ids=[str(k) for k in range(len(EXAMPLES))])
+def test_the_log_says_what_the_page_says(request_: str, world: str, said: str) -> None:
+    site, robot, teller = open_site("demo"), load_robot("husky"), Teller(load_robot("husky"))
+    outcome = mission.plan(request_, site, robot, EnglishPlanner())
+    assert isinstance(outcome, Planned)
+    lines: list[str] = []
+    try:
+        mission.carry_out(
+            authorized(outcome.task, site, robot), site, robot, world=parse_world(yaml.safe_load(world)), seed=0,
+            speed=None, emit=lambda event: lines.append(teller.tell(event) or ""),
+        )  # fmt: skip
+    except OutputError as error:
+        lines.append(str(error))
+    told, at = "\n".join(lines), 0
+    for line in said.splitlines():
+        assert line in told[at:], f"{line}\n\n{told}"
+        at = told.index(line, at) + len(line)
+
+
+def test_the_page_of_formats_lists_every_fault() -> None:
+    page = (DOCS / "formats.md").read_text()
+    for model in get_args(AnyFault):
+        (kind,) = get_args(model.model_fields["fault"].annotation)
+        assert f"{{fault: {kind}," in page
