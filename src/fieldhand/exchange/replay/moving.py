@@ -60,12 +60,11 @@ def save_animation(film: Film, site: Site, path: Path, *, seconds: float = 10.0)
 
 def _sheet(picture: NDArray[np.uint8]) -> tuple[Figure, Any]:
     """A figure that holds nothing but a picture, and that picture: quick to write many times."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
     high, wide = picture.shape[:2]
     figure = Figure(figsize=(wide / _DPI, high / _DPI), dpi=_DPI)
-    FigureCanvasAgg(figure)
+    _canvas(figure)
     return figure, figure.figimage(picture)
 
 
@@ -95,7 +94,7 @@ class _Scene:
         self._moving = [artist for artist in moving if artist is not None]
         for artist in self._moving:
             artist.set_animated(True)
-        self._canvas: Any = figure.canvas
+        self._canvas = _canvas(figure)
         self._canvas.draw()
         self._ground = self._canvas.copy_from_bbox(figure.bbox)
 
@@ -119,6 +118,12 @@ class _Scene:
         for artist in self._moving:
             self._ax.draw_artist(artist)
         return np.array(self._canvas.buffer_rgba())
+
+
+def _canvas(figure: Figure) -> Any:
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    return FigureCanvasAgg(figure)
 
 
 def _valued_dots(figure: Figure, ax: Axes, valued: list[Capture], quantity: str) -> Any:

@@ -105,14 +105,14 @@
     pen.stroke();
     const key = find("quantity").value;
     const [low, high] = range(key);
-    let made = 0;
-    for (const capture of film.captures) {
-      if (capture.t > now) continue;
-      made += capture.good ? 1 : 0;
-      const value = capture.readings[key];
-      const part = high > low ? (value - low) / (high - low) : 0.5;
-      const fill = !capture.good ? "#b3261e" : value === undefined ? "#6a3d9a" : colour(part);
-      dot(capture.x, capture.y, capture.good && value === undefined ? 5 : 7, fill, "#fff");
+    const done = film.captures.filter((capture) => capture.t <= now);
+    const made = done.filter((capture) => capture.good).length;
+    // What was read lies on top of other captures of the same place.
+    for (const capture of done.filter((c) => c.readings[key] === undefined)) {
+      dot(capture.x, capture.y, 5, capture.good ? "#6a3d9a" : "#b3261e", "#fff");
+    }
+    for (const capture of done.filter((c) => c.readings[key] !== undefined)) {
+      dot(capture.x, capture.y, 7, colour(high > low ? (capture.readings[key] - low) / (high - low) : 0.5), "#fff");
     }
     dot(x, y, 6, "#26324f", "#fff");
     const whole = Math.round(now);

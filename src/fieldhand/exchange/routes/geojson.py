@@ -31,7 +31,8 @@ def _of_stop(route: Route, stop: Stop, number: int) -> dict[str, Any]:
         "robot_position": _position(stop.stand),
         "travelled_m": round(stop.travelled_m, 3),
         "actions": [
-            {"node": w.node, "action": w.action, "captures": w.captures} | ({"failed": w.failed} if w.failed else {})
+            {"node": w.node, "action": w.action, "captures": w.captures}
+            | ({"failed": w.failed} if route.driven else {"certain": w.certain})
             for w in stop.work
         ],
     }

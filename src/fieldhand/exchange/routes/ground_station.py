@@ -1,8 +1,8 @@
 """A planned route as a QGroundControl plan (file format version 1) for a ground rover.
 
 A plan of a ground station is a list of waypoints: it knows no condition, no reading and no budget. So it holds the
-straight part of a mission, up to the first of those, and the boundary and keep-outs as a fence. At a stop the robot
-waits as long as the work there takes; what it does there a waypoint cannot say.
+straight part of a mission, as far as every branch drives the same ways, and the boundary and keep-outs as a fence. At a
+stop the robot waits as long as the certain work there takes; what it does there a waypoint cannot say.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def write_plan(route: Route, site: Site) -> GroundStationPlan:
     straight = [stop for stop in route.stops if stop.certain]
     items: list[dict[str, Any]] = []
     for stop in straight:
-        seconds = sum(work.seconds for work in stop.work)
+        seconds = sum(work.seconds for work in stop.work if work.certain)
         points = [*stop.way[1:]] or [stop.stand]
         for at in points[:-1]:
             items.append(_item(at, 0.0, len(items) + 1))

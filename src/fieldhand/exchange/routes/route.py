@@ -1,7 +1,7 @@
 """A route: the stops and ways of a mission in their order, in degrees.
 
-A planned route is the branch on which every condition holds. What comes after the first condition, or the first step
-that the budget may leave out, is not certain: another branch may go elsewhere.
+A planned route is the branch on which every condition holds. Its stops are certain as far as every other branch drives
+the same ways, and no step has come that the budget may leave out.
 """
 
 from __future__ import annotations
@@ -9,15 +9,16 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from itertools import takewhile
 from typing import TYPE_CHECKING
 
+from fieldhand.forecast.branches import branches
 from fieldhand.forecast.limits import speed_of
-from fieldhand.forecast.steps import Step
-from fieldhand.forecast.walk import walk
+from fieldhand.forecast.steps import Step, Walk
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import is_optional
+from fieldhand.task.plan import Act, is_optional
 from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event, Started
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ class Work:
 
     Attributes:
         captures: Made, or to be made.
+        certain: It is done on every branch.
         failed: Captures that failed.
         seconds: That it takes; 0 where a log does not say.
         readings: Of the last capture, value and unit by quantity.
@@ -40,6 +42,7 @@ class Work:
     node: str
     action: str
     captures: int
+    certain: bool = True
     failed: int = 0
     seconds: float = 0.0
     readings: dict[str, tuple[float, str]] = field(default_factory=dict)
@@ -100,21 +103,28 @@ def planned(task: Task, site: Site, robot: RobotProfile) -> Route:
         PlaceError: A selector finds nothing here.
         DriveFault: A place that cannot be reached.
     """
-    walked = walk(task, site, robot, holds=lambda _: True)
+    found = branches(task, site, robot)
+    walked = found.walks[0]
+    known = _Certain(found.walks if found.complete else (walked,), complete=found.complete)
     first = next((s.context.here for s in walked.steps), site.start)
     stops: list[Stop] = [_stop(first, site, node="", certain=True)]
-    travelled, certain = 0.0, True
+    travelled, drives = 0.0, 0
     for step in walked.steps:
         if step.kind in ("drive", "exit") and step.drive is not None:
             travelled += step.drive.length_m
-            stops.append(_driven_to(step, site, travelled, certain))
+            stops.append(_driven_to(step, site, travelled, drives < known.drives))
+            drives += 1
         elif step.kind == "exit":
             stops[-1] = replace(stops[-1], home=True)
-        elif step.kind == "act":
-            done = Work(node=step.node.id, action=_action(step), captures=step.captures, seconds=step.seconds)
+        elif isinstance(step.node, Act) and step.kind == "act":
+            done = Work(
+                node=step.node.id,
+                action=step.node.action,
+                captures=step.captures,
+                certain=drives <= known.drives and (drives, step.node.id) in known.acts,
+                seconds=step.seconds,
+            )
             stops[-1] = replace(stops[-1], work=(*stops[-1].work, done))
-        elif step.kind == "decide" or is_optional(step.node):
-            certain = False
     begin = stops[0]
     return Route(
         name=task.id,
@@ -164,6 +174,37 @@ def driven(events: Sequence[Event], *, speed_m_s: float = 0.0) -> Route:
     return Route(name=name, start=begin, stops=tuple(stops), speed_m_s=speed_m_s, driven=True)
 
 
+class _Certain:
+    """What every branch has in common from its beginning on.
+
+    Attributes:
+        drives: So many drives are the same on every branch.
+        acts: What is done after how many drives, by its node, on every branch.
+    """
+
+    def __init__(self, walks: Sequence[Walk], *, complete: bool) -> None:
+        each = [self._straight(walked, complete) for walked in walks]
+        ways = [drives for drives, _ in each]
+        self.drives = sum(1 for _ in takewhile(lambda same: len(set(same)) == 1, zip(*ways, strict=False)))
+        self.acts = frozenset.intersection(*(acts for _, acts in each))
+
+    def _straight(self, walked: Walk, complete: bool) -> tuple[list[tuple[LatLon, ...]], frozenset[tuple[int, str]]]:
+        """The drives and acts of a branch up to the first that the budget may leave out.
+
+        Where not every branch was looked at, also only up to the first condition.
+        """
+        drives: list[tuple[LatLon, ...]] = []
+        acts: set[tuple[int, str]] = set()
+        for step in walked.steps:
+            if (step.kind == "visit-list" and is_optional(step.node)) or (step.kind == "decide" and not complete):
+                break
+            if step.drive is not None:
+                drives.append(step.drive.points)
+            elif step.kind == "act":
+                acts.add((len(drives), step.node.id))
+        return drives, frozenset(acts)
+
+
 def _with(work: tuple[Work, ...], event: Acted) -> tuple[Work, ...]:
     """The work of a stop with one more capture."""
     good = event.status == "success"
@@ -196,10 +237,6 @@ def _stop(place: Place, site: Site, *, node: str, certain: bool) -> Stop:
 
 def _degrees(site: Site, points: ArrayLike) -> tuple[LatLon, ...]:
     return tuple((float(lat), float(lon)) for lat, lon in site.projection.degrees(points))
-
-
-def _action(step: Step) -> str:
-    return getattr(step.node, "action", "")
 
 
 def _known(at: LatLon) -> bool:

@@ -23,9 +23,9 @@ def write_csv(route: Route) -> bytes:
     for number, stop in enumerate(route.stops, start=1):
         beginning = (number, _text(stop.kind), _text(stop.place), *(f"{d:.9f}" for d in (*stop.at, *stop.stand)))
         way = (round(stop.length_m, 3), round(stop.travelled_m, 3), "" if stop.t is None else round(stop.t, 3))
-        certain = "" if route.driven else "yes" if stop.certain else "no"
         for work in stop.work or (Work(node=stop.node, action="", captures=0),):
             readings = "; ".join(f"{q} {v} {u}".strip() for q, (v, u) in work.readings.items())
+            certain = "" if route.driven else "yes" if stop.certain and work.certain else "no"
             what = (_text(work.node), _text(work.action), work.captures or "", work.failed or "", _text(readings))
             writer.writerow((*beginning, *way, certain, *what))
     return out.getvalue().encode()
