@@ -91,6 +91,7 @@ class McapLog:
         self._channels: dict[str, int] = {}
         self._count = 0
         self._captures: list[Acted] = []
+        self._next_shown = 1
         self._drive: Driving | None = None
         self._state: dict[str, Any] = {"charge_percent": 100.0, "travelled_m": 0.0, "readings": {}}
         try:
@@ -152,11 +153,19 @@ class McapLog:
                     yield self._geojson("/way", event.t, [_feature(line, {"node": event.node, "to": event.place})])
             case Acted():
                 self._captures.append(event)
-                yield self._geojson("/captures", event.t, [_capture(e) for e in self._captures if _known(e.lat, e.lon)])
+                yield from self._shown(event.t)
+            case Ended():
+                yield from self._shown(event.t, last=True)
         if isinstance(event, Started | Arrived | Ended):
             yield self._location(event.t, event.lat, event.lon)
         if self._note(event):
             yield _Message(topic="/state", schema=STATE, t=event.t, data=_json(self._state))
+
+    def _shown(self, t: float, *, last: bool = False) -> Iterator[_Message]:
+        """All captures so far: after each of the first, then whenever there is a tenth more, and at the end."""
+        if len(self._captures) >= self._next_shown or last:
+            self._next_shown = len(self._captures) + max(1, len(self._captures) // 10)
+            yield self._geojson("/captures", t, [_capture(e) for e in self._captures if _known(e.lat, e.lon)])
 
     def _note(self, event: Event) -> bool:
         """Keep what an event says of the robot; whether it says anything."""

@@ -79,7 +79,9 @@ class _Scene:
         figure.set_size_inches(_even(width / height * _HEIGHT_IN + 1.2), _even(_HEIGHT_IN))
         self._ax = ax = figure.axes[0]
         draw_site(ax, site)
-        figure.suptitle(film.title.replace("$", r"\$"), x=0.02, ha="left", fontsize=11, color=_INK)
+        # The second line is room for the clock.
+        figure.suptitle(film.title.replace("$", r"\$") + "\n ", x=0.02, y=0.985, ha="left", fontsize=11, color=_INK)
+        self._clock = figure.text(0.02, 0.915, "", ha="left", va="bottom", fontsize=10, color=_INK)
         quantity = film.quantities[0] if film.quantities else ""
         self._valued = [c for c in film.captures if quantity in c.readings]
         self._values = np.array([c.readings[quantity] for c in self._valued])
@@ -88,9 +90,8 @@ class _Scene:
         (self._robot,) = ax.plot([], [], "o", color=_WAY, markersize=9, markeredgecolor="white", markeredgewidth=1.5)
         (self._plain,) = ax.plot([], [], "D", color=_PLAIN, markersize=6, markeredgecolor="white")
         (self._failed,) = ax.plot([], [], "X", color=_FAILED, markersize=8, markeredgecolor="white")
-        self._clock = ax.text(0.0, 1.0, "", transform=ax.transAxes, ha="left", va="bottom", fontsize=10, color=_INK)
         self._dots = _valued_dots(figure, ax, self._valued, quantity) if self._valued else None
-        moving = (self._way, self._dots, self._plain, self._failed, self._robot, self._clock)
+        moving = (self._way, self._plain, self._failed, self._dots, self._robot, self._clock)
         self._moving = [artist for artist in moving if artist is not None]
         for artist in self._moving:
             artist.set_animated(True)
