@@ -78,3 +78,15 @@ def test_subtrees_that_double_do_not_explode() -> None:
     text = f'<root BTCPP_format="4" main_tree_to_execute="T0">{doubled}{last}</root>'
     with pytest.raises(TaskError, match=f"more than {MAX_NODES:,} nodes"):
         read_tree(text.encode(), ROVER)
+
+
+def test_subtrees_in_subtrees_nest_no_deeper_than_a_task() -> None:
+    chain = "".join(
+        f'<BehaviorTree ID="T{k}"><Sequence><SubTree ID="T{k + 1}"/></Sequence></BehaviorTree>' for k in range(400)
+    )
+    last = '<BehaviorTree ID="T400"><read_co2/></BehaviorTree>'
+    text = f'<root BTCPP_format="4" main_tree_to_execute="T0">{chain}{last}</root>'
+    with pytest.raises(TaskError, match="more than 200 nodes are nested"):
+        read_tree(text.encode(), ROVER)
+    deep = tree("<Sequence>" * 150 + "<read_co2/>" + "</Sequence>" * 150)
+    assert len(read_tree(deep, ROVER).command.goals) == 1

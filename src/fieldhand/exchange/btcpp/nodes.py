@@ -14,6 +14,7 @@ from fieldhand.task import plan as p
 from fieldhand.task.capabilities import ChoiceParameter
 from fieldhand.task.codec_shapes import shape_of
 from fieldhand.task.codec_text import bare_value
+from fieldhand.task.codec_xml import MAX_DEPTH
 from fieldhand.task.conditions import AllOf, AnyOf, Condition, Not
 from fieldhand.task.selectors import Selector
 
@@ -38,6 +39,8 @@ class NodeReader:
         self.elements = elements
         self._trees = trees
         self._inside: list[str] = []
+        #: How deep the subtrees under way stand in each other.
+        self._depth = 0
         self._nodes = 0
 
     def node(self, element: _Element, *scripts: str) -> p.Node:
@@ -45,6 +48,8 @@ class NodeReader:
         self._nodes += 1
         if self._nodes > MAX_NODES:
             raise self.elements.error(element, f"the tree has more than {MAX_NODES:,} nodes", "use subtrees less often")
+        if self._depth + _depth(element) > MAX_DEPTH:
+            raise self.elements.error(element, f"more than {MAX_DEPTH} nodes are nested", "nest less deeply")
         tag = self.elements.tag(element)
         known: tuple[str, ...] = tuple(self.elements.known.get(tag.kind, ()))
         known = {"Repeat": ("num_cycles",), "SubTree": ("ID",)}.get(tag.kind, known)
@@ -236,9 +241,16 @@ class NodeReader:
         if name in self._inside:
             raise self.elements.error(tag.element, f"the tree {name!r} holds itself", "end the circle")
         self._inside.append(name)
+        self._depth += _depth(tag.element)
         found = self.node(self._trees[name][0])
+        self._depth -= _depth(tag.element)
         self._inside.pop()
         return found
+
+
+def _depth(element: _Element) -> int:
+    """How deep an element stands in its document."""
+    return sum(1 for _ in element.iterancestors())
 
 
 def _entry(loop: Tag, port: str, ending: str) -> str:

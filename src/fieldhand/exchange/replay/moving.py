@@ -79,8 +79,10 @@ class _Scene:
         figure.set_size_inches(_even(width / height * _HEIGHT_IN + 1.2), _even(_HEIGHT_IN))
         self._ax = ax = figure.axes[0]
         draw_site(ax, site)
-        # The second line is room for the clock.
-        figure.suptitle(film.title.replace("$", r"\$") + "\n ", x=0.02, y=0.985, ha="left", fontsize=11, color=_INK)
+        layout = figure.get_layout_engine()
+        if layout is not None:
+            layout.set(rect=(0.0, 0.0, 1.0, 0.91))  # type: ignore[call-arg]  # a constrained one
+        figure.text(0.02, 0.985, film.title.replace("$", r"\$"), ha="left", va="top", fontsize=11, color=_INK)
         self._clock = figure.text(0.02, 0.915, "", ha="left", va="bottom", fontsize=10, color=_INK)
         quantity = film.quantities[0] if film.quantities else ""
         self._valued = [c for c in film.captures if quantity in c.readings]
