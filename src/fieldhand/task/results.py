@@ -11,7 +11,8 @@ import dataclasses
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, Literal
+from functools import cache
+from typing import Any, ClassVar, Literal, get_args, get_origin, get_type_hints
 
 from fieldhand.errors import TaskError
 
@@ -190,10 +191,39 @@ def from_json(line: str, *, where: str = "") -> Event | None:
         kind = _TYPES.get(record.pop("event"))
         if kind is None:
             return None
-        known = {f.name for f in dataclasses.fields(kind)}
-        return kind(**{key: _frozen(value) for key, value in record.items() if key in known})
+        hints = _hints(kind.event)
+        found = {key: _frozen(value) for key, value in record.items() if key in hints}
+        for key, value in found.items():
+            if not _fits(value, hints[key]):
+                raise ValueError(f"{key} cannot be {json.dumps(value)[:60]}")
+        return kind(**found)
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise TaskError(f"not an event: {error}", where=where, advice="was the log cut off or edited?") from None
+
+
+@cache
+def _hints(event: str) -> dict[str, Any]:
+    """The types of the fields of an event, by its name."""
+    kind = _TYPES[event]
+    hints = get_type_hints(kind)
+    return {f.name: hints[f.name] for f in dataclasses.fields(kind)}
+
+
+def _fits(value: Any, hint: Any) -> bool:
+    """Whether a value that was read is of a field's type; logs come from other programs, too."""
+    origin, inner = get_origin(hint), get_args(hint)
+    if hint is float:
+        return isinstance(value, float) or (type(value) is int and abs(value) < 1 << 64)
+    if origin is Literal:
+        return isinstance(value, str) and value in inner
+    if origin is tuple:
+        each = inner[:1] * len(value) if isinstance(value, tuple) and inner[-1] is ... else inner
+        return isinstance(value, tuple) and len(value) == len(each) and all(map(_fits, value, each))
+    if origin is Mapping:
+        return isinstance(value, dict) and all(_fits(one, inner[1]) for one in value.values())
+    if origin is None:
+        return type(value) is hint
+    return any(_fits(value, one) for one in inner)
 
 
 def _frozen(value: Any) -> Any:
