@@ -15,9 +15,12 @@ from fieldhand.cli.bench_orienteering import bench_orienteering
 from fieldhand.cli.bench_planning import bench_planning
 from fieldhand.cli.check import check
 from fieldhand.cli.demo import demo
+from fieldhand.cli.export import export
+from fieldhand.cli.import_tree import import_tree
 from fieldhand.cli.inspect import inspect
 from fieldhand.cli.keys import keys
 from fieldhand.cli.plan import plan
+from fieldhand.cli.replay import replay
 from fieldhand.cli.report import report
 from fieldhand.cli.robot import robot
 from fieldhand.cli.run import run
@@ -34,9 +37,12 @@ def assemble(*others: Callable[..., None]) -> typer.Typer:
         add_completion=False,
         context_settings={"help_option_names": ["-h", "--help"]},
     )
-    commands: tuple[Callable[..., None], ...] = (plan, check, approve, inspect, run, report, site, demo, *others)
+    commands: tuple[Callable[..., None], ...] = (
+        plan, check, approve, inspect, run, report, replay, export, site, demo, *others,
+    )  # fmt: skip
     for command in commands:
         app.command()(command)
+    app.command("import")(import_tree)
     app.add_typer(robot)
     bench.command("orienteering")(bench_orienteering)
     bench.command("guard")(bench_guard)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -36,6 +36,7 @@ class Orders:
         world: What sensors read and what goes wrong.
         speed: Simulated seconds in a second; None for as fast as it goes.
         log: Where to write the event log beside the one in ``folder``.
+        mcap: Where to write it as MCAP.
         folder: Where to leave Task, map, events and report.
         history: Folder in which it is kept what missions cost the robot; None to keep nothing.
         quiet: Print one JSON object at the end and nothing else.
@@ -49,6 +50,7 @@ class Orders:
     seed: int
     speed: float | None = None
     log: Path | None = None
+    mcap: Path | None = None
     folder: Path | None = None
     history: Path | None = None
     quiet: bool = False
@@ -122,7 +124,15 @@ def _carry_out(ground: Ground, authorized: AuthorizedTask, orders: Orders) -> tu
         show.heading("The mission")
     with ExitStack() as stack:
         paths = [orders.log, None if orders.folder is None else orders.folder / "events.jsonl"]
-        logs = [stack.enter_context(EventLog(path)) for path in paths if path is not None]
+        logs: list[Callable[[Event], None]] = [
+            stack.enter_context(EventLog(path)) for path in paths if path is not None
+        ]
+        if orders.mcap is not None:
+            from fieldhand.exchange.mcap import McapLog
+
+            began = datetime.now(UTC).timestamp()
+            told = Teller(ground.robot).tell
+            logs.append(stack.enter_context(McapLog(orders.mcap, began_s=began, tell=told, site=ground.site)))
 
         def take(event: Event) -> None:
             events.append(event)

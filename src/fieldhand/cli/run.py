@@ -35,6 +35,9 @@ def run(
         int | None, typer.Option("--seed", min=0, help="Same seed, same mission; else the world's, else 0.")
     ] = None,
     events: Annotated[Path | None, typer.Option("--events", help="Write the event log (JSON lines) here.")] = None,
+    mcap: Annotated[
+        Path | None, typer.Option("--mcap", help="Write the log as MCAP here, for Foxglove and Lichtblick.")
+    ] = None,
     output: Annotated[Path | None, typer.Option("-o", "--out", help="Folder for Task, map, events and report.")] = None,
     speed: Annotated[
         str, typer.Option("--speed", help="max, or simulated seconds in a second (1 is real time).")
@@ -94,6 +97,7 @@ def run(
         seed=given.seed if seed is None else seed,
         speed=pace,
         log=events,
+        mcap=mcap,
         folder=output,
         history=None if no_history else past.history_folder(os.environ),
         quiet=json,

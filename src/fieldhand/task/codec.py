@@ -7,13 +7,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import MISSING, dataclass
 from typing import TYPE_CHECKING, Any
 
 from fieldhand.errors import TaskError
 from fieldhand.task.capabilities import RESERVED_ACTIONS
 from fieldhand.task.codec_read import Reader, local_name
-from fieldhand.task.codec_shapes import NAMESPACE, SURROGATES, Attribute, Head, element_name, shape_of
+from fieldhand.task.codec_shapes import NAMESPACE, SURROGATES, Attribute, Child, Head, element_name, shape_of
 from fieldhand.task.codec_text import bare_value, number_text, unwritable_character, written
 from fieldhand.task.codec_xml import MAX_BYTES, MAX_DEPTH, parse_xml
 from fieldhand.task.frames import Constraints, FaultedExit, Task, Then
@@ -91,6 +92,36 @@ def decode_draft(data: bytes, *, source: str = "") -> Draft:
         no_part=task.command.no_part,
         warnings=task.command.warnings,
     )
+
+
+def encode_parts(parts: Iterable[Any]) -> str:
+    """Parts of a Task (selectors, conditions, frames), one after the other, as XML in one line without namespace.
+
+    Other documents carry it as text, such as the tree of another program in an attribute.
+
+    Raises:
+        TaskError: As :func:`encode`.
+    """
+    from lxml import etree
+
+    written = []
+    for part in parts:
+        root = etree.Element(f"{{{NAMESPACE}}}{element_name(type(part))}", nsmap={None: NAMESPACE})  # type: ignore[dict-item]  # stubs forget None
+        _fill(root, part, depth=2)
+        written.append(etree.tostring(root, encoding="unicode").replace(f' xmlns="{NAMESPACE}"', "", 1))
+    return "".join(written)
+
+
+def decode_parts(text: str, options: tuple[type, ...], *, source: str = "") -> tuple[Any, ...]:
+    """The parts that :func:`encode_parts` wrote, each of one of the classes in ``options``.
+
+    Raises:
+        TaskError: It is something else; ``source`` says where.
+    """
+    root = parse_xml(f'<parts xmlns="{NAMESPACE}">{text}</parts>'.encode(), source=source)
+    many = Child(field="parts", name="parts", kind="many", options=options, default=())
+    found: tuple[Any, ...] = Reader(source=source).parts(root, Task, many)["parts"]
+    return found
 
 
 def _fill(element: _Element, value: Any, *, depth: int) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fieldhand.errors import TaskError
@@ -14,6 +15,23 @@ if TYPE_CHECKING:
 MAX_BYTES = 4_000_000
 #: Elements within elements. An if within an if takes three, so about sixty ifs nest.
 MAX_DEPTH = 200
+
+
+def read_xml(path: Path) -> bytes:
+    """The bytes of a document's file; no more of it is read than one may have.
+
+    Raises:
+        TaskError: It cannot be read, or is too large.
+    """
+    try:
+        with path.open("rb") as file:
+            data = file.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as error:
+        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise TaskError(f"cannot be read: {why}", where=str(path), advice="give an XML file") from None
+    if len(data) > MAX_BYTES:
+        raise TaskError(f"has more than {MAX_BYTES} bytes", where=str(path), advice="split the mission")
+    return data
 
 
 def parse_xml(data: bytes, *, source: str = "") -> _Element:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
@@ -262,7 +263,7 @@ def from_json(line: str, *, where: str = "") -> Event | None:
         if kind is None:
             return None
         known = {f.name for f in dataclasses.fields(kind)}
-        return _checked(kind, {key: _frozen(value) for key, value in record.items() if key in known})
+        return _checked(kind, {key: value for key, value in record.items() if key in known})
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise TaskError(
             f"not an event: {' '.join(str(error).split())[:200]}", where=where, advice="was the log cut off or edited?"
@@ -271,7 +272,20 @@ def from_json(line: str, *, where: str = "") -> Event | None:
 
 def _checked(kind: type[Event], record: dict[str, Any]) -> Event:
     """An event whose fields are what they are declared to be; a log may come from anywhere."""
-    return _adapters()[kind.event].validate_python(record)
+    from pydantic import ValidationError
+
+    try:
+        event = _adapters()[kind.event].validate_json(json.dumps(record), strict=True)
+    except ValidationError as error:
+        wrong = error.errors(include_url=False)[0]
+        name = str(wrong["loc"][0]) if wrong["loc"] else "a field"
+        value = json.dumps(record.get(name), default=str)[:60]
+        raise ValueError(f"{name} cannot be {value}" if name in record else f"{name} is missing") from None
+    for f in dataclasses.fields(kind):
+        found = getattr(event, f.name)
+        if isinstance(found, float) and not math.isfinite(found):
+            raise ValueError(f"{f.name} cannot be {found}")
+    return event
 
 
 @cache
@@ -279,10 +293,6 @@ def _adapters() -> dict[str, TypeAdapter[Event]]:
     from pydantic import TypeAdapter
 
     return {name: TypeAdapter(kind) for name, kind in _TYPES.items()}
-
-
-def _frozen(value: Any) -> Any:
-    return tuple(_frozen(v) for v in value) if isinstance(value, list) else value
 
 
 @dataclass(frozen=True, kw_only=True)

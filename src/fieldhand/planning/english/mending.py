@@ -55,6 +55,8 @@ class Mended:
 
 def mended(sentence: Sentence) -> Mended | None:
     """The sentence with the fewest changes that the grammar takes; None if it takes many."""
+    if sum(t.kind in ("CMP", "LEVEL", "BETWEEN") for t in sentence.terms) > 1:
+        return None  # which reading each of its tests is about would be a guess
     tries, ticks = 0, count()
     heap: list[tuple[float, int, tuple[Term, ...]]] = [(0.0, next(ticks), sentence.terms)]
     seen = {_key(sentence.terms)}

@@ -30,7 +30,10 @@ def classed(terms: list[Term]) -> list[Term]:
     for index, term in enumerate(terms):
         before = found[-1].kind if found else ""
         after = terms[index + 1].kind if index + 1 < len(terms) else ""
-        for rule in _RULES:
+        bound = before == "NUM" and len(found) > 1 and found[-2].kind == "CMP"
+        for rule in (
+            () if bound and term.kind in ("MEASURE", "ACTV") else _RULES
+        ):  # "if it is under 400 sample it again"
             changed = rule(term, before, after)
             if changed is not None:
                 term = changed

@@ -1,0 +1,161 @@
+"""The elements of a tree document: their kind, ports and place, whichever way an editor wrote them."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Collection
+from dataclasses import MISSING, dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from fieldhand.errors import TaskError
+from fieldhand.exchange.btcpp.vocabulary import leaves, plain_attributes, port_name
+from fieldhand.task.capabilities import Capabilities
+from fieldhand.task.codec import decode_parts
+from fieldhand.task.codec_shapes import Attribute
+from fieldhand.task.codec_text import parsed
+from fieldhand.task.codec_xml import at_line, line_of
+from fieldhand.task.plan import Span
+
+if TYPE_CHECKING:
+    from lxml.etree import _Element
+
+#: ``<Action ID="read_co2"/>`` is ``<read_co2/>``.
+_GENERIC = ("Action", "Condition", "Control", "Decorator")
+#: What BehaviorTree.CPP reads as scripts around a node.
+_SCRIPTS = ("_skipIf", "_successIf", "_failureIf", "_while", "_onSuccess", "_onFailure", "_onHalted", "_post")
+#: Nodes of BehaviorTree.CPP that a Task can say.
+STANDARD = (
+    "Sequence", "Fallback", "IfThenElse", "Repeat", "Inverter", "ForceSuccess", "LoopString", "LoopInt", "Script",
+    "AlwaysSuccess", "AlwaysFailure", "SubTree",
+)  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tag:
+    """An element as a node of a tree.
+
+    Attributes:
+        kind: The node's type.
+        ports: Its ports as they are written.
+    """
+
+    element: _Element
+    kind: str
+    ports: dict[str, str]
+
+    @property
+    def line(self) -> int:
+        """Where it stands."""
+        return line_of(self.element)
+
+    @property
+    def name(self) -> str:
+        """The name that it was given; empty where it has none of its own."""
+        given = str(self.element.get("name") or "")
+        return "" if given == self.kind else given
+
+
+@dataclass(frozen=True, kw_only=True)
+class Elements:
+    """Reads elements of one document for one robot.
+
+    Attributes:
+        source: What to call the document in messages.
+    """
+
+    source: str
+    capabilities: Capabilities
+
+    @cached_property
+    def known(self) -> dict[str, frozenset[str]]:
+        """The leaves that may stand in a tree, with the names of their ports."""
+        return {leaf.id: frozenset(port.name for port in leaf.ports) for leaf in leaves(self.capabilities)}
+
+    def tag(self, element: _Element) -> Tag:
+        """What an element stands for.
+
+        Raises:
+            TaskError: No such node is known; its line, its name and the nearest that is.
+        """
+        kind = str(element.tag)
+        if kind in _GENERIC:
+            kind = str(element.get("ID") or "")
+        if kind not in self.known and kind not in STANDARD:
+            near = difflib.get_close_matches(kind, [*self.known, *STANDARD], n=1)
+            advice = f"did you mean {near[0]}?" if near else f"known leaves: {', '.join(self.known)}"
+            raise self.error(element, f"the node {kind!r} is not known for this robot", advice)
+        ports = {str(k): str(v) for k, v in element.attrib.items() if not str(k).startswith("_")}
+        ports.pop("name", None)
+        if str(element.tag) in _GENERIC:
+            ports.pop("ID", None)
+        return Tag(element=element, kind=kind, ports=ports)
+
+    def ports(self, tag: Tag, known: Collection[str], *, scripts: Collection[str] = ()) -> None:
+        """Refuse ports and scripts that a Task cannot say.
+
+        Args:
+            known: The ports that may stand there.
+            scripts: The scripts around the node that are part of how a Task is written.
+        """
+        for name in tag.ports:
+            if name not in known:
+                raise self.error(tag.element, f"the port {name!r} is not known", f"known: {', '.join(known) or 'none'}")
+        for name in _SCRIPTS:
+            if name in tag.element.attrib and f"{name}={tag.element.get(name)}" not in scripts:
+                raise self.error(
+                    tag.element, f"a Task cannot say the script {name}", "say it with nodes, or take it out"
+                )
+
+    def children(self, tag: Tag, count: int) -> list[_Element]:
+        """The nodes inside, of which there must be so many."""
+        found = list(tag.element)
+        if len(found) != count:
+            raise self.error(tag.element, f"holds {len(found)} nodes, needs {count}", "correct it")
+        return found
+
+    def fields(self, tag: Tag, cls: type, *, beside: Collection[str] = ()) -> dict[str, Any]:
+        """The plain fields of a class from the ports of a node; what is not given has its default."""
+        found: dict[str, Any] = {}
+        for attribute in plain_attributes(cls):
+            if attribute.field not in beside:
+                found[attribute.field] = self._field(tag, attribute)
+        return found
+
+    def parts(self, tag: Tag, port: str, options: tuple[type, ...]) -> Any:
+        """The one part, such as a selector, that a port holds as XML."""
+        where = f"{at_line(self.source, tag.line, tag.kind)}, {port}"
+        text = tag.ports.get(port, "")
+        if not text.lstrip().startswith("<"):
+            raise TaskError(f"{text!r} is no selector", where=where, advice="write for instance <trees/>, as XML")
+        found = decode_parts(text, options, source=where)
+        if len(found) != 1:
+            raise TaskError(f"holds {len(found)} selectors", where=where, advice="write one")
+        return found[0]
+
+    def spans(self, tag: Tag, name: str) -> tuple[Span, ...]:
+        """The ranges of the request that an attribute holds; none where an editor dropped it."""
+        text = tag.element.get(name)
+        try:
+            attribute = Attribute(field=name, name=name, kind="spans", default=())
+            return () if text is None else tuple(parsed(attribute, text))
+        except ValueError as error:
+            raise self.error(tag.element, f"{name}: {error}", "correct it, or take it out") from None
+
+    def error(self, element: _Element, what: str, advice: str) -> TaskError:
+        """A problem at an element."""
+        kind = str(element.get("ID") or element.tag) if element.tag in _GENERIC else str(element.tag)
+        return TaskError(what, where=at_line(self.source, line_of(element), kind), advice=advice)
+
+    def _field(self, tag: Tag, attribute: Attribute) -> Any:
+        name = port_name(attribute.name)
+        text = tag.ports.get(name)
+        if text is None or (text == "" and attribute.default is not MISSING):
+            if attribute.default is MISSING:
+                raise self.error(tag.element, f"the port {name!r} is missing", "add it")
+            return attribute.default
+        marked = tag.ports.get(port_name(f"{attribute.name}-as")) or None
+        try:
+            return parsed(attribute, text, marked if attribute.kind == "value" else None)
+        except ValueError as error:
+            raise self.error(tag.element, f"{name}: {error}", "correct it") from None

@@ -1,0 +1,188 @@
+"""A Task from a tree of BehaviorTree.CPP v4: one that :mod:`.writing` wrote, or another that is made of known leaves.
+
+A tree that was written from a Task and not changed gives that Task again. Where it was changed, or drawn in an editor,
+what follows from the plan (ids, goals, state variables) is made anew.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, get_args
+
+from fieldhand.errors import TaskError
+from fieldhand.exchange.btcpp.elements import Elements, Tag
+from fieldhand.exchange.btcpp.nodes import NodeReader
+from fieldhand.exchange.btcpp.vocabulary import BEGIN, EXIT
+from fieldhand.task import plan as p
+from fieldhand.task.build import FAULTED_EXITS, make_task
+from fieldhand.task.capabilities import Capabilities
+from fieldhand.task.codec import decode_parts
+from fieldhand.task.codec_xml import at_line, parse_xml
+from fieldhand.task.frames import Command, Constraints, Fault, FaultedExit, Resource, Task, Then
+
+if TYPE_CHECKING:
+    from lxml.etree import _Element
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Frames:
+    """What a tree says beside its plan."""
+
+    id: str = ""
+    command: Command
+    constraints: Constraints = field(default_factory=Constraints)
+    resources: tuple[Resource, ...]
+    nominal: Then = "return_to_end"
+    nominal_said: tuple[p.Span, ...] = ()
+    faulted: tuple[FaultedExit, ...] = FAULTED_EXITS
+
+
+def read_tree(
+    data: bytes,
+    capabilities: Capabilities,
+    *,
+    request: str = "",
+    resources: tuple[Resource, ...] = (),
+    source: str = "",
+) -> Task:
+    """The Task that a tree stands for.
+
+    Args:
+        data: The document.
+        capabilities: What the robot can do: the leaves that are known.
+        request, resources: What was asked, and for what robot and site, where the tree does not say.
+        source: What to call the document in messages.
+
+    Raises:
+        TaskError: It is no such tree, is refused before it is read (entities, size, depth), or holds what a Task cannot
+            say: an unknown node, a script, a loop without end; says at which line and node.
+    """
+    if not data.strip():
+        raise TaskError("the document is empty", where=source, advice="give a tree of BehaviorTree.CPP 4")
+    elements = Elements(source=source, capabilities=capabilities)
+    main, trees = _trees(parse_xml(data, source=source), elements)
+    reader = NodeReader(elements, trees)
+    frames, plan = _mission(main, reader, _Frames(command=Command(request=request), resources=resources))
+    measures = {
+        name: tuple((q, capabilities.quantities[q].unit) for q in action.measures)
+        for name, action in capabilities.actions.items()
+    }
+    made = make_task(
+        request=frames.command.request,
+        plan=plan,
+        measures=measures,
+        resources=frames.resources,
+        constraints=frames.constraints,
+        nominal=frames.nominal,
+        faulted=frames.faulted,
+        assumptions=frames.command.assumptions,
+        nominal_said=frames.nominal_said,
+        no_part=frames.command.no_part,
+        read_as=frames.command.read_as,
+        warnings=frames.command.warnings,
+    )
+    if not frames.id or not _fits(frames.command, plan):
+        return made
+    composition = replace(made.composition, plan=plan)
+    return replace(made, id=frames.id, command=frames.command, composition=composition)
+
+
+def _fits(command: Command, plan: p.Node) -> bool:
+    """Whether ids stand once each, and the goals are those of the plan."""
+    nodes = list(p.walk(plan))
+    ids = Counter(node.id for node in nodes)
+    acts = {(node.id, node.action) for node in nodes if isinstance(node, p.Act)}
+    return "" not in ids and max(ids.values()) == 1 and {(g.node, g.action) for g in command.goals} == acts
+
+
+def _trees(root: _Element, elements: Elements) -> tuple[_Element, dict[str, _Element]]:
+    """The main tree and all trees by their names."""
+    if root.tag != "root":
+        raise elements.error(root, "is no tree of BehaviorTree.CPP", 'its outermost element is <root BTCPP_format="4">')
+    if root.get("BTCPP_format") != "4":
+        said = root.get("BTCPP_format") or "no format, as version 3 did"
+        raise elements.error(root, f"names {said}; format 4 can be read", "convert it with convert_v3_to_v4.py first")
+    trees: dict[str, _Element] = {}
+    for child in root:
+        if child.tag == "include":
+            raise elements.error(child, "another file cannot be included", "put its trees into this one")
+        if child.tag == "BehaviorTree":
+            name = str(child.get("ID") or "")
+            if name in trees:
+                raise elements.error(child, f"there are two trees called {name!r}", "rename one")
+            if len(child) != 1:
+                raise elements.error(child, f"holds {len(child)} nodes, a tree holds one", "correct it")
+            trees[name] = child
+    main = root.get("main_tree_to_execute")
+    if main is None and len(trees) == 1:
+        return next(iter(trees.values())), trees
+    if main not in trees:
+        known = ", ".join(sorted(trees)) or "none"
+        raise elements.error(root, f"main_tree_to_execute is {main!r}; trees here: {known}", "name one of them")
+    return trees[main], trees
+
+
+def _mission(tree: _Element, reader: NodeReader, frames: _Frames) -> tuple[_Frames, p.Node]:
+    """The frames and the plan of a main tree."""
+    elements, top = reader.elements, tree[0]
+    tag = elements.tag(top)
+    inside = [elements.tag(child) for child in top]
+    if tag.kind != "Sequence" or not inside or inside[0].kind != BEGIN:
+        return frames, reader.node(top)
+    begin = inside[0]
+    elements.ports(begin, ("task", "command", "constraints", "resources"))
+    frames = _begun(begin, elements, frames)
+    rest = inside[1:]
+    if rest and rest[0].kind == "Script":
+        rest = rest[1:]
+    if len(rest) == 1 and rest[0].kind == "IfThenElse" and len(rest[0].element) == 3:
+        return _exits(rest[0], elements, frames), reader.node(rest[0].element[0])
+    if not rest:
+        raise elements.error(top, "holds no plan", f"put the plan behind <{BEGIN}>")
+    steps = tuple(reader.node(one.element) for one in rest)
+    return frames, steps[0] if len(steps) == 1 else p.Sequence(id=top.get("name") or "", steps=steps)
+
+
+def _begun(begin: Tag, elements: Elements, frames: _Frames) -> _Frames:
+    def parts(port: str, cls: type, least: int, most: int) -> tuple[Any, ...]:
+        where = f"{at_line(elements.source, begin.line, begin.kind)}, {port}"
+        found = decode_parts(begin.ports.get(port, ""), (cls,), source=where)
+        if not least <= len(found) <= most:
+            raise TaskError(f"holds {len(found)} of <{port}>", where=where, advice="take it from an exported tree")
+        return found
+
+    command = parts("command", Command, 0, 1)
+    constraints = parts("constraints", Constraints, 0, 1)
+    return replace(
+        frames,
+        id=begin.ports.get("task", ""),
+        command=command[0] if command else frames.command,
+        constraints=constraints[0] if constraints else frames.constraints,
+        resources=parts("resources", Resource, 0, 9) if "resources" in begin.ports else (),
+        faulted=(),
+    )
+
+
+def _exits(ending: Tag, elements: Elements, frames: _Frames) -> _Frames:
+    """What the exits behind the plan say."""
+    done, over = elements.tag(ending.element[1]), elements.tag(ending.element[2])
+    if done.kind != EXIT or over.kind != "Fallback" or len(over.element) != 2:
+        what = f"behind the plan stand <{EXIT}> and a <Fallback> for what went otherwise"
+        raise elements.error(ending.element, what, "take them from an exported tree")
+    elements.ports(done, ("then",))
+    fault = elements.tag(over.element[1])
+    elements.ports(fault, ("exits",))
+    faulted = []
+    for pair in fault.ports.get("exits", "").split():
+        name, _, then = pair.partition(":")
+        if name not in get_args(Fault) or then not in get_args(Then):
+            raise elements.error(
+                fault.element, f"{pair!r} is no fault and exit", "write for instance drive_failed:stay"
+            )
+        faulted.append(FaultedExit(fault=name, then=then))  # type: ignore[arg-type]  # both were looked up
+    then = done.ports.get("then", "")
+    if then not in get_args(Then):
+        raise elements.error(done.element, f"{then!r} is no exit", f"write one of {', '.join(get_args(Then))}")
+    nominal: Any = then
+    return replace(frames, nominal=nominal, nominal_said=elements.spans(done, "_said"), faulted=tuple(faulted))

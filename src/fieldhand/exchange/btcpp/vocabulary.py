@@ -1,0 +1,170 @@
+"""The leaves that a robot has to bring along for an exported tree, with their ports: the ``TreeNodesModel``.
+
+Whatever can be said with the nodes of BehaviorTree.CPP itself is said with them; only leaves are ours. Each action of
+the robot is a leaf of its own, and each kind of condition. Ports follow from the dataclasses, as the Task's XML does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import MISSING, dataclass
+from typing import TYPE_CHECKING, Literal
+
+from fieldhand.task.capabilities import Capabilities, ChoiceParameter, NumberParameter
+from fieldhand.task.codec_shapes import Attribute, shape_of
+from fieldhand.task.codec_text import number_text, written
+from fieldhand.task.conditions import Between, Compare, Level, TreeHas
+from fieldhand.task.plan import Act, ForEach, Optional
+
+if TYPE_CHECKING:
+    from lxml.etree import _Element
+
+BEGIN, GO_TO, RESOLVE, ORDER, ALLOWS, EXIT, FAULT = (
+    "BeginMission", "GoToPlace", "ResolvePlaces", "OrderSteps", "BudgetAllows", "TakeExit", "HandleFault",
+)  # fmt: skip
+#: The leaf of each kind of condition.
+CONDITIONS: dict[type, str] = {
+    Compare: "CompareReading",
+    Between: "ReadingBetween",
+    Level: "ReadingIs",
+    TreeHas: "TreeHas",
+}
+#: What a leaf of a condition answers where the reading was never taken; it is derived from where the leaf stands.
+IF_UNKNOWN = "if_unknown"
+#: Fields that are not ports: the id is the node's name, ranges of the request are attributes of their own.
+_BESIDE = ("id", "said", "at_said")
+
+Direction = Literal["input", "output"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Port:
+    """One port of a leaf.
+
+    Attributes:
+        type: As C++ names it.
+        default: What holds where the port is not given; None where it must be.
+        about: One line on what it is.
+    """
+
+    name: str
+    type: str
+    default: str | None = None
+    direction: Direction = "input"
+    about: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Leaf:
+    """One leaf: an action, or a condition."""
+
+    id: str
+    kind: Literal["Action", "Condition"]
+    ports: tuple[Port, ...]
+
+
+def port_name(attribute: str) -> str:
+    """The port of a field: C++ programs prefer underscores."""
+    return attribute.replace("-", "_")
+
+
+def plain_attributes(cls: type) -> tuple[Attribute, ...]:
+    """The fields of a class that become ports, those that belong to its quantity included."""
+    shape = shape_of(cls)
+    of_quantity = shape.head.attributes if shape.head is not None else ()
+    return tuple(a for a in (*shape.attributes, *of_quantity) if a.field not in _BESIDE)
+
+
+def leaves(capabilities: Capabilities) -> tuple[Leaf, ...]:
+    """Every leaf that a tree for this robot may hold."""
+    frames = tuple(Port(name=n, type=_TEXT, about=f"<{n}> of the Task, as XML") for n in ("command", "constraints"))
+    task = Port(name="task", type=_TEXT, about="Id of the Task")
+    resources = Port(name="resources", type=_TEXT, default="", about="Robot and site that it was planned for, as XML")
+    places = Port(name="places", type=_PLACES, direction="output", about="The places found, in the order to visit them")
+    first = Port(name="places", type=_TEXT, about="First place of each step, as XML, in the order of the steps")
+    order = Port(name="order", type=_STEPS, direction="output", about="Numbers of the steps from 1, best order first")
+    node = Port(name="node", type=_TEXT, about="Name of the loop or step that the budget may leave out")
+    then = Port(name="then", type=_TEXT, about="return_to_end, return_to_start or stay")
+    exits = Port(name="exits", type=_TEXT, default="", about="What to do about each fault, as fault:exit")
+    ours = (
+        Leaf(id=BEGIN, kind="Action", ports=(task, *frames, resources)),
+        Leaf(id=GO_TO, kind="Action", ports=(_PLACE, _LABEL)),
+        Leaf(id=RESOLVE, kind="Action", ports=(_SELECT, *_ports(ForEach, beside=("label",)), places)),
+        Leaf(id=ORDER, kind="Action", ports=(first, order)),
+        Leaf(id=EXIT, kind="Action", ports=(then,)),
+        Leaf(id=FAULT, kind="Action", ports=(exits,)),
+        Leaf(id=ALLOWS, kind="Condition", ports=(node, Port(name="place", type=_TEXT, default=""), *_ports(Optional))),
+    )
+    conditions = (Leaf(id=name, kind="Condition", ports=_condition_ports(cls)) for cls, name in CONDITIONS.items())
+    return (*ours, *conditions, *(_action(name, capabilities) for name in capabilities.actions))
+
+
+def models(capabilities: Capabilities) -> _Element:
+    """The ``TreeNodesModel`` of a robot."""
+    from lxml import etree
+
+    root = etree.Element("TreeNodesModel")
+    for leaf in leaves(capabilities):
+        element = etree.SubElement(root, leaf.kind, ID=leaf.id)
+        for port in leaf.ports:
+            inside = etree.SubElement(element, f"{port.direction}_port", name=port.name, type=port.type)
+            if port.default is not None:
+                inside.set("default", port.default)
+            inside.text = port.about or None
+    return root
+
+
+_TEXT, _PLACES, _STEPS, _READING = (
+    "std::string", "std::shared_ptr<std::deque<std::string>>", "std::shared_ptr<std::deque<int>>",
+    "std::map<std::string, double>",
+)  # fmt: skip
+_PLACE = Port(name="place", type=_TEXT, about="A place that was resolved, or a selector as XML")
+_LABEL = Port(name="label", type=_TEXT, default="", about="Binds the place for later nodes")
+_SELECT = Port(name="select", type=_TEXT, about="Selector, as XML")
+_TYPES = {"integer": "int", "number": "double", "flag": "bool"}
+
+
+def _ports(cls: type, *, beside: tuple[str, ...] = ()) -> tuple[Port, ...]:
+    """Input ports for the plain fields of a class."""
+    found = []
+    for attribute in plain_attributes(cls):
+        if attribute.field in beside:
+            continue
+        name, kind = port_name(attribute.name), _TYPES.get(attribute.kind, _TEXT)
+        default: str | None = None
+        if attribute.default is not MISSING:
+            default = "" if attribute.default is None else written(attribute, attribute.default)[attribute.name]
+        found.append(Port(name=name, type=kind, default=default))
+        if attribute.kind == "value":
+            found.append(Port(name=port_name(f"{attribute.name}-as"), type=_TEXT, default="", about="text, or nothing"))
+    return tuple(found)
+
+
+def _condition_ports(cls: type) -> tuple[Port, ...]:
+    shape = shape_of(cls)
+    ports = [p for p in _ports(cls) if p.name != "reading"]
+    if shape.head is not None:
+        ports.insert(0, Port(name="quantity", type=_TEXT, about="What was measured"))
+        ports.insert(0, Port(name="reading", type=_READING, about="The reading that is tested"))
+    about = "What to answer where there is nothing to test"
+    return (*ports, Port(name=IF_UNKNOWN, type="bool", default="false", about=about))
+
+
+def _action(name: str, capabilities: Capabilities) -> Leaf:
+    """The leaf of an action: what every one has, and the action's own parameters."""
+    action = capabilities.actions[name]
+    about = f"Measures {', '.join(action.measures)}" if action.measures else "Measures nothing"
+    common = [p for p in _ports(Act) if p.name != "reading"]
+    reading = Port(name="reading", type=_READING, default="", direction="output", about=about)
+    parameters = (
+        Port(name=key, type=_TEXT if isinstance(spec, ChoiceParameter) else "double", default="", about=_bounds(spec))
+        for key, spec in action.parameters.items()
+    )
+    return Leaf(id=name, kind="Action", ports=(*common, reading, *parameters))
+
+
+def _bounds(spec: NumberParameter | ChoiceParameter) -> str:
+    if isinstance(spec, ChoiceParameter):
+        return "One of " + ", ".join(spec.choices)
+    low = "" if spec.minimum is None else f"from {number_text(spec.minimum)}"
+    high = "" if spec.maximum is None else f"up to {number_text(spec.maximum)}"
+    return " ".join(part for part in (low, high, spec.unit) if part)

@@ -1,0 +1,92 @@
+"""JSON schemas of what is in a file: our events, derived from their classes, and what Foxglove's panels know.
+
+The names and fields of the latter are those of Foxglove's message schemas (docs.foxglove.dev, "Message schemas").
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from types import NoneType, UnionType
+from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
+
+from fieldhand.task.results import Event
+
+DRAFT = "https://json-schema.org/draft/2020-12/schema"
+#: Topics of events begin with this; the rest is the event's name.
+EVENTS = "/mission/"
+
+_NUMBER, _TEXT = {"type": "number"}, {"type": "string"}
+_TIME = {
+    "type": "object",
+    "title": "time",
+    "properties": {"sec": {"type": "integer", "minimum": 0}, "nsec": {"type": "integer", "minimum": 0}},
+    "required": ["sec", "nsec"],
+}
+
+LOCATION = {
+    "title": "foxglove.LocationFix",
+    "type": "object",
+    "properties": {
+        "timestamp": _TIME,
+        "frame_id": _TEXT,
+        "latitude": _NUMBER,
+        "longitude": _NUMBER,
+        "altitude": _NUMBER,
+        "position_covariance": {"type": "array", "items": _NUMBER, "minItems": 9, "maxItems": 9},
+        "position_covariance_type": {"title": "foxglove.PositionCovarianceType", "enum": [0, 1, 2, 3]},
+    },
+    "required": [
+        "timestamp", "frame_id", "latitude", "longitude", "altitude", "position_covariance", "position_covariance_type",
+    ],
+}  # fmt: skip
+GEOJSON = {"title": "foxglove.GeoJSON", "type": "object", "properties": {"geojson": _TEXT}, "required": ["geojson"]}
+LOG = {
+    "title": "foxglove.Log",
+    "type": "object",
+    "properties": {
+        "timestamp": _TIME,
+        "level": {"title": "foxglove.LogLevel", "enum": [0, 1, 2, 3, 4, 5]},
+        "message": _TEXT,
+        "name": _TEXT,
+        "file": _TEXT,
+        "line": {"type": "integer", "minimum": 0},
+    },
+    "required": ["timestamp", "level", "message", "name", "file", "line"],
+}
+STATE = {
+    "title": "fieldhand.State",
+    "type": "object",
+    "properties": {
+        "charge_percent": _NUMBER,
+        "travelled_m": _NUMBER,
+        "readings": {"type": "object", "additionalProperties": _NUMBER},
+    },
+}
+
+
+def schema_of(event: type[Event]) -> dict[str, Any]:
+    """The schema of one kind of event, as a line of an event log has it."""
+    hints = get_type_hints(event)
+    fields = dataclasses.fields(event)
+    return {
+        "$schema": DRAFT,
+        "title": f"fieldhand.{event.__name__}",
+        "type": "object",
+        "properties": {"event": {"const": event.event}} | {f.name: _of_hint(hints[f.name]) for f in fields},
+        "required": ["event", *(f.name for f in fields)],
+    }
+
+
+def _of_hint(hint: Any) -> dict[str, Any]:
+    origin, inner = get_origin(hint), get_args(hint)
+    plain = {str: _TEXT, float: _NUMBER, int: {"type": "integer"}, bool: {"type": "boolean"}}
+    if hint in plain:
+        return plain[hint]
+    if origin is Literal:
+        return {"enum": list(inner)}
+    if origin in (Union, UnionType):
+        return {"anyOf": [{"type": "null"} if one is NoneType else _of_hint(one) for one in inner]}
+    if origin is tuple:
+        length = {} if inner[-1] is ... else {"minItems": len(inner), "maxItems": len(inner)}
+        return {"type": "array", "items": _of_hint(inner[0])} | length
+    return {"type": "object", "additionalProperties": _of_hint(inner[1])}

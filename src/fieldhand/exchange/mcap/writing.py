@@ -1,0 +1,282 @@
+"""Write events into an MCAP file as they happen, with what the panels of Foxglove and Lichtblick show.
+
+| topic | schema | |
+|---|---|---|
+| /mission/EVENT | fieldhand.* | every event, as the event log has it |
+| /location | foxglove.LocationFix | where the robot is: at each place, and along each drive between |
+| /way | foxglove.GeoJSON | the way of the drive that has begun |
+| /captures | foxglove.GeoJSON | all captures so far, with their readings |
+| /site | foxglove.GeoJSON | trees, markers and zones, if the site is given |
+| /log | foxglove.Log | what happened, in words |
+| /state | fieldhand.State | charge, metres and the last reading of each quantity, for plots |
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import IO, TYPE_CHECKING, Any
+
+import numpy as np
+
+from fieldhand.errors import OutputError
+from fieldhand.exchange.mcap.schemas import EVENTS, GEOJSON, LOCATION, LOG, STATE, schema_of
+from fieldhand.task.results import (
+    Acted,
+    Arrived,
+    Driving,
+    Ended,
+    Event,
+    Exited,
+    Faulted,
+    Shed,
+    Started,
+    to_json,
+)
+
+if TYPE_CHECKING:
+    from mcap.writer import Writer
+
+    from fieldhand.site.model import Site
+
+#: Levels of foxglove.Log.
+_INFO, _WARNING, _ERROR = 2, 3, 4
+#: Seconds between positions along a drive.
+_EVERY_S = 1.0
+#: At most so many positions along one drive.
+_MOST = 2_000
+#: Bytes of a chunk: small, so that little is lost where a mission is cut off.
+_CHUNK = 65_536
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Message:
+    """One message of one topic."""
+
+    topic: str
+    schema: dict[str, Any]
+    t: float
+    data: bytes
+    sequence: int = 0
+
+
+class McapLog:
+    """Writes events as they happen.
+
+    Args:
+        path: File to write; it is replaced, its folder is made.
+        began_s: When the mission began, in seconds since 1970; events count from there.
+        tell: Says an event in words, or None where it is not worth a line.
+        site: Drawn on the map, if it is given.
+
+    Raises:
+        OutputError: It cannot be written, now or later (a full disk).
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        *,
+        began_s: float = 0.0,
+        tell: Callable[[Event], str | None] = lambda _: None,
+        site: Site | None = None,
+    ) -> None:
+        from mcap.writer import Writer
+
+        self._path, self._began, self._tell, self._site = path, began_s, tell, site
+        self._channels: dict[str, int] = {}
+        self._count = 0
+        self._captures: list[Acted] = []
+        self._next_shown = 1
+        self._drive: Driving | None = None
+        self._state: dict[str, Any] = {"charge_percent": 100.0, "travelled_m": 0.0, "readings": {}}
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            self._file: IO[bytes] = path.open("wb")
+            self._writer: Writer = Writer(self._file, chunk_size=_CHUNK)
+            self._writer.start(profile="", library="fieldhand")
+        except (OSError, ValueError) as error:
+            raise self._unwritable(error) from None
+
+    def __call__(self, event: Event) -> None:
+        """Write one event."""
+        try:
+            for message in self._messages(event):
+                self._write(message)
+            self._file.flush()
+        except (OSError, ValueError) as error:
+            raise self._unwritable(error) from None
+
+    def close(self) -> None:
+        """Write the index and close the file.
+
+        Raises:
+            OutputError: It cannot be written.
+        """
+        try:
+            with self._file:
+                self._writer.finish()  # type: ignore[no-untyped-call]  # the library forgot
+        except (OSError, ValueError) as error:
+            raise self._unwritable(error) from None
+
+    def __enter__(self) -> McapLog:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    # --- what is written ---------------------------------------------------------------------------------------
+
+    def _messages(self, event: Event) -> Iterator[_Message]:
+        """The messages of an event, in the order of their times."""
+        if isinstance(event, Started) and self._site is not None:
+            yield self._geojson("/site", event.t, _site_features(self._site))
+        if isinstance(event, Arrived | Ended):
+            yield from self._along(event.t, (event.lat, event.lon))
+        self._count += 1
+        topic, schema = EVENTS + event.event, schema_of(type(event))
+        yield _Message(topic=topic, schema=schema, t=event.t, data=to_json(event).encode(), sequence=self._count)
+        words = self._tell(event)
+        if words is not None:
+            yield self._log(event, words)
+        match event:
+            case Driving():
+                self._drive = event
+                line = {"type": "LineString", "coordinates": [[lon, lat] for lat, lon in event.path]}
+                if len(event.path) > 1:
+                    yield self._geojson("/way", event.t, [_feature(line, {"node": event.node, "to": event.place})])
+            case Acted():
+                self._captures.append(event)
+                yield from self._shown(event.t)
+            case Ended():
+                yield from self._shown(event.t, last=True)
+        if isinstance(event, Started | Arrived | Ended):
+            yield self._location(event.t, event.lat, event.lon)
+        if self._note(event):
+            yield _Message(topic="/state", schema=STATE, t=event.t, data=_json(self._state))
+
+    def _shown(self, t: float, *, last: bool = False) -> Iterator[_Message]:
+        """All captures so far: after each of the first, then whenever there is a tenth more, and at the end."""
+        if len(self._captures) >= self._next_shown or last:
+            self._next_shown = len(self._captures) + max(1, len(self._captures) // 10)
+            yield self._geojson("/captures", t, [_capture(e) for e in self._captures if _known(e.lat, e.lon)])
+
+    def _note(self, event: Event) -> bool:
+        """Keep what an event says of the robot; whether it says anything."""
+        if isinstance(event, Started | Arrived | Acted | Ended):
+            self._state["charge_percent"] = event.charge_percent
+        if isinstance(event, Arrived | Ended):
+            self._state["travelled_m"] = event.travelled_m
+        if isinstance(event, Acted):
+            self._state["readings"] |= {q: v for q, v in event.readings.items() if math.isfinite(v)}
+        return isinstance(event, Started | Arrived | Acted | Ended)
+
+    def _along(self, until: float, at: tuple[float, float]) -> Iterator[_Message]:
+        """Positions between the beginning of a drive and its end, as if it had gone evenly along its way."""
+        drive, self._drive = self._drive, None
+        if drive is None or len(drive.path) < 2 or until - drive.t <= _EVERY_S or not _known(*at):
+            return
+        corners = np.asarray(drive.path, dtype=np.float64)
+        east = np.diff(corners[:, 1]) * math.cos(math.radians(corners[0, 0]))
+        along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(corners[:, 0]), east))])
+        count = min(_MOST, int((until - drive.t) / _EVERY_S))
+        for part in np.linspace(0.0, 1.0, count + 1)[1:-1]:
+            lat, lon = (float(np.interp(part * along[-1], along, corners[:, k])) for k in (0, 1))
+            yield self._location(drive.t + float(part) * (until - drive.t), lat, lon)
+
+    def _location(self, t: float, lat: float, lon: float) -> _Message:
+        fix = {
+            "timestamp": self._time(t),
+            "frame_id": "robot",
+            "latitude": lat,
+            "longitude": lon,
+            "altitude": 0.0,
+            "position_covariance": [0.0] * 9,
+            "position_covariance_type": 0,
+        }
+        return _Message(topic="/location", schema=LOCATION, t=t, data=_json(fix))
+
+    def _log(self, event: Event, words: str) -> _Message:
+        failed = (isinstance(event, Acted) and event.status == "failed") or isinstance(event, Shed)
+        bad = isinstance(event, Faulted) and not event.handled
+        bad = bad or (isinstance(event, Exited) and event.exit == "faulted")
+        level = _ERROR if bad else _WARNING if failed or isinstance(event, Faulted) else _INFO
+        line = {
+            "timestamp": self._time(event.t),
+            "level": level,
+            "message": words.strip(),
+            "name": event.node or "mission",
+            "file": "",
+            "line": 0,
+        }
+        return _Message(topic="/log", schema=LOG, t=event.t, data=_json(line))
+
+    def _geojson(self, topic: str, t: float, features: list[dict[str, Any]]) -> _Message:
+        text = json.dumps({"type": "FeatureCollection", "features": features}, ensure_ascii=False)
+        return _Message(topic=topic, schema=GEOJSON, t=t, data=_json({"geojson": text}))
+
+    def _write(self, message: _Message) -> None:
+        channel = self._channels.get(message.topic)
+        if channel is None:
+            schema = self._writer.register_schema(message.schema["title"], "jsonschema", _json(message.schema))
+            channel = self._writer.register_channel(message.topic, "json", schema)
+            self._channels[message.topic] = channel
+        at = self._nanoseconds(message.t)
+        self._writer.add_message(channel, at, message.data, at, message.sequence)
+
+    def _nanoseconds(self, t: float) -> int:
+        """Since 1970; a log whose clock was set back before that stands at its beginning."""
+        return max(0, round((self._began + (t if math.isfinite(t) else 0.0)) * 1e9))
+
+    def _time(self, t: float) -> dict[str, int]:
+        sec, nsec = divmod(self._nanoseconds(t), 1_000_000_000)
+        return {"sec": sec, "nsec": nsec}
+
+    def _unwritable(self, error: Exception) -> OutputError:
+        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        return OutputError(
+            f"the MCAP file cannot be written: {why}",
+            where=str(self._path),
+            advice="give a file in a folder that you may write to",
+        )
+
+
+def _site_features(site: Site) -> list[dict[str, Any]]:
+    """Trees, markers and zones, with the colours that map panels read."""
+    features = []
+    for zone in site.zones:
+        corners = site.projection.degrees(np.asarray(zone.polygon.exterior.coords)[:, :2])
+        ring = [[round(float(lon), 8), round(float(lat), 8)] for lat, lon in corners]
+        colour = {"boundary": "#8a7f66", "keep_out": "#4d7c99", "zone": "#c19a3f"}[zone.kind]
+        style = {"stroke": colour, "fill": colour, "fill-opacity": 0.0 if zone.kind == "boundary" else 0.3}
+        features.append(_feature({"type": "Polygon", "coordinates": [ring]}, {"name": zone.name, "style": style}))
+    trees = [[t.place.lon, t.place.lat] for t in site.trees]
+    features.append(_feature({"type": "MultiPoint", "coordinates": trees}, {"style": {"color": "#5b8c5a"}}))
+    for name, place in site.markers.items():
+        features.append(_feature({"type": "Point", "coordinates": [place.lon, place.lat]}, {"name": name}))
+    return features
+
+
+def _capture(event: Acted) -> dict[str, Any]:
+    readings = {q: v for q, v in event.readings.items() if math.isfinite(v)}
+    colour = "#0072b2" if event.status == "success" else "#b3261e"
+    properties = {"place": event.place, "action": event.action, "status": event.status, "style": {"color": colour}}
+    return _feature({"type": "Point", "coordinates": [event.lon, event.lat]}, properties | readings)
+
+
+def _feature(geometry: dict[str, Any], properties: dict[str, Any]) -> dict[str, Any]:
+    return {"type": "Feature", "geometry": geometry, "properties": properties}
+
+
+def _json(value: Any) -> bytes:
+    return json.dumps(value, ensure_ascii=False).encode()
+
+
+def _known(lat: float, lon: float) -> bool:
+    return math.isfinite(lat) and math.isfinite(lon)

@@ -1,0 +1,153 @@
+"""A film as an animated picture: GIF, or MP4 where ffmpeg is installed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.errors import OutputError
+from fieldhand.exchange.replay.film import Capture, Film
+from fieldhand.site.drawing import draw_site, site_figure
+from fieldhand.site.model import Site
+from fieldhand.task.words import capitalised, say_name, say_unit
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_WAY, _INK, _FAILED, _PLAIN = "#26324f", "#2f2f2f", "#b3261e", "#6a3d9a"
+_FRAMES_A_SECOND = 10
+#: Inches of the picture's height, dots an inch, and seconds for which the last picture stays.
+_HEIGHT_IN, _DPI, _HOLD_S = 6.0, 80, 1.5
+
+
+def save_animation(film: Film, site: Site, path: Path, *, seconds: float = 10.0) -> None:
+    """Draw a film into a file; the ending says as what: ``.gif`` or ``.mp4``.
+
+    Args:
+        film: What happened.
+        site: Where.
+        path: Written; its folder is made.
+        seconds: How long the animation is, however long the mission was.
+
+    Raises:
+        OutputError: The file cannot be written, or it is an MP4 and there is no ffmpeg.
+    """
+    import matplotlib.animation as animation
+
+    if path.suffix.lower() == ".mp4" and not animation.FFMpegWriter.isAvailable():
+        what = "an MP4 needs the program ffmpeg, which is not installed"
+        raise OutputError(what, where=str(path), advice="install ffmpeg, or end the name in .gif or .html")
+    kind = animation.FFMpegWriter if path.suffix.lower() == ".mp4" else animation.PillowWriter
+    frames = _Scene(film, site)
+    writer = kind(fps=_FRAMES_A_SECOND)
+    times = np.linspace(0.0, film.seconds, max(2, round(seconds * _FRAMES_A_SECOND)))
+    times = np.append(times, [film.seconds] * round(_HOLD_S * _FRAMES_A_SECOND))
+    sheet, image = _sheet(frames.at(0.0))
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with writer.saving(sheet, str(path), _DPI):
+            for t in times:
+                image.set_data(frames.at(float(t)))
+                writer.grab_frame()
+    except OSError as fault:
+        what = f"the animation cannot be written ({fault.strerror or fault})"
+        raise OutputError(what, where=str(path), advice="choose another place") from None
+
+
+def _sheet(picture: NDArray[np.uint8]) -> tuple[Figure, Any]:
+    """A figure that holds nothing but a picture, and that picture: quick to write many times."""
+    from matplotlib.figure import Figure
+
+    high, wide = picture.shape[:2]
+    figure = Figure(figsize=(wide / _DPI, high / _DPI), dpi=_DPI)
+    _canvas(figure)
+    return figure, figure.figimage(picture)
+
+
+class _Scene:
+    """The site, drawn once, and what moves on it."""
+
+    def __init__(self, film: Film, site: Site) -> None:
+        self._film = film
+        figure = site_figure(site)
+        width, height = figure.get_size_inches()
+        figure.set_dpi(_DPI)
+        figure.set_size_inches(_even(width / height * _HEIGHT_IN + 1.2), _even(_HEIGHT_IN))
+        self._ax = ax = figure.axes[0]
+        draw_site(ax, site)
+        layout = figure.get_layout_engine()
+        if layout is not None:
+            layout.set(rect=(0.0, 0.0, 1.0, 0.91))  # type: ignore[call-arg]  # a constrained one
+        figure.text(0.02, 0.985, film.title.replace("$", r"\$"), ha="left", va="top", fontsize=11, color=_INK)
+        self._clock = figure.text(0.02, 0.915, "", ha="left", va="bottom", fontsize=10, color=_INK)
+        quantity = film.quantities[0] if film.quantities else ""
+        self._valued = [c for c in film.captures if quantity in c.readings]
+        self._values = np.array([c.readings[quantity] for c in self._valued])
+        self._others = [c for c in film.captures if c.good and quantity not in c.readings]
+        (self._way,) = ax.plot([], [], color=_WAY, linewidth=1.8, alpha=0.8)
+        (self._robot,) = ax.plot([], [], "o", color=_WAY, markersize=9, markeredgecolor="white", markeredgewidth=1.5)
+        (self._plain,) = ax.plot([], [], "D", color=_PLAIN, markersize=6, markeredgecolor="white")
+        (self._failed,) = ax.plot([], [], "X", color=_FAILED, markersize=8, markeredgecolor="white")
+        self._dots = _valued_dots(figure, ax, self._valued, quantity) if self._valued else None
+        moving = (self._way, self._plain, self._failed, self._dots, self._robot, self._clock)
+        self._moving = [artist for artist in moving if artist is not None]
+        for artist in self._moving:
+            artist.set_animated(True)
+        self._canvas = _canvas(figure)
+        self._canvas.draw()
+        self._ground = self._canvas.copy_from_bbox(figure.bbox)
+
+    def at(self, t: float) -> NDArray[np.uint8]:
+        """The picture at a time, shape (height, width, 4)."""
+        film = self._film
+        driven = film.until(t)
+        self._way.set_data(driven[:, 0], driven[:, 1])
+        self._robot.set_data(driven[-1:, 0], driven[-1:, 1])
+        done = [c for c in self._valued if c.t <= t]
+        if self._dots is not None:
+            self._dots.set_offsets(_xy(done))
+            self._dots.set_array(self._values[: len(done)])
+        self._plain.set_data(*_xy([c for c in self._others if c.t <= t]).T)
+        self._failed.set_data(*_xy([c for c in film.captures if not c.good and c.t <= t]).T)
+        minutes, rest = divmod(round(t), 60)
+        made = sum(c.good and c.t <= t for c in film.captures)
+        said = f"{made} capture{'s' * (made != 1)}"
+        self._clock.set_text(f"{minutes}:{rest:02d}   battery {film.charge_at(t):.0f} %   {said}")
+        self._canvas.restore_region(self._ground)
+        for artist in self._moving:
+            self._ax.draw_artist(artist)
+        return np.array(self._canvas.buffer_rgba())
+
+
+def _canvas(figure: Figure) -> Any:
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    return FigureCanvasAgg(figure)
+
+
+def _valued_dots(figure: Figure, ax: Axes, valued: list[Capture], quantity: str) -> Any:
+    """Dots coloured by value, with a bar of the whole mission's range beside."""
+    values = [c.readings[quantity] for c in valued]
+    low, high = min(values), max(values)
+    if high - low < 1e-9:
+        low, high = low - 0.5, high + 0.5
+    dots = ax.scatter(
+        [], [], c=[], cmap="viridis", vmin=low, vmax=high, s=95, edgecolors="white", linewidths=1.2, zorder=13
+    )
+    bar = figure.colorbar(dots, ax=ax, shrink=0.6, pad=0.02)
+    unit = next((c.units[quantity] for c in valued if quantity in c.units), "")
+    bar.set_label(f"{capitalised(say_name(quantity))} [{say_unit(unit)}]" if unit else capitalised(say_name(quantity)))
+    return dots
+
+
+def _xy(captures: list[Capture]) -> Any:
+    return np.array([(c.x, c.y) for c in captures], dtype=np.float64).reshape(-1, 2)
+
+
+def _even(inches: float) -> float:
+    """Inches that come to an even number of dots, as video needs them."""
+    return 2 * round(inches * _DPI / 2) / _DPI

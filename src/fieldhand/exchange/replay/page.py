@@ -1,0 +1,74 @@
+"""A film as one HTML page that stands alone: no network, no script of others, whatever the log holds stays text."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import html
+import json
+from importlib.resources import files
+from typing import Any
+
+import numpy as np
+
+from fieldhand.exchange.replay.film import Film
+from fieldhand.site.model import Site
+from fieldhand.task.words import capitalised, say_action, say_name, say_unit
+
+
+def page_of(film: Film, site: Site) -> bytes:
+    """The page, UTF-8."""
+    here = files("fieldhand.exchange.replay")
+    script = (here / "page.js").read_text(encoding="utf-8")
+    digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+    policy = f"default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-{digest}'"
+    # Inside a script element only "<" could end it.
+    data = json.dumps(_data(film, site), ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+    page = (here / "page.html").read_text(encoding="utf-8")
+    parts = {
+        "policy": policy,
+        "title": html.escape(film.title),
+        "style": (here / "page.css").read_text(encoding="utf-8"),
+        "data": data,
+        "script": script,
+    }
+    return "".join(parts.get(piece, piece) for piece in page.split("@@")).encode()
+
+
+def _data(film: Film, site: Site) -> dict[str, Any]:
+    return {
+        "seconds": round(film.seconds, 2),
+        "track": _rounded(film.track),
+        "charge": _rounded(film.charge),
+        "trees": _rounded(site.xy),
+        "zones": [
+            {"kind": zone.kind, "name": zone.name, "ring": _rounded(np.asarray(zone.polygon.exterior.coords)[:, :2])}
+            for zone in site.zones
+        ],
+        "markers": [{"name": name, "x": round(p.x, 2), "y": round(p.y, 2)} for name, p in site.markers.items()],
+        "captures": [
+            {
+                "t": round(c.t, 2),
+                "x": round(c.x, 2),
+                "y": round(c.y, 2),
+                "place": c.place,
+                "what": capitalised(say_action(c.action)),
+                "good": c.good,
+                "readings": dict(c.readings),
+            }
+            for c in film.captures
+        ],
+        "quantities": [{"key": q, "name": capitalised(say_name(q)), "unit": _unit(film, q)} for q in film.quantities],
+        "lines": [[round(t, 2), text] for t, text in film.lines],
+        "spacing": round(site.spacing_m, 2),
+    }
+
+
+def _unit(film: Film, quantity: str) -> str:
+    return say_unit(next((c.units[quantity] for c in film.captures if quantity in c.units), ""))
+
+
+def _rounded(rows: Any) -> list[list[float]]:
+    """To the centimetre."""
+    found: list[list[float]] = np.round(np.asarray(rows, dtype=np.float64), 2).tolist()
+    return found

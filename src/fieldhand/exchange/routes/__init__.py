@@ -1,0 +1,1 @@
+"""Where a mission goes, for maps, spreadsheets and ground stations: planned from a Task, or driven from a log."""

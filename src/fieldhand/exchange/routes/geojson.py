@@ -1,0 +1,57 @@
+"""A route as GeoJSON (RFC 7946): a line for each way, a point for each stop."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from fieldhand.exchange.routes.route import LatLon, Route, Stop
+
+
+def write_geojson(route: Route) -> bytes:
+    """A FeatureCollection; positions are longitude, latitude in degrees, WGS 84, to a hundredth of a millimetre."""
+    features: list[dict[str, Any]] = []
+    for number, stop in enumerate(route.stops, start=1):
+        if len(stop.way) > 1:
+            line = {"type": "LineString", "coordinates": [_position(p) for p in stop.way]}
+            properties: dict[str, Any] = {"what": "way", "to_stop": number, "length_m": round(stop.length_m, 3)}
+            features.append(_feature(line, properties | _certainty(route, stop)))
+        features.append(_feature({"type": "Point", "coordinates": _position(stop.at)}, _of_stop(route, stop, number)))
+    collection = {"type": "FeatureCollection", "name": route.name, "features": features}
+    return (json.dumps(collection, ensure_ascii=False, indent=1) + "\n").encode()
+
+
+def _of_stop(route: Route, stop: Stop, number: int) -> dict[str, Any]:
+    found: dict[str, Any] = {
+        "what": "end" if stop.home else "stop",
+        "number": number,
+        "node": stop.node,
+        "kind": stop.kind,
+        "place": stop.place,
+        "robot_position": _position(stop.stand),
+        "travelled_m": round(stop.travelled_m, 3),
+        "actions": [
+            {"node": w.node, "action": w.action, "captures": w.captures}
+            | ({"failed": w.failed} if route.driven else {"certain": w.certain})
+            for w in stop.work
+        ],
+    }
+    if stop.t is not None:
+        found["t_s"] = round(stop.t, 3)
+    for work in stop.work:
+        for quantity, (value, unit) in work.readings.items():
+            found[quantity] = value
+            found[f"{quantity}_unit"] = unit
+    return found | _certainty(route, stop)
+
+
+def _certainty(route: Route, stop: Stop) -> dict[str, Any]:
+    return {} if route.driven else {"certain": stop.certain}
+
+
+def _feature(geometry: dict[str, Any], properties: dict[str, Any]) -> dict[str, Any]:
+    return {"type": "Feature", "geometry": geometry, "properties": properties}
+
+
+def _position(at: LatLon) -> list[float]:
+    return [round(at[1], 9), round(at[0], 9)]

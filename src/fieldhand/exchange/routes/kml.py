@@ -1,0 +1,93 @@
+"""A route as KML 2.2 (OGC 07-147r2), for Google Earth and GIS programs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldhand.exchange.routes.route import LatLon, Route, Stop
+from fieldhand.task.words import capitalised, say_action, say_name, say_number, say_unit
+
+if TYPE_CHECKING:
+    from lxml.etree import _Element
+
+NAMESPACE = "http://www.opengis.net/kml/2.2"
+#: Colours as KML writes them: alpha, blue, green, red.
+_STYLES = (("certain", "ff4f3226"), ("uncertain", "ff008bd4"))
+
+
+def write_kml(route: Route) -> bytes:
+    """A document with two folders, ways and stops; elements stand in the order that the schema asks for."""
+    from lxml import etree
+
+    root = etree.Element(f"{{{NAMESPACE}}}kml", nsmap={None: NAMESPACE})  # type: ignore[dict-item]  # stubs forget None
+    document = _sub(root, "Document")
+    _sub(document, "name", route.name)
+    for name, colour in _STYLES:
+        style = _sub(document, "Style")
+        style.set("id", name)
+        line = _sub(style, "LineStyle")
+        _sub(line, "color", colour)
+        _sub(line, "width", "3")
+    ways, stops = _sub(document, "Folder"), _sub(document, "Folder")
+    _sub(ways, "name", "Ways")
+    _sub(stops, "name", "Stops")
+    for number, stop in enumerate(route.stops, start=1):
+        if len(stop.way) > 1:
+            mark = _placemark(ways, f"To stop {number}", f"{stop.length_m:.1f} m", stop)
+            line = _sub(mark, "LineString")
+            _sub(line, "tessellate", "1")
+            _sub(line, "coordinates", " ".join(_position(p) for p in stop.way))
+        mark = _placemark(stops, f"{number}: {_named(stop)}", _described(stop), stop)
+        data = _sub(mark, "ExtendedData")
+        for key, text in _data(route, stop, number).items():
+            entry = _sub(data, "Data")
+            entry.set("name", key)
+            _sub(entry, "value", text)
+        _sub(_sub(mark, "Point"), "coordinates", _position(stop.at))
+    etree.indent(root)
+    return etree.tostring(root, xml_declaration=True, encoding="UTF-8") + b"\n"
+
+
+def _placemark(folder: _Element, name: str, about: str, stop: Stop) -> _Element:
+    mark = _sub(folder, "Placemark")
+    _sub(mark, "name", name)
+    if about:
+        _sub(mark, "description", about)
+    _sub(mark, "styleUrl", "#certain" if stop.certain else "#uncertain")
+    return mark
+
+
+def _named(stop: Stop) -> str:
+    return f"tree {stop.place}" if stop.kind == "tree" else stop.place
+
+
+def _described(stop: Stop) -> str:
+    """What is done at a stop, a line an action."""
+    lines = []
+    for work in stop.work:
+        read = ", ".join(
+            f"{say_name(q)} {say_number(v, 4)} {say_unit(u)}".strip() for q, (v, u) in work.readings.items()
+        )
+        failed = f", {work.failed} failed" if work.failed else ""
+        lines.append(f"{capitalised(say_action(work.action))}: {work.captures}{failed}{'; ' + read if read else ''}")
+    return "\n".join(lines)
+
+
+def _data(route: Route, stop: Stop, number: int) -> dict[str, str]:
+    found = {"stop": str(number), "place": stop.place, "node": stop.node, "travelled_m": f"{stop.travelled_m:.3f}"}
+    if stop.t is not None:
+        found["t_s"] = f"{stop.t:.3f}"
+    return found if route.driven else found | {"certain": "true" if stop.certain else "false"}
+
+
+def _position(at: LatLon) -> str:
+    return f"{at[1]:.9f},{at[0]:.9f}"
+
+
+def _sub(parent: _Element, name: str, text: str = "") -> _Element:
+    from lxml import etree
+
+    made = etree.SubElement(parent, f"{{{NAMESPACE}}}{name}")
+    if text:
+        made.text = "".join(c if c in "\t\n" or c >= " " else "\ufffd" for c in text)
+    return made

@@ -1,0 +1,243 @@
+"""A route: the stops and ways of a mission in their order, in degrees.
+
+A planned route is the branch on which every condition holds. Its stops are certain as far as every other branch drives
+the same ways, and no step has come that the budget may leave out.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from itertools import takewhile
+from typing import TYPE_CHECKING
+
+from fieldhand.forecast.branches import branches
+from fieldhand.forecast.limits import speed_of
+from fieldhand.forecast.steps import Step, Walk
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Place, Site
+from fieldhand.task.frames import Task
+from fieldhand.task.plan import Act, is_optional
+from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event, Started
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+LatLon = tuple[float, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Work:
+    """One action at a stop, planned or done.
+
+    Attributes:
+        captures: Made, or to be made.
+        certain: It is done on every branch.
+        failed: Captures that failed.
+        seconds: That it takes; 0 where a log does not say.
+        readings: Of the last capture, value and unit by quantity.
+    """
+
+    node: str
+    action: str
+    captures: int
+    certain: bool = True
+    failed: int = 0
+    seconds: float = 0.0
+    readings: dict[str, tuple[float, str]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stop:
+    """A place where the robot stops.
+
+    Attributes:
+        place: Id of the tree, name of the marker or point.
+        at: Where the tree or point is.
+        stand: Where the robot stands.
+        way: The way there from the stop before, its ends included; empty where it does not move.
+        length_m: Metres of that way, as planned or as driven.
+        travelled_m: Metres from the start of the mission.
+        certain: It comes whatever is read and whatever legs cost.
+        home: It is where the mission ends.
+        t: Seconds from the start, of a log; None of a plan.
+    """
+
+    node: str
+    kind: str
+    place: str
+    at: LatLon
+    stand: LatLon
+    way: tuple[LatLon, ...] = ()
+    length_m: float = 0.0
+    travelled_m: float = 0.0
+    work: tuple[Work, ...] = ()
+    certain: bool = True
+    home: bool = False
+    t: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Route:
+    """The stops of a mission.
+
+    Attributes:
+        name: What it is called in other programs.
+        start: Where the robot begins.
+        speed_m_s: Of driving.
+        driven: It happened; else it is planned.
+    """
+
+    name: str
+    start: LatLon
+    stops: tuple[Stop, ...]
+    speed_m_s: float
+    driven: bool
+
+
+def planned(task: Task, site: Site, robot: RobotProfile) -> Route:
+    """The route of a Task on the branch where every condition holds.
+
+    Raises:
+        PlaceError: A selector finds nothing here.
+        DriveFault: A place that cannot be reached.
+    """
+    found = branches(task, site, robot)
+    walked = found.walks[0]
+    known = _Certain(found.walks if found.complete else (walked,), complete=found.complete)
+    first = next((s.context.here for s in walked.steps), site.start)
+    stops: list[Stop] = [_stop(first, site, node="", certain=True)]
+    travelled, drives = 0.0, 0
+    for step in walked.steps:
+        if step.kind in ("drive", "exit") and step.drive is not None:
+            travelled += step.drive.length_m
+            stops.append(_driven_to(step, site, travelled, drives < known.drives))
+            drives += 1
+        elif step.kind == "exit":
+            stops[-1] = replace(stops[-1], home=True)
+        elif isinstance(step.node, Act) and step.kind == "act":
+            done = Work(
+                node=step.node.id,
+                action=step.node.action,
+                captures=step.captures,
+                certain=drives <= known.drives and (drives, step.node.id) in known.acts,
+                seconds=step.seconds,
+            )
+            stops[-1] = replace(stops[-1], work=(*stops[-1].work, done))
+    begin = stops[0]
+    return Route(
+        name=task.id,
+        start=begin.stand,
+        stops=tuple(stops if begin.work or begin.home else stops[1:]),
+        speed_m_s=speed_of(task.constraints, robot),
+        driven=False,
+    )
+
+
+def driven(events: Sequence[Event], *, speed_m_s: float = 0.0) -> Route:
+    """The route of an event log. Events without a place on the earth are left out."""
+    started = next((e for e in events if isinstance(e, Started)), None)
+    begin = (0.0, 0.0) if started is None else (started.lat, started.lon)
+    stops: list[Stop] = []
+    here = begin
+    way: tuple[LatLon, ...] = ()
+    for event in events:
+        match event:
+            case Driving():
+                way = tuple((a, b) for a, b in event.path if _known((a, b)))
+            case Arrived() if _known((event.lat, event.lon)):
+                here = (event.lat, event.lon)
+                stops.append(
+                    Stop(
+                        node=event.node, kind=event.kind, place=event.place, at=here, stand=here, way=way,
+                        length_m=event.leg_m, travelled_m=event.travelled_m, t=event.t,
+                    )
+                )  # fmt: skip
+                way = ()
+            case Acted() if _known((event.lat, event.lon)):
+                if not stops or stops[-1].place != event.place:
+                    metres = stops[-1].travelled_m if stops else 0.0
+                    at = (event.lat, event.lon)
+                    stops.append(
+                        Stop(
+                            node=event.node, kind=event.kind, place=event.place, at=at, stand=here,
+                            travelled_m=metres, t=event.t,
+                        )
+                    )  # fmt: skip
+                stops[-1] = replace(stops[-1], at=(event.lat, event.lon), work=_with(stops[-1].work, event))
+            case Ended() if stops:
+                stops[-1] = replace(stops[-1], home=not stops[-1].work)
+            case _:
+                pass
+    name = started.task if started is not None else "mission"
+    return Route(name=name, start=begin, stops=tuple(stops), speed_m_s=speed_m_s, driven=True)
+
+
+class _Certain:
+    """What every branch has in common from its beginning on.
+
+    Attributes:
+        drives: So many drives are the same on every branch.
+        acts: What is done after how many drives, by its node, on every branch.
+    """
+
+    def __init__(self, walks: Sequence[Walk], *, complete: bool) -> None:
+        each = [self._straight(walked, complete) for walked in walks]
+        ways = [drives for drives, _ in each]
+        self.drives = sum(1 for _ in takewhile(lambda same: len(set(same)) == 1, zip(*ways, strict=False)))
+        self.acts = frozenset.intersection(*(acts for _, acts in each))
+
+    def _straight(self, walked: Walk, complete: bool) -> tuple[list[tuple[LatLon, ...]], frozenset[tuple[int, str]]]:
+        """The drives and acts of a branch up to the first that the budget may leave out.
+
+        Where not every branch was looked at, also only up to the first condition.
+        """
+        drives: list[tuple[LatLon, ...]] = []
+        acts: set[tuple[int, str]] = set()
+        for step in walked.steps:
+            if (step.kind == "visit-list" and is_optional(step.node)) or (step.kind == "decide" and not complete):
+                break
+            if step.drive is not None:
+                drives.append(step.drive.points)
+            elif step.kind == "act":
+                acts.add((len(drives), step.node.id))
+        return drives, frozenset(acts)
+
+
+def _with(work: tuple[Work, ...], event: Acted) -> tuple[Work, ...]:
+    """The work of a stop with one more capture."""
+    good = event.status == "success"
+    readings = {q: (v, event.units.get(q, "")) for q, v in event.readings.items() if math.isfinite(v)} if good else {}
+    last = work[-1] if work and (work[-1].node, work[-1].action) == (event.node, event.action) else None
+    if last is None:
+        last, work = Work(node=event.node, action=event.action, captures=0), (*work, None)  # type: ignore[arg-type]
+    more = replace(
+        last,
+        captures=last.captures + (event.count if good else 0),
+        failed=last.failed + (0 if good else 1),
+        readings=readings or last.readings,
+    )
+    return (*work[:-1], more)
+
+
+def _driven_to(step: Step, site: Site, travelled: float, certain: bool) -> Stop:
+    assert step.drive is not None  # noqa: S101  the caller looked
+    way = _degrees(site, step.drive.points)
+    made = _stop(step.places[0], site, node=step.node.id, certain=certain)
+    return replace(
+        made, way=way, stand=way[-1], length_m=step.drive.length_m, travelled_m=travelled, home=step.kind == "exit"
+    )
+
+
+def _stop(place: Place, site: Site, *, node: str, certain: bool) -> Stop:
+    stand = _degrees(site, [place.stand or place.xy])[0]
+    return Stop(node=node, kind=place.kind, place=place.id, at=(place.lat, place.lon), stand=stand, certain=certain)
+
+
+def _degrees(site: Site, points: ArrayLike) -> tuple[LatLon, ...]:
+    return tuple((float(lat), float(lon)) for lat, lon in site.projection.degrees(points))
+
+
+def _known(at: LatLon) -> bool:
+    return math.isfinite(at[0]) and math.isfinite(at[1])

@@ -1,0 +1,96 @@
+"""``export``, ``import`` and ``replay``: bad input gets one line and status 2, facts come as JSON."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+import typer
+
+from exchange_missions import STRAIGHT, flight, task_of
+from fieldhand.cli.export import export
+from fieldhand.cli.import_tree import import_tree
+from fieldhand.cli.replay import replay
+from fieldhand.errors import InputError
+from fieldhand.task.codec import encode
+
+Command = Callable[..., None]
+
+
+def call(command: Command, **given: object) -> None:
+    """Run a command in this process; options that are not given have their defaults."""
+    import inspect
+
+    known = {name: p.default for name, p in inspect.signature(command).parameters.items() if p.default is not p.empty}
+    assert not any(isinstance(default, typer.models.ParameterInfo) for default in known.values())
+    command(**(known | given))
+
+
+@pytest.fixture
+def files(tmp_path: Path) -> Path:
+    (tmp_path / "task.xml").write_bytes(encode(task_of(STRAIGHT)))
+    (tmp_path / "events.jsonl").write_text("\n".join(flight().lines) + "\n")
+    (tmp_path / "empty.jsonl").write_text("")
+    (tmp_path / "binary.jsonl").write_bytes(b"\x00\xff")
+    (tmp_path / "text.mcap").write_bytes(b"\x89MCAP0\r\n" + bytes(9))
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("command", "given", "said"),
+    [
+        (export, {"given": "task.xml", "to": "pdf"}, "no format 'pdf'; choose one of btcpp"),
+        (export, {"given": "task.xml", "to": "mcap"}, "a Task cannot be written as mcap"),
+        (export, {"given": "events.jsonl", "to": "btcpp"}, "an event log cannot be written as btcpp"),
+        (export, {"given": "task.xml", "to": "kml"}, "needs its site"),
+        (export, {"given": "none.xml", "to": "btcpp"}, "none.xml: cannot be read"),
+        (export, {"given": "task.xml", "to": "btcpp", "robot": "amiga"}, "not valid for this robot"),
+        (export, {"given": "empty.jsonl", "to": "csv"}, "holds no event"),
+        (export, {"given": "binary.jsonl", "to": "csv"}, "cannot be read"),
+        (export, {"given": "text.mcap", "to": "csv"}, "no event|damaged"),
+        (replay, {"events": "events.jsonl", "site": "demo", "output": Path("m.avi")}, ".avi is no kind of animation"),
+        (import_tree, {"tree": "none.xml"}, "cannot be read"),
+        (import_tree, {"tree": "task.xml"}, "is no tree of BehaviorTree.CPP"),
+    ],
+)
+def test_bad_input_gets_one_line(files: Path, command: Command, given: dict[str, object], said: str) -> None:
+    paths = {key: files / str(given[key]) for key in ("given", "events", "tree") if key in given}
+    with pytest.raises(InputError, match=said) as caught:
+        call(command, **({"output": files / "out"} | given | paths))
+    assert caught.value.exit_status == 2
+    assert "\n" not in str(caught.value)
+    assert not (files / "out").exists()
+
+
+def test_a_task_goes_out_and_comes_back(files: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    call(export, given=files / "task.xml", to="btcpp", output=files / "tree.xml", json=True)
+    call(import_tree, tree=files / "tree.xml", output=files / "again.xml", site="demo")
+    assert (files / "again.xml").read_bytes() == (files / "task.xml").read_bytes()
+    assert json.loads(capsys.readouterr().out.split("\n}")[0] + "\n}")["task"] == task_of(STRAIGHT).id
+
+
+def test_a_log_goes_out_as_mcap_and_comes_back(files: Path) -> None:
+    call(export, given=files / "events.jsonl", to="mcap", output=files / "log.mcap", site="demo")
+    call(export, given=files / "log.mcap", to="events", output=files / "back.jsonl")
+    assert (files / "back.jsonl").read_bytes() == (files / "events.jsonl").read_bytes()
+
+
+def test_facts_come_as_json(files: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    call(export, given=files / "task.xml", to="qgc", output=files / "m.plan", site="demo", json=True)
+    facts = json.loads(capsys.readouterr().out)
+    assert (facts["stops"], facts["left_out"], facts["driven"]) == (5, 0, False)
+    call(replay, events=files / "events.jsonl", site="demo", output=files / "m.html", json=True)
+    facts = json.loads(capsys.readouterr().out)
+    assert (facts["events"], facts["captures"]) == (len(flight().events), 8)
+
+
+def test_a_tree_that_reads_after_it_tests_is_refused(files: Path) -> None:
+    tested = '<CompareReading reading="{r}" quantity="co2" test="lt" value="1" unit="ppm"/>'
+    inside = f"<IfThenElse>{tested}<read_co2/><AlwaysSuccess/></IfThenElse>"
+    text = f'<root BTCPP_format="4"><BehaviorTree ID="A">{inside}</BehaviorTree></root>'
+    (files / "tree.xml").write_text(text)
+    with pytest.raises(InputError, match=r"tree\.xml: .*n1"):
+        call(import_tree, tree=files / "tree.xml", output=files / "out.xml")
+    assert not (files / "out.xml").exists()

@@ -1,0 +1,123 @@
+"""A mission drawn again: where the robot was, a page that stands alone, an animation."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+
+import matplotlib.animation
+import numpy as np
+import pytest
+from PIL import Image
+
+from exchange_missions import flight
+from fieldhand.errors import InputError, OutputError
+from fieldhand.exchange.replay import film_of, page_of, save_animation
+from fieldhand.site.geojson import load_demo
+from fieldhand.task.results import Acted, Arrived, Driving, Ended, Started
+
+
+def test_the_robot_is_where_the_log_says_when_it_says_so() -> None:
+    site, events = load_demo(), flight().events
+    film = film_of(events, site)
+    for event in events:
+        if isinstance(event, Arrived):
+            assert film.at(event.t) == pytest.approx(tuple(site.projection.metres(event.lat, event.lon)[0]), abs=1e-6)
+            assert film.charge_at(event.t) == pytest.approx(event.charge_percent)
+    assert (np.diff(film.track[:, 0]) >= 0).all()
+    drive = next(e for e in events if isinstance(e, Driving) and len(e.path) > 2)
+    arrived = next(e for e in events if isinstance(e, Arrived) and e.t > drive.t)
+    way = site.projection.metres(*np.array(drive.path).T)
+    half = film.until((drive.t + arrived.t) / 2)[-1]
+    gaps = np.hypot(*(way - half).T)
+    assert gaps.min() < np.hypot(*np.diff(way, axis=0).T).max()
+    assert len(film.captures) == sum(isinstance(e, Acted) for e in events)
+
+
+def test_a_log_that_was_cut_off_is_shown_as_far_as_it_goes() -> None:
+    events = flight().events
+    film = film_of(events[: len(events) // 2], load_demo())
+    assert film.title.endswith("cut off")
+    assert film.seconds <= events[len(events) // 2].t
+
+
+def test_a_clock_that_was_set_back_stands_still() -> None:
+    events = [replace(e, t=min(e.t, 50.0) if k % 2 else e.t) for k, e in enumerate(flight().events)]
+    assert (np.diff(film_of(events, load_demo()).track[:, 0]) >= 0).all()
+
+
+def test_a_log_without_places_or_of_another_site_is_refused() -> None:
+    site = load_demo()
+    with pytest.raises(InputError, match="where the robot was"):
+        film_of([e for e in flight().events if not isinstance(e, Started | Arrived | Ended)], site)
+    with pytest.raises(InputError, match="another site"):
+        film_of([replace(e, lat=-33.0) if isinstance(e, Arrived) else e for e in flight().events], site)
+
+
+class _Page(HTMLParser):
+    """The elements and texts of a page."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.tags: list[tuple[str, dict[str, str | None]]] = []
+        self.scripts: list[str] = []
+        self._in_script = False
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append((tag, dict(attrs)))
+        self._in_script = tag == "script"
+
+    def handle_endtag(self, tag: str) -> None:
+        self._in_script = False
+
+    def handle_data(self, data: str) -> None:
+        if self._in_script:
+            self.scripts.append(data)
+
+
+def test_the_page_stands_alone_and_whatever_a_log_holds_stays_text() -> None:
+    evil = "</script><script>alert(1)</script><img src=x onerror=alert(2)>@@script@@<!--"
+    events = [
+        replace(e, robot=evil) if isinstance(e, Started) else replace(e, place=evil) if isinstance(e, Acted) else e
+        for e in flight().events
+    ]
+    plain = _Page(page_of(film_of(flight().events, load_demo()), load_demo()).decode())
+    text = page_of(film_of(events, load_demo(), tell=lambda _: evil), load_demo()).decode()
+    page = _Page(text)
+    assert [tag for tag, _ in page.tags] == [tag for tag, _ in plain.tags]
+    assert len(page.scripts) == 2
+    data = json.loads(page.scripts[0])
+    assert data["captures"][0]["place"] == evil
+    assert data["lines"][0][1] == evil
+    assert not [a for _, attrs in page.tags for a in attrs if a in ("src", "href") or a.startswith("on")]
+    assert not re.search(r"https?://|innerHTML|document\.write|eval\(|fetch\(|import\(", text)
+    policy = next(attrs["content"] for tag, attrs in page.tags if attrs.get("http-equiv") == "Content-Security-Policy")
+    assert policy is not None
+    assert policy.startswith("default-src 'none'")
+    assert len(text) < 60_000
+
+
+def test_the_animation_moves_and_ends_where_the_mission_did(tmp_path: Path) -> None:
+    film = film_of(flight().events, load_demo())
+    save_animation(film, load_demo(), tmp_path / "deep" / "m.gif", seconds=0.5)
+    with Image.open(tmp_path / "deep" / "m.gif") as picture:
+        assert picture.n_frames >= 4
+        frames = []
+        for k in (0, picture.n_frames - 1):
+            picture.seek(k)
+            frames.append(np.asarray(picture.convert("RGB"), dtype=float))
+    assert np.abs(frames[0] - frames[1]).max() > 100
+
+
+def test_what_cannot_be_written_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    film = film_of(flight().events, load_demo())
+    monkeypatch.setattr(matplotlib.animation.FFMpegWriter, "isAvailable", classmethod(lambda cls: False))
+    with pytest.raises(OutputError, match="ffmpeg, which is not installed"):
+        save_animation(film, load_demo(), tmp_path / "m.mp4")
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OutputError, match="cannot be written"):
+        save_animation(film, load_demo(), tmp_path / "file" / "m.gif", seconds=0.5)

@@ -1,0 +1,38 @@
+"""Events from lines: what was written comes back, and a field of another type is named, not met later."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from hypothesis import given, settings
+
+from fieldhand.errors import TaskError
+from fieldhand.task.results import Event, from_json, to_json
+from random_events import events
+
+
+@given(events)
+@settings(deadline=None, max_examples=30)
+def test_events_come_back(log: tuple[Event, ...]) -> None:
+    assert tuple(from_json(to_json(event)) for event in log) == log
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("t", "soon"),
+        ("t", True),
+        ("t", 10**400),
+        ("path", [[1.0], [2.0, 3.0]]),
+        ("path", "north"),
+        ("path", [[1.0, "x"]]),
+        ("place", None),
+        ("planned_m", {}),
+    ],
+)
+def test_a_field_of_another_type_is_named(key: str, value: object) -> None:
+    line = {"event": "drive", "t": 1, "node": "n1", "kind": "tree", "place": "5", "planned_m": 2, "path": [[1, 2]]}
+    assert from_json(json.dumps(line)) is not None
+    with pytest.raises(TaskError, match=f"line 3: not an event: {key} cannot be"):
+        from_json(json.dumps(line | {key: value}), where="line 3")
