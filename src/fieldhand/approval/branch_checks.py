@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from fieldhand.approval.paths import say_decisions
 from fieldhand.approval.problem import Problem, node_in
 from fieldhand.approval.sentences import say_place
+from fieldhand.errors import DriveFault
 from fieldhand.forecast.branches import Branches
 from fieldhand.forecast.estimate import Estimate
 from fieldhand.forecast.steps import Step, Walk
@@ -24,7 +25,9 @@ def branch_problems(explored: Branches, task: Task, site: Site, robot: RobotProf
     for broken in explored.broken:
         error, on = broken.error, say_decisions(broken.decisions, task, robot)
         what = message("{what} (on the branch: {branch})", what=error.what, branch=on) if on else error.what
-        yield Problem(node=node_in(error.where), where=error.where, what=what, advice=error.advice)
+        node, where = node_in(error.where)
+        node = broken.node if not node and isinstance(error, DriveFault) else node
+        yield Problem(node=node, where=where, what=what, advice=error.advice)
     walks = (*explored.walks, *explored.told)
     yield from _unread(walks, task, robot)
     steps = (*(s for w in walks for s in w.steps), *(s for b in explored.broken for s in b.steps))

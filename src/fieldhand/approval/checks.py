@@ -241,4 +241,5 @@ def _resolved(node: Node, selector: Selector, site: Site) -> tuple[Place, ...]:
 
 
 def _of_error(error: FieldhandError, node: str = "") -> Problem:
-    return Problem(node=node or node_in(error.where), where=error.where, what=error.what, advice=error.advice)
+    found, where = node_in(error.where)
+    return Problem(node=found or node, where=where, what=error.what, advice=error.advice)

@@ -56,10 +56,10 @@ def _one_line(text: str) -> str:
     return " ".join(text.split())
 
 
-def node_in(where: str) -> str:
-    """The id of the plan node that the place of an error begins with; empty where it names none."""
-    first = where.split(",")[0].strip()
-    return first if re.fullmatch(r"n\d+", first) else ""
+def node_in(where: str) -> tuple[str, str]:
+    """The plan node that the place of an error begins with, if it does, and the rest of it."""
+    found = re.fullmatch(r"(n\d+)(?:, (.*))?", where, re.DOTALL)
+    return ("", where) if found is None else (found[1], found[2] or "")
 
 
 def with_words(problem: Problem, task: Task) -> Problem:

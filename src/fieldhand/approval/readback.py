@@ -189,10 +189,10 @@ def _notes(walks: Sequence[Walk], site: Site) -> tuple[str, ...]:
 def _worst(estimate: Estimate, task: Task, robot: RobotProfile) -> tuple[str, ...]:
     """Which branch is the most demanding, and the chance that it runs short of each limit."""
     worst = estimate.worst
-    short = [
-        message("{chance} of {limit}", chance=_percent(max(100 * c.chance, 0.1)), limit=_LIMITS[c.kind])
-        for c in worst.chances
-    ]
+    # What none of the missions drawn ran short of can still happen: that is said as less than one in a hundred.
+    shares = [_percent(max(100 * c.chance, 0.1)) for c in worst.chances]
+    limits = [_LIMITS[c.kind] for c in worst.chances]
+    short = [message("{chance} of {limit}", chance=s, limit=of) for s, of in zip(shares, limits, strict=True)]
     chance = message("Chance of running short there: {chances}.", chances=listed(short))
     decided = say_decisions(worst.decisions, task, robot)
     if len(estimate.branches) == 1 or not decided:

@@ -50,11 +50,13 @@ class Broken:
     Attributes:
         decisions: That lead there.
         error: What is wrong then.
+        node: Id of the node that drove last.
         steps: By then.
     """
 
     decisions: tuple[Decision, ...]
     error: PlaceError | DriveFault
+    node: str
     steps: tuple[Step, ...]
 
 
@@ -242,7 +244,9 @@ class _Exploration:
             walked = walker.run((self._root,))
         except (PlaceError, DriveFault) as error:
             decisions = tuple(walker.decisions)
-            self.broken.setdefault(str(error), Broken(decisions=decisions, error=error, steps=tuple(walker.steps)))
+            self.broken.setdefault(
+                str(error), Broken(decisions=decisions, error=error, node=walker.bound_for, steps=tuple(walker.steps))
+            )
         else:
             decisions = walked.decisions
             self.found.setdefault(decisions, walked)

@@ -90,6 +90,8 @@ class Trail:
         self.decisions: list[Decision] = []
         #: Tests of readings that nothing had taken: node and reading.
         self.unread: list[tuple[str, str]] = []
+        #: Id of the node that drove last, or tried to.
+        self.bound_for = ""
         self._inside_try = 0
         self._inside_optional = 0
         self.drawn = drawn
@@ -135,6 +137,7 @@ class Trail:
         self.context, self._standing = context, context.here
 
     def _leg(self, node: Node, kind: StepKind, place: Place) -> Step:
+        self.bound_for = node.id
         drive = self.drives.between(self._standing, place)
         return Step(
             node=node,
