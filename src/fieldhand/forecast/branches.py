@@ -244,9 +244,9 @@ class _Exploration:
             walked = walker.run((self._root,))
         except (PlaceError, DriveFault) as error:
             decisions = tuple(walker.decisions)
-            self.broken.setdefault(
-                str(error), Broken(decisions=decisions, error=error, node=walker.bound_for, steps=tuple(walker.steps))
-            )
+            steps = tuple(walker.steps)
+            found = Broken(decisions=decisions, error=error, node=walker.bound_for, steps=steps)
+            self.broken.setdefault(str(error), found)
         else:
             decisions = walked.decisions
             self.found.setdefault(decisions, walked)
