@@ -187,6 +187,8 @@ class _Exploration:
         self.found: dict[tuple[Decision, ...], Walk] = {}
         self.broken: dict[str, Broken] = {}
         self._walked = self._steps = 0
+        #: What was decided where all was answered as told.
+        self._alike: dict[frozenset[tuple[str, bool]] | None, tuple[Decision, ...]] = {}
 
     def explore(self) -> Coverage:
         """Look at all there is to look at."""
@@ -199,6 +201,8 @@ class _Exploration:
                 if all(d.sure for d in decisions):
                     return "enumerated"
                 most = max(most, sum(_key(d) in local for d in decisions if not d.sure))
+        # What comes now has a bound of its own; walks that were answered alike are not walked again.
+        self._steps = 0
         if most <= self._by_themselves:
             whole: Coverage = "enumerated"
             each, fixed = iter([dict[str, bool]()]), frozenset[str]()
@@ -239,6 +243,9 @@ class _Exploration:
 
     def _look(self, script: _Script) -> tuple[Decision, ...]:
         """Walk a branch; what was decided on it."""
+        alike = None if script.turned is not None or script.rng is not None else frozenset(script.told.items())
+        if alike in self._alike:
+            return self._alike[alike]
         walker = self._walker(script.answers())
         try:
             walked = walker.run((self._root,))
@@ -250,6 +257,8 @@ class _Exploration:
         else:
             decisions = walked.decisions
             self.found.setdefault(decisions, walked)
+        if alike is not None:
+            self._alike[alike] = decisions
         self._walked, self._steps = self._walked + 1, self._steps + len(walker.steps)
         return decisions
 
