@@ -11,6 +11,7 @@ import numpy as np
 from fieldhand.errors import DriveFault
 from fieldhand.forecast.drawn import Drawn, Luck
 from fieldhand.forecast.limits import speed_of
+from fieldhand.forecast.service import tried_again
 from fieldhand.forecast.state import Work
 from fieldhand.forecast.steps import Decision, Step, Walk
 from fieldhand.robot.model import RobotProfile
@@ -178,8 +179,4 @@ def _ended(fault: Fault, walked: Walk, last: int, way: Step, robot: RobotProfile
 
 def _again(step: Step, robot: RobotProfile) -> Work:
     """What it takes to try the last capture of an action again, as often as the robot does."""
-    node = step.node
-    if not isinstance(node, Act):
-        return Work()
-    action = robot.action[node.action]
-    return Work(seconds=robot.retries * action.duration_s, joules=robot.retries * action.energy_j)
+    return tried_again(step.node, robot) if isinstance(step.node, Act) else Work()

@@ -17,8 +17,8 @@ from fieldhand.forecast import routes
 from fieldhand.forecast.allowance import Allowance
 from fieldhand.forecast.drawn import Drawn
 from fieldhand.forecast.possible import Readings
-from fieldhand.forecast.service import work_of
-from fieldhand.forecast.state import Visit
+from fieldhand.forecast.service import tried_again, work_of
+from fieldhand.forecast.state import Visit, Work
 from fieldhand.forecast.steps import Ended, Failed, Step, Walk
 from fieldhand.forecast.trail import Answers, Trail
 from fieldhand.robot.model import RobotProfile
@@ -295,7 +295,7 @@ class Walker(Trail):
         action = self.robot.action[node.action]
         fails = bool(self._inside_try) and self._decide(node, "fails")
         # One that fails is taken to do so at its last capture, each time that it is tried again.
-        tries = node.count + (self.robot.retries if fails else 0)
+        again = tried_again(node, self.robot) if fails else Work()
         self._note(
             Step(
                 node=node,
@@ -303,8 +303,8 @@ class Walker(Trail):
                 context=self.context,
                 places=(here,),
                 captures=node.count - fails,
-                seconds=tries * action.duration_s,
-                joules=tries * action.energy_j,
+                seconds=node.count * action.duration_s + again.seconds,
+                joules=node.count * action.energy_j + again.joules,
             )
         )
         if fails:
