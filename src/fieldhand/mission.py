@@ -166,12 +166,27 @@ def decode_task(document: bytes, robot: RobotProfile, *, source: str = "") -> Ta
     return decode(document, source=source)
 
 
-def review(task: Task, site: Site, robot: RobotProfile, *, seed: int = 0, document: bytes | None = None) -> Review:
-    """Check a Task and say in words what it will do here and what it will take."""
+def review(
+    task: Task,
+    site: Site,
+    robot: RobotProfile,
+    *,
+    seed: int = 0,
+    document: bytes | None = None,
+    charge_percent: float = 100.0,
+) -> Review:
+    """Check a Task and say in words what it will do here and what it will take.
+
+    Args:
+        task, site, robot: What is to be approved, where, with what.
+        seed: Of the forecast.
+        document: The bytes that the Task was read from, if there are.
+        charge_percent: Charge at the beginning.
+    """
     from fieldhand.approval.checks import examine
     from fieldhand.approval.readback import read_back
 
-    found = examine(task, site, robot, document=document, seed=seed)
+    found = examine(task, site, robot, document=document, seed=seed, charge_percent=charge_percent)
     words = None if found.estimate is None else read_back(task, site, robot, found.estimate)
     return Review(task=task, problems=found.problems, estimate=found.estimate, read_back=words)
 

@@ -8,8 +8,8 @@ from dataclasses import replace
 import pytest
 from shapely.geometry import Point, box
 
+from fieldhand.approval.branch_checks import driven_through
 from fieldhand.approval.checks import check, examine
-from fieldhand.approval.legs import driven_through
 from fieldhand.forecast.routes import drives_for
 from fieldhand.forecast.walk import walk as walk_through
 from fieldhand.site.drives import Drive
@@ -123,19 +123,19 @@ def test_a_tree_inside_a_keep_out_is_an_error():
 def test_a_drive_that_crosses_a_zone_or_a_tree_line_is_found_from_the_site_alone():
     plan = Sequence(id="", steps=(GoTo(id="", place=TreeIs(tree="1")), GoTo(id="", place=TreeIs(tree="20"))))
     driven = walk_through(task_for(SITE, plan), SITE, ROBOT, holds=lambda node: True)
-    assert driven_through([driven], SITE) == ()
+    assert driven_through(driven.steps, SITE) == ()
     (leg,) = (s.drive for s in driven.steps if s.node.id == "n3")
     x, y = leg.at(leg.length_m / 2)
     pond = Zone(name="pond", kind="keep_out", polygon=Point(x, y).buffer(1.0))
     fence = Zone(name="fence", kind="boundary", polygon=box(-100, -100, 100, 100).difference(Point(x, y).buffer(2.0)))
-    assert driven_through([driven], replace(SITE, zones=(pond, fence))) == (
+    assert driven_through(driven.steps, replace(SITE, zones=(pond, fence))) == (
         ("n3", "through the keep-out “pond”"),
         ("n3", "outside the boundary"),
     )
     ends = [(float(x), float(y)) for x, y in SITE.xy[[0, -1]]]
     straight = Drive(tuple(ends), 1.0, SITE.start, SITE.start)
     steps = tuple(replace(s, drive=straight) if s.node.id == "n3" else s for s in driven.steps)
-    crossed = driven_through([replace(driven, steps=steps)], SITE)
+    crossed = driven_through(steps, SITE)
     assert {what for _, what in crossed} == {f"through the trees of row {r.name}" for r in SITE.planting.rows}
 
 

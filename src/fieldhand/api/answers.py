@@ -52,6 +52,8 @@ def review_answer(review: Review, ground: Ground, language: Language = ENGLISH) 
                 "severity": p.severity,
                 "node": p.node,
                 "where": language.say(p.where),
+                "words": p.words,
+                "place": language.say(p.place),
                 "what": language.say(p.what),
                 "advice": language.say(p.advice),
             }
@@ -79,6 +81,7 @@ def _headings(review: Review) -> dict[str, str]:
         "faults": message("When something goes wrong"),
         "totals": totals,
         "mean": message("on average"),
+        "p50": message("every other time below"),
         "p90": message("9 times in 10 below"),
         "driving": message("Driving"),
         "time": message("Time"),

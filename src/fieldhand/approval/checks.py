@@ -12,13 +12,13 @@ from dataclasses import dataclass
 from typing import Literal
 
 from fieldhand.approval.account import unaccounted
+from fieldhand.approval.branch_checks import branch_problems, exit_problems
 from fieldhand.approval.budget import budget_problems
 from fieldhand.approval.doubts import doubts
-from fieldhand.approval.legs import driven_through
-from fieldhand.approval.problem import Problem
+from fieldhand.approval.problem import Problem, node_in, with_words
 from fieldhand.approval.sentences import say_place
-from fieldhand.errors import DriveFault, FieldhandError, PlaceError, TaskError
-from fieldhand.forecast.estimate import Estimate, estimate
+from fieldhand.errors import FieldhandError, PlaceError, TaskError
+from fieldhand.forecast.estimate import Estimate, estimate, explore
 from fieldhand.forecast.routes import beginning, drives_for
 from fieldhand.language import message, named
 from fieldhand.robot.capabilities import capabilities_of
@@ -62,9 +62,21 @@ def check(task: Task, site: Site, robot: RobotProfile, document: bytes | None = 
 
 
 def examine(
-    task: Task, site: Site, robot: RobotProfile, *, document: bytes | None = None, seed: int = 0
+    task: Task,
+    site: Site,
+    robot: RobotProfile,
+    *,
+    document: bytes | None = None,
+    seed: int = 0,
+    charge_percent: float = 100.0,
 ) -> Examination:
-    """As :func:`check`, with the estimate, so that nobody has to make it twice."""
+    """As :func:`check`, with the estimate, so that nobody has to make it twice.
+
+    Args:
+        task, site, robot, document: As for :func:`check`.
+        seed: Of the estimate.
+        charge_percent: Charge at the beginning.
+    """
     problems = [*_document(task, robot, document), *_references(task, robot), *_resources(task, site, robot)]
     problems.extend(unaccounted(task))
     if not _errors(problems):
@@ -73,14 +85,16 @@ def examine(
     forecast = None
     if not _errors(problems):
         try:
-            forecast = estimate(task, site, robot, seed=seed)
-        except (PlaceError, DriveFault, TaskError) as error:
+            explored = explore(task, site, robot, seed, charge_percent=charge_percent)
+        except TaskError as error:
             problems.append(_of_error(error))
         else:
-            problems.extend(_drives(forecast, site))
-            problems.extend(budget_problems(task, site, robot, forecast))
-            problems.extend(_coverage(forecast))
-    once = dict.fromkeys(problems)
+            problems.extend(branch_problems(explored, task, site, robot))
+            if not explored.broken:
+                forecast = estimate(task, site, robot, seed, charge_percent=charge_percent)
+                problems.extend(exit_problems(forecast, site))
+                problems.extend(budget_problems(task, site, robot, forecast))
+    once = dict.fromkeys(with_words(problem, task) for problem in problems)
     return Examination(problems=tuple(sorted(once, key=lambda p: p.severity != "error")), estimate=forecast)
 
 
@@ -226,26 +240,6 @@ def _resolved(node: Node, selector: Selector, site: Site) -> tuple[Place, ...]:
     return places
 
 
-def _drives(forecast: Estimate, site: Site) -> Iterator[Problem]:
-    """Every leg of every branch, held against the zones themselves."""
-    for node, through in driven_through([b.walk for b in forecast.branches], site):
-        yield Problem(
-            node=node,
-            where=site.name,
-            what=message("the drive there goes {through}", through=through),
-            advice=message("choose other trees, or another way"),
-        )
-
-
-def _coverage(forecast: Estimate) -> Iterator[Problem]:
-    if not forecast.complete:
-        yield Problem(
-            where=message("plan"),
-            what=message("it has more branches than were looked at ({count})", count=len(forecast.branches)),
-            advice=message("nest fewer conditions, or watch the mission"),
-            severity="warning",
-        )
-
-
 def _of_error(error: FieldhandError, node: str = "") -> Problem:
-    return Problem(node=node, where=error.where, what=error.what, advice=error.advice)
+    found, where = node_in(error.where)
+    return Problem(node=found or node, where=where, what=error.what, advice=error.advice)

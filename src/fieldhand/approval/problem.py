@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import re
+from dataclasses import dataclass, replace
 from typing import Literal
 
-from fieldhand.language import joined, shaped
+from fieldhand.language import joined, message, shaped
+from fieldhand.site.places.words import say_selector
+from fieldhand.task import plan
+from fieldhand.task.frames import Task
+
+#: Characters of a request that a problem quotes.
+_MOST_QUOTED = 120
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -16,6 +23,8 @@ class Problem:
         what: In words, without a full stop.
         node: Id of the plan node; empty where none is meant.
         where: Line and element, zone or site.
+        words: Of the request, from which the node came.
+        place: What the node means, in words.
         advice: What to do about it.
         severity: An ``error`` forbids approval; a ``warning`` does until it is confirmed.
     """
@@ -23,16 +32,21 @@ class Problem:
     what: str
     node: str = ""
     where: str = ""
+    words: str = ""
+    place: str = ""
     advice: str = ""
     severity: Literal["error", "warning"] = "error"
 
     def __str__(self) -> str:
-        """One line: where, what, advice."""
+        """One line: node, words, place, where; what; advice."""
         return str(self.line())
 
     def line(self) -> str:
         """The same as a message, for other languages."""
-        parts = [self.where] if self.node and self.node in self.where else [p for p in (self.node, self.where) if p]
+        node = () if self.node and self.node in self.where else (self.node,)
+        words = (message("“{text}”", text=self.words),) if self.words else ()
+        place = () if self.place and self.place in self.what else (self.place,)
+        parts = [part for part in (*node, *words, *place, self.where) if part]
         at = (joined(", ", parts), ": ") if parts else ()
         todo = ("; ", self.advice) if self.advice else ()
         return shaped(joined("", (*at, self.what, *todo)), _one_line)
@@ -40,3 +54,32 @@ class Problem:
 
 def _one_line(text: str) -> str:
     return " ".join(text.split())
+
+
+def node_in(where: str) -> tuple[str, str]:
+    """The plan node that the place of an error begins with, if it does, and the rest of it."""
+    found = re.fullmatch(r"(n\d+)(?:, (.*))?", where, re.DOTALL)
+    return ("", where) if found is None else (found[1], found[2] or "")
+
+
+def with_words(problem: Problem, task: Task) -> Problem:
+    """The problem with the words of the request from which its node came, and the place that the node means."""
+    node = next((n for n in plan.walk(task.composition.plan) if n.id == problem.node), None) if problem.node else None
+    if node is None:
+        return problem
+    selector = plan.selector_of(node)
+    return replace(
+        problem,
+        words=problem.words or _quoted(node, task),
+        place=problem.place or ("" if selector is None else say_selector(selector)),
+    )
+
+
+def _quoted(node: plan.Node, task: Task) -> str:
+    """The words themselves, in their order; what stands between them is left out."""
+    text = task.command.read_as or task.command.request
+    own = (*node.said, *(node.at_said if isinstance(node, plan.Act) else ()))
+    spans = sorted({(start, end) for start, end in own if 0 <= start < end <= len(text)})
+    pieces = [text[start:end] for start, end in spans]
+    said = " … ".join(" ".join(piece.split()) for piece in pieces)
+    return said if len(said) <= _MOST_QUOTED else said[: _MOST_QUOTED - 1] + "…"

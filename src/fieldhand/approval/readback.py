@@ -9,27 +9,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from fieldhand.approval.paths import FAULTS, say_decisions
 from fieldhand.approval.resolved import gather
 from fieldhand.approval.sentences import Line, say_exit_after, write_lines
 from fieldhand.forecast.estimate import BranchEstimate, Estimate, Figure
-from fieldhand.forecast.limits import reserve_percent
+from fieldhand.forecast.limits import ResourceKind, reserve_percent
 from fieldhand.forecast.steps import Walk
 from fieldhand.language import counted, joined, message, recalled
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.site.places import notes
-from fieldhand.task.frames import Budget, Fault, Task, Then
+from fieldhand.task.frames import Budget, Task, Then
 from fieldhand.task.plan import selector_of
 from fieldhand.task.words import capitalised, listed, say_duration, say_number, say_rounded
 
 __all__ = ["Line", "ReadBack", "Totals", "read_back"]
-
-_FAULTS: dict[Fault, str] = {
-    "action_failed": message("an action fails for good"),
-    "drive_failed": message("a way cannot be driven"),
-    "low_budget": message("what is left only just lasts for the way home"),
-    "aborted": message("somebody aborts the mission"),
-}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,6 +34,7 @@ class Totals:
         metres, seconds, percent: Distance, time, and percent of a full battery, the way home included.
         captures: Number of captures.
         branches: How many branches were looked at.
+        worst: Which way that branch goes, and how likely it runs short, as sentences.
     """
 
     metres: Figure
@@ -47,6 +42,7 @@ class Totals:
     percent: Figure
     captures: int
     branches: int
+    worst: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -98,7 +94,7 @@ def read_back(task: Task, site: Site, robot: RobotProfile, estimate: Estimate) -
         faults=_faults(task, site),
         assumptions=tuple(recalled(text, "assumption") for text in task.command.assumptions),
         notes=_notes(walks, site),
-        totals=_totals(estimate),
+        totals=_totals(estimate, task, robot),
     )
 
 
@@ -120,15 +116,15 @@ def say_totals(totals: Totals) -> tuple[str, ...]:
         percent=_percent(p.p90),
     )
     if totals.branches == 1:
-        return message("In all: {totals}", totals=total), high
+        return message("In all: {totals}", totals=total), high, *totals.worst
     branches = message(
         "In all, on the most demanding of {count} branches: {totals}", count=totals.branches, totals=total
     )
-    return branches, high
+    return branches, high, *totals.worst
 
 
 def _percent(value: float) -> str:
-    """A share of the battery, which is never nothing where something is done."""
+    """A share in percent, which is never nothing where there is any."""
     return message("less than 1 %") if 0 < value < 0.5 else message("{number} %", number=say_rounded(value))
 
 
@@ -170,7 +166,7 @@ def _faults(task: Task, site: Site) -> tuple[str, ...]:
     """What happens about faults; those with the same end share a sentence."""
     by_end: dict[Then, list[str]] = {}
     for taken in task.composition.faulted:
-        by_end.setdefault(taken.then, []).append(_FAULTS[taken.fault])
+        by_end.setdefault(taken.then, []).append(FAULTS[taken.fault])
     return tuple(
         message("If {faults}: {exit}.", faults=listed(faults, "or"), exit=say_exit_after(then, site))
         for then, faults in by_end.items()
@@ -190,7 +186,29 @@ def _notes(walks: Sequence[Walk], site: Site) -> tuple[str, ...]:
     return tuple(found)
 
 
-def _totals(estimate: Estimate) -> Totals:
+def _worst(estimate: Estimate, task: Task, robot: RobotProfile) -> tuple[str, ...]:
+    """Which branch is the most demanding, and the chance that it runs short of each limit."""
+    worst = estimate.worst
+    # What none of the missions drawn ran short of can still happen: that is said as less than one in a hundred.
+    shares = [_percent(max(100 * c.chance, 0.1)) for c in worst.chances]
+    limits = [_LIMITS[c.kind] for c in worst.chances]
+    short = [message("{chance} of {limit}", chance=s, limit=of) for s, of in zip(shares, limits, strict=True)]
+    chance = message("Chance of running short there: {chances}.", chances=listed(short))
+    decided = say_decisions(worst.decisions, task, robot)
+    if len(estimate.branches) == 1 or not decided:
+        return (chance,)
+    return (message("The most demanding branch: {branch}.", branch=decided), chance)
+
+
+_LIMITS: dict[ResourceKind, str] = {
+    "distance_m": message("the distance"),
+    "duration_s": message("the time"),
+    "energy_percent": message("the energy"),
+    "reserve": message("the charge above the reserve"),
+}
+
+
+def _totals(estimate: Estimate, task: Task, robot: RobotProfile) -> Totals:
     worst: BranchEstimate = estimate.worst
     return Totals(
         metres=worst.metres,
@@ -198,6 +216,7 @@ def _totals(estimate: Estimate) -> Totals:
         percent=worst.percent,
         captures=worst.captures,
         branches=len(estimate.branches),
+        worst=_worst(estimate, task, robot),
     )
 
 

@@ -1,4 +1,4 @@
-"""``fieldhand check``: every check on a Task document, each problem on its own line."""
+"""``fieldhand check``: every check on a Task document, each problem on its own line, and what each branch takes."""
 
 from __future__ import annotations
 
@@ -16,6 +16,9 @@ def check(
     robot: RobotOption = "husky",
     picture: PictureOption = None,
     lenient: LenientOption = False,
+    charge: Annotated[
+        float, typer.Option("--charge", min=0.0, max=100.0, metavar="<%>", help="Battery at the beginning, percent.")
+    ] = 100.0,
     lang: LangOption = None,
     json: JsonOption = False,
 ) -> None:
@@ -24,21 +27,23 @@ def check(
 
     from fieldhand import mission
     from fieldhand.cli import show
+    from fieldhand.cli.forecast_table import show_forecast
     from fieldhand.cli.inputs import open_ground
     from fieldhand.language import spoken
 
     language = spoken(lang, os.environ)
     ground = open_ground(site, robot, lenient=lenient)
     read, document = mission.read_task(task, ground.robot)
-    review = mission.review(read, ground.site, ground.robot, document=document)
+    review = mission.review(read, ground.site, ground.robot, document=document, charge_percent=charge)
     if picture is not None:
         from fieldhand.cli.pictures import draw_plan
 
         draw_plan(picture, review, ground, language)
     if json:
-        show.print_json(show.review_record(review, language))
+        show.print_json(show.review_record(review, language, every=True))
     else:
         show.show_review(review, language)
+        show_forecast(review, ground.robot)
         show.out.print()
         show.out.print(language.say(_verdict(len(review.errors), len(review.warnings))))
     if review.errors:

@@ -122,8 +122,8 @@ def outcome_record(outcome: Planned | Clarify | Refused) -> dict[str, Any]:
             return {"outcome": "refused", "reasons": reasons}
 
 
-def review_record(review: Review, language: Language = ENGLISH) -> dict[str, Any]:
-    """A review as JSON, its words in that language."""
+def review_record(review: Review, language: Language = ENGLISH, *, every: bool = False) -> dict[str, Any]:
+    """A review as JSON, its words in that language; ``every``: with the figures of every branch."""
     words = review.read_back
     return {
         "task": review.task.id,
@@ -133,6 +133,8 @@ def review_record(review: Review, language: Language = ENGLISH) -> dict[str, Any
                 "severity": p.severity,
                 "node": p.node,
                 "where": language.say(p.where),
+                "words": p.words,
+                "place": language.say(p.place),
                 "what": language.say(p.what),
                 "advice": language.say(p.advice),
             }
@@ -140,7 +142,7 @@ def review_record(review: Review, language: Language = ENGLISH) -> dict[str, Any
         ],
         "warnings": list(language.read(review.warnings)),
         "read_back": [] if words is None else list(language.read(words.text_lines())),
-        "estimate": None if review.estimate is None else review.estimate.as_record(),
+        "estimate": None if review.estimate is None else review.estimate.as_record(every=every),
     }
 
 

@@ -14,11 +14,11 @@ from typing import Literal
 
 from fieldhand.clock import Clock, WallClock
 from fieldhand.errors import ActionFault, BlockedFault, DriveFault, FieldhandError, LostFault, PlaceError
-from fieldhand.execution.conditions import Facts
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, Progress
 from fieldhand.execution.guard import Guard
 from fieldhand.execution.recording import OpenCapture, OpenDrive, end_capture, end_drive
 from fieldhand.execution.timeofday import TimeOfDay
+from fieldhand.forecast.conditions import Facts
 from fieldhand.forecast.routes import beginning
 from fieldhand.forecast.state import MissionState, Spent
 from fieldhand.forecast.visits import Visits

@@ -1,33 +1,63 @@
-"""Every way that a mission can go: its conditions either way, its actions inside a try failing or not."""
+"""Every way that a mission can go: conditions either way, what is tried failing, optional visits made or left out."""
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
 from itertools import product
 from typing import TYPE_CHECKING, Literal
 
+import numpy as np
+
+from fieldhand.errors import DriveFault, PlaceError
 from fieldhand.forecast import routes
-from fieldhand.forecast.steps import Decision, Walk
-from fieldhand.forecast.walk import walk
+from fieldhand.forecast.drawn import Drawn, Luck
+from fieldhand.forecast.local import local_decisions
+from fieldhand.forecast.possible import Outlooks, Readings
+from fieldhand.forecast.steps import Decision, Step, Walk
+from fieldhand.forecast.trail import Answers
+from fieldhand.forecast.walker import Walker
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task import plan
 from fieldhand.task.frames import Task
+from fieldhand.task.plan import Act, Try
 
 if TYPE_CHECKING:
     from fieldhand.forecast.expected import Expected
     from fieldhand.site.drives import Drives
 
-#: So many walks are looked at, and so many steps in all of them, before the rest is left.
+#: So many walks are looked at, and so many steps in all of them, before the rest is left. Two are always looked at.
 MAX_WALKS = 256
 MAX_STEPS = 40_000
 #: The walks that come first are worth more: the longest and the shortest are among them.
 MAX_STEPS_ALIKE = 200_000
+#: Walks that make or leave out optional visits as they are told, beside those that do what missions do.
+MAX_TOLD = 64
+#: Nodes that are answered alike throughout, in every combination; further ones follow each other.
 _ALIKE = 4
+#: With more conditions on the spot than this on one walk, each of them by itself is not tried.
+_BY_THEMSELVES = 8
 
-_Kind = Literal["holds", "fails"]
+Coverage = Literal["enumerated", "bounded", "sampled"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Broken:
+    """A branch that cannot be carried out.
+
+    Attributes:
+        decisions: That lead there.
+        error: What is wrong then.
+        node: Id of the node that drove last.
+        steps: By then.
+    """
+
+    decisions: tuple[Decision, ...]
+    error: PlaceError | DriveFault
+    node: str
+    steps: tuple[Step, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,12 +65,24 @@ class Branches:
     """What was found.
 
     Attributes:
-        walks: Distinct ones, no two with the same decisions. The first answers every condition with yes.
-        complete: Whether these are all there are.
+        walks: Distinct ones, no two with the same decisions. The first answers every condition with yes, nothing fails.
+        told: Further ones, on which each optional step is done, or left out, and of optional visits those are made
+            that the luckiest mission makes, or the least lucky one.
+        broken: Branches that come to an end because a place cannot be told or reached.
+        coverage: ``enumerated``: these are all. ``bounded``: of conditions that only decide what is done on the spot
+            those branches were walked on which each answers alike, of all others every branch; so every place and drive
+            was looked at, and no branch takes more or less. ``sampled``: there are more, of which some were drawn.
     """
 
     walks: tuple[Walk, ...]
-    complete: bool
+    told: tuple[Walk, ...] = ()
+    broken: tuple[Broken, ...] = ()
+    coverage: Coverage = "enumerated"
+
+    @property
+    def complete(self) -> bool:
+        """Whether no place, no drive and no extreme can have been missed."""
+        return self.coverage != "sampled"
 
 
 def branches(
@@ -51,79 +93,201 @@ def branches(
     drives: Drives | None = None,
     charge_percent: float = 100.0,
     limit: int = MAX_WALKS,
-    seed: int | None = None,
+    luck: Luck | None = None,
+    seed: int = 0,
 ) -> Branches:
     """Walk a Task along every branch, within bounds.
 
-    First come the walks on which each condition has the same answer every time; they are the longest and the shortest.
-    Then answers are changed one by one, the early ones first, until all were seen or a bound is met. ``seed`` is for
-    :func:`fieldhand.forecast.walk.walk`.
+    Args:
+        task, site, robot: The mission.
+        drives: The ways of the site, if the caller has them.
+        charge_percent: Charge at the beginning.
+        limit: So many walks at most.
+        luck: Of missions that are drawn along each walk; None for none.
+        seed: Of the branches that are drawn where there are too many.
 
     Raises:
-        PlaceError: A selector gives nothing on one of the branches; ``where`` names the node.
-        DriveFault: A place that cannot be reached on one of them.
         TaskError: A walk comes to more nodes than any mission.
     """
     ways = drives or routes.drives_for(site, robot)
-    found: dict[tuple[Decision, ...], Walk] = {}
+    outlooks = Outlooks(task.composition.plan, site, robot)
     kept: dict[object, Expected] = {}
-    steps = 0
 
-    def look(script: _Script) -> Walk:
-        nonlocal steps
-        walked = walk(
-            task,
-            site,
-            robot,
-            holds=script.holds,
-            fails=script.fails,
-            drives=ways,
-            charge_percent=charge_percent,
-            seed=seed,
-            kept=kept,
-        )
-        steps += len(walked.steps)
-        found.setdefault(walked.decisions, walked)
-        return walked
+    def likely(answers: Answers) -> Walker:
+        drawn = None if luck is None else Drawn(luck)
+        readings = Readings(outlooks)
+        return Walker(task, site, robot, ways, answers, charge_percent, drawn=drawn, readings=readings, kept=kept)
 
-    for answers in _alike(task):
-        if len(found) < limit and steps < MAX_STEPS_ALIKE:
-            look(_Script((), answers))
-    if () in found:
-        # A walk on which nothing is decided is the only one, however long it is.
-        return Branches(walks=tuple(found.values()), complete=True)
-    # Each prefix of answers is tried once: a walk proposes to turn each answer that its own prefix did not give.
-    open_prefixes: deque[tuple[bool, ...]] = deque([()])
-    while open_prefixes and len(found) < limit and steps < MAX_STEPS:
-        prefix = open_prefixes.popleft()
-        given = tuple(d.answer for d in look(_Script(prefix, {})).decisions)
-        open_prefixes.extend((*given[:i], not given[i]) for i in range(len(prefix), len(given)))
-    return Branches(walks=tuple(found.values()), complete=not open_prefixes)
+    def told(answers: Answers) -> Walker:
+        readings = Readings(outlooks)
+        return Walker(
+            task, site, robot, ways, answers, charge_percent, optional="told", readings=readings, kept=kept
+        )  # fmt: skip
+
+    root = task.composition.plan
+    looked = _Exploration(likely, root, limit, seed, by_themselves=_BY_THEMSELVES)
+    coverage = looked.explore()
+    further = _Exploration(told, root, MAX_TOLD, seed, by_themselves=0)
+    if any(plan.is_optional(node) for node in plan.walk(root)):
+        coverage = "sampled" if further.explore() == "sampled" else coverage
+    return Branches(
+        walks=tuple(looked.found.values()),
+        told=tuple(further.found.values()),
+        broken=(*looked.broken.values(), *further.broken.values()),
+        coverage=coverage,
+    )
 
 
+@dataclass(kw_only=True)
 class _Script:
-    """Answers in their order; after them, what is told for a node, else that it holds, and that it does not fail."""
+    """Answers in their order; after them, what is told for a node, else that it holds, is taken, and does not fail.
 
-    def __init__(self, prefix: tuple[bool, ...], told: dict[str, bool]) -> None:
-        self._prefix = prefix
-        self._told = told
-        self._asked = 0
+    Attributes:
+        prefix: The first answers: those of another walk, the last of them turned.
+        told: By kind of decision and node.
+        fixed: What is answered as told throughout, and not counted among the first.
+        rng: Answers what is beyond the prefix by chance, ``chance`` of it with yes.
+    """
 
-    def holds(self, node_id: str) -> bool:
-        return self._answer(node_id, True)
+    prefix: Sequence[bool] = ()
+    turned: int | None = None
+    told: dict[str, bool] = field(default_factory=dict)
+    fixed: frozenset[str] = frozenset()
+    rng: np.random.Generator | None = None
+    chance: float = 0.5
+    _asked: int = 0
 
-    def fails(self, node_id: str) -> bool:
-        return self._answer(node_id, False)
+    def answers(self) -> Answers:
+        return Answers(
+            holds=lambda node: self._answer(node, True),
+            taken=lambda node: self._answer(node, True),
+            fails=lambda node: self._answer(f"{node} fails", False),
+            blocked=lambda node: self._answer(f"{node} blocked", False),
+        )
 
-    def _answer(self, node_id: str, default: bool) -> bool:
+    def _answer(self, key: str, default: bool) -> bool:
+        if key in self.fixed:
+            return self.told.get(key, default)
         position, self._asked = self._asked, self._asked + 1
-        return self._prefix[position] if position < len(self._prefix) else self._told.get(node_id, default)
+        if self.turned is not None and position <= self.turned:
+            return self.prefix[position] is not (position == self.turned)
+        if self.rng is not None:
+            return bool(self.rng.random() < self.chance) if default else bool(self.rng.random() < 0.2)
+        return self.told.get(key, default)
 
 
-def _alike(task: Task) -> Iterator[dict[str, bool]]:
-    """Told answers for the first few conditions, in every combination; the others hold in all, or in none."""
-    asked = [n.id for n in plan.walk(task.composition.plan) if plan.condition_of(n) is not None]
+class _Exploration:
+    """Walks of one plan, until all were looked at or a bound is met."""
+
+    def __init__(
+        self, walker: Callable[[Answers], Walker], root: plan.Node, limit: int, seed: int, *, by_themselves: int
+    ) -> None:
+        self._walker, self._root, self._limit, self._by_themselves = walker, root, limit, by_themselves
+        self._rng = np.random.default_rng([seed, len(list(plan.walk(root)))])
+        self.found: dict[tuple[Decision, ...], Walk] = {}
+        self.broken: dict[str, Broken] = {}
+        self._walked = self._steps = 0
+        #: What was decided where all was answered as told.
+        self._alike: dict[frozenset[tuple[str, bool]] | None, tuple[Decision, ...]] = {}
+
+    def explore(self) -> Coverage:
+        """Look at all there is to look at."""
+        local = local_decisions(self._root)
+        # The walks that come first: every condition holds and nothing fails, then none, then the other combinations.
+        most = 0
+        for told in _alike(self._root):
+            if len(self.found) < self._limit and (len(self.found) < 2 or self._steps < MAX_STEPS_ALIKE):
+                decisions = self._look(_Script(told=told))
+                if all(d.sure for d in decisions):
+                    return "enumerated"
+                most = max(most, sum(_key(d) in local for d in decisions if not d.sure))
+        # What comes now has a bound of its own; walks that were answered alike are not walked again.
+        self._steps = 0
+        if most <= self._by_themselves:
+            whole: Coverage = "enumerated"
+            each, fixed = iter([dict[str, bool]()]), frozenset[str]()
+        else:
+            whole = "bounded" if len(local) <= _ALIKE else "sampled"
+            each, fixed = _combinations(local), frozenset(local)
+        if all(self._turn(told, fixed) for told in each):
+            return whole
+        self._draw()
+        return "sampled"
+
+    def _turn(self, told: dict[str, bool], fixed: frozenset[str]) -> bool:
+        """Turn each answer that is not fixed, of every walk that this leads to; whether all were looked at."""
+        # Each prefix of answers is tried once: a walk proposes to turn each answer that its own prefix did not give.
+        pending: deque[tuple[tuple[bool, ...], int | None]] = deque([((), None)])
+        while pending:
+            # Where the end is in sight it is reached; else some room is left for branches by chance.
+            near = len(pending) <= self._limit // 4
+            if not self._room(self._limit if near else self._limit * 3 // 4):
+                return False
+            prefix, turned = pending.popleft()
+            decisions = self._look(_Script(prefix=prefix, turned=turned, told=told, fixed=fixed))
+            given = tuple(d.answer for d in decisions if not d.sure and _key(d) not in fixed)
+            first = 0 if turned is None else turned + 1
+            room = self._limit + 1 - len(pending)
+            pending.extend((given, i) for i in range(first, min(len(given), first + max(0, room))))
+        return True
+
+    def _draw(self) -> None:
+        """Branches by chance, with many and with few conditions that hold; some of them will have been seen."""
+        for number in range(self._limit):
+            if not self._room(self._limit):
+                return
+            self._look(_Script(rng=self._rng, chance=(0.5, 0.1, 0.9)[number % 3]))
+
+    def _room(self, limit: int) -> bool:
+        return len(self.found) < limit and self._walked < 4 * self._limit and self._steps < MAX_STEPS
+
+    def _look(self, script: _Script) -> tuple[Decision, ...]:
+        """Walk a branch; what was decided on it."""
+        alike = None if script.turned is not None or script.rng is not None else frozenset(script.told.items())
+        if alike in self._alike:
+            return self._alike[alike]
+        walker = self._walker(script.answers())
+        try:
+            walked = walker.run((self._root,))
+        except (PlaceError, DriveFault) as error:
+            decisions = tuple(walker.decisions)
+            steps = tuple(walker.steps)
+            found = Broken(decisions=decisions, error=error, node=walker.bound_for, steps=steps)
+            self.broken.setdefault(str(error), found)
+        else:
+            decisions = walked.decisions
+            self.found.setdefault(decisions, walked)
+        if alike is not None:
+            self._alike[alike] = decisions
+        self._walked, self._steps = self._walked + 1, self._steps + len(walker.steps)
+        return decisions
+
+
+def _alike(root: plan.Node) -> Iterator[dict[str, bool]]:
+    """Told answers: for the first few conditions every combination, the others hold in all, or in none.
+
+    In the last ones whatever is tried fails, and then whatever is driven to is blocked.
+    """
+    asked = [n.id for n in plan.walk(root) if plan.condition_of(n) is not None or plan.is_optional(n)]
+    tried = [inner.id for n in plan.walk(root) if isinstance(n, Try) for inner in plan.walk(n.body)]
     some, others = asked[:_ALIKE], asked[_ALIKE:]
-    for answers in product((True, False), repeat=len(some)):
+    for answers in _combinations(some):
         for default in (True, False) if others else (True,):
-            yield {**dict.fromkeys(others, default), **dict(zip(some, answers, strict=True))}
+            yield {**dict.fromkeys(others, default), **answers}
+    if tried:
+        acts = [n.id for n in plan.walk(root) if isinstance(n, Act) and n.id in tried]
+        for default in (True, False):
+            for failing in ({f"{i} fails": True for i in acts}, {f"{i} blocked": True for i in tried}):
+                yield {**dict.fromkeys(asked, default), **failing}
+
+
+def _combinations(keys: Sequence[str]) -> Iterator[dict[str, bool]]:
+    """Every combination of answers, as far as they are few; all alike beyond."""
+    some, others = keys[:_ALIKE], keys[_ALIKE:]
+    for answers in product((True, False), repeat=len(some)):
+        yield {**dict.fromkeys(others, answers[0] if answers else True), **dict(zip(some, answers, strict=True))}
+
+
+def _key(decision: Decision) -> str:
+    """What a script calls it."""
+    return f"{decision.node} {decision.kind}" if decision.kind in ("fails", "blocked") else decision.node

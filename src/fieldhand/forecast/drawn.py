@@ -20,6 +20,9 @@ Floats = NDArray[np.float64]
 #: Missions that are drawn.
 DRAWS = 2000
 
+#: Legs of which all missions are drawn at a time, so that they fit the processor's own memory.
+_AT_A_TIME = 64
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Used:
@@ -35,40 +38,95 @@ class Used:
     joules: Floats
 
 
-class Drawn:
-    """Missions along one walk.
+class Luck:
+    """What legs cost, shared by the walks of a mission: the same legs cost the same on every branch.
+
+    So two branches differ by what they do and not by their luck, and where they drive the same legs those are drawn
+    once.
 
     Args:
         costs: What a leg of length 1 costs.
         seed: Of what the legs cost.
+        draws: How many missions.
     """
 
-    def __init__(self, costs: CostModel, seed: int) -> None:
-        self._costs, self.seed, self._rng = costs, seed, np.random.default_rng(seed)
-        self.metres, self._seconds, self._joules = np.zeros(DRAWS), np.zeros(DRAWS), np.zeros(DRAWS)
+    def __init__(self, costs: CostModel, seed: int, draws: int = DRAWS) -> None:
+        self.costs, self.seed, self.draws = costs, seed, draws
+        self._known: dict[tuple[int, tuple[float, ...]], Floats] = {}
+
+    def cost(self, first: int, legs: tuple[float, ...]) -> Floats:
+        """What some legs in a row cost each mission, shape (missions,).
+
+        Args:
+            first: How many legs a mission drives before them.
+            legs: Their lengths in metres.
+        """
+        known = self._known.get((first, legs))
+        if known is None:
+            known = np.zeros(self.draws)
+            rng = np.random.default_rng([self.seed, first])
+            for k in range(0, len(legs), _AT_A_TIME):
+                some = np.array(legs[k : k + _AT_A_TIME])
+                known += some @ self.costs.draw(rng, len(some) * self.draws).reshape(len(some), self.draws)
+            self._known[first, legs] = known
+        return known
+
+
+class Drawn:
+    """Missions along one walk.
+
+    Args:
+        luck: What legs cost.
+    """
+
+    def __init__(self, luck: Luck) -> None:
+        self._luck, self._legs = luck, 0
+        self._pending: list[float] = []
+        self._metres: Floats = np.zeros(luck.draws)
+        self._work = Work()
+        self._seconds: Floats | float = 0.0
+        self._joules: Floats | float = 0.0
         self._leaving: Floats | None = None
+
+    @property
+    def seed(self) -> int:
+        """Of what is random."""
+        return self._luck.seed
+
+    @property
+    def metres(self) -> Floats:
+        """What the legs so far cost each mission, shape (missions,)."""
+        if self._pending:
+            self._metres = self._metres + self._luck.cost(self._legs, tuple(self._pending))
+            self._legs, self._pending = self._legs + len(self._pending), []
+        return self._metres
 
     @property
     def used(self) -> Used:
         """So far."""
-        return Used(metres=self.metres, seconds=self._seconds, joules=self._joules)
+        none = np.zeros(self._luck.draws)
+        return Used(
+            metres=self.metres,
+            seconds=none + (self._work.seconds + self._seconds),
+            joules=none + (self._work.joules + self._joules),
+        )
 
     def drive(self, metres: float) -> None:
         """All of them drive a leg; the one after optional visits begins where each mission made its last."""
         if self._leaving is not None:
-            self.metres = self.metres + self._leaving
+            self._metres = self.metres + self._leaving
             self._leaving = None
         else:
-            self.metres = self.metres + metres * self._costs.draw(self._rng, DRAWS)
+            self._pending.append(metres)
 
     def work(self, work: Work) -> None:
         """All of them do some work."""
-        self._seconds, self._joules = self._seconds + work.seconds, self._joules + work.joules
+        self._work = self._work + work
 
     def visit(self, preview: Preview, works: Sequence[Work]) -> None:
         """Each makes its optional visits, with the work at each of them; the preview's vertices count from 1."""
         each = [works[vertex - 1] for vertex in preview.vertices.tolist()]
-        self.metres = self.metres + preview.legs + preview.visited @ np.array([w.metres for w in each])
+        self._metres = self.metres + preview.legs + preview.visited @ np.array([w.metres for w in each])
         self._seconds = self._seconds + preview.visited @ np.array([w.seconds for w in each])
         self._joules = self._joules + preview.visited @ np.array([w.joules for w in each])
         self._leaving = preview.last

@@ -2,83 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Sequence as Sequence_
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
 from fieldhand.forecast import routes
-from fieldhand.forecast.branches import branches
-from fieldhand.forecast.drawn import DRAWS
-from fieldhand.forecast.limits import Resource, ResourceKind, resources_of, speed_of
-from fieldhand.forecast.steps import Decision, Walk
+from fieldhand.forecast.branches import Branches, branches
+from fieldhand.forecast.drawn import DRAWS, Luck
+from fieldhand.forecast.exits import Exits, exits
+from fieldhand.forecast.figures import BranchEstimate, Figure, figures_of
+from fieldhand.forecast.limits import Resource, ResourceKind, resources_of
+from fieldhand.forecast.ways import cost_model
 from fieldhand.language import message
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.model import Place, Site
+from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import AnyOrder, ForEach, If, Node, Optional, Repeat, Sequence, Try, is_optional
+from fieldhand.task.plan import AnyOrder, ForEach, If, Node, Optional, Repeat, Sequence, Try
 from fieldhand.task.words import say_rounded
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
 
-Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Figure:
-    """A random amount: its mean, and what it exceeds once in ten missions (90th percentile)."""
-
-    mean: float
-    p90: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class Chance:
-    """The chance of using more of a resource than there is.
-
-    Attributes:
-        kind: Which budget, or ``reserve``.
-        limit: Metres, seconds, or percent of a full battery.
-        accepted: The failure probability that the Task accepts.
-    """
-
-    kind: ResourceKind
-    limit: float
-    accepted: float
-    chance: float
-
-    @property
-    def exceeded(self) -> bool:
-        """Whether the chance is more than is accepted, beyond what the number of draws can tell."""
-        noise = 2.0 * np.sqrt(self.accepted * (1.0 - self.accepted) / DRAWS)
-        return bool(self.chance > self.accepted + noise)
-
-
-@dataclass(frozen=True, kw_only=True)
-class BranchEstimate:
-    """One branch.
-
-    Attributes:
-        decisions: What was answered on it.
-        metres, seconds, percent: What it takes; percent of a full battery.
-        chances: For each budget, and then for the battery's reserve.
-        captures: Number of captures on it.
-        visits: Optional visits and steps that missions make on average.
-        shed: Places of those for which the budget will hardly last.
-        walk: The branch itself.
-    """
-
-    decisions: tuple[Decision, ...]
-    metres: Figure
-    seconds: Figure
-    percent: Figure
-    chances: tuple[Chance, ...]
-    captures: int
-    visits: float
-    shed: tuple[Place, ...]
-    walk: Walk
+__all__ = ["BranchEstimate", "Estimate", "Figure", "estimate", "explore", "mandatory_part"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,42 +33,76 @@ class Estimate:
     Attributes:
         branches: Every branch that was looked at; the first is the one on which every condition holds.
         worst: The branch most likely to run short, and among equals the one that takes longest.
-        complete: Whether every branch was looked at.
+        faulted: For each fault that brings the robot home, the branch that takes longest until then.
+        explored: The branches themselves, with those that make or leave out optional visits one by one.
+        exits: Ways home after faults.
         problems: What stands in the way of carrying it out within its limits, as sentences.
+        charge_percent: At the beginning.
     """
 
     branches: tuple[BranchEstimate, ...]
     worst: BranchEstimate
-    complete: bool
+    faulted: tuple[BranchEstimate, ...]
+    explored: Branches
+    exits: Exits
     problems: tuple[str, ...]
+    charge_percent: float = 100.0
 
-    def as_record(self) -> dict[str, object]:
-        """The figures as JSON: the worst branch, and how many branches there are."""
+    @property
+    def complete(self) -> bool:
+        """Whether no place, no drive and no extreme can have been missed."""
+        return self.explored.complete
+
+    def as_record(self, *, every: bool = False) -> dict[str, object]:
+        """The figures as JSON: the worst branch, and how many branches there are; ``every``: with all of them."""
         worst = self.worst
-        return {
+        record: dict[str, object] = {
             "branches": len(self.branches),
+            "coverage": self.explored.coverage,
             "complete": self.complete,
-            "distance_m": asdict(worst.metres),
-            "duration_s": asdict(worst.seconds),
-            "battery_percent": asdict(worst.percent),
-            "captures": worst.captures,
-            "limits": [asdict(chance) for chance in worst.chances],
+            "draws": worst.chances[-1].draws,
+            "charge_percent": self.charge_percent,
+            **worst.as_record(),
             "optional": [
                 {"node": step.node.id, "expected": step.outlook.visits, "chances": dict(step.outlook.chances)}
                 for step in worst.walk.steps
                 if step.outlook is not None
             ],
+            "optional_branches": len(self.explored.told),
+            "exits": {"places": self.exits.places, "looked_at": self.exits.looked_at},
+            "faulted": [branch.as_record() for branch in self.faulted],
             "problems": list(self.problems),
         }
+        return record | {"every_branch": [branch.as_record() for branch in self.branches]} if every else record
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Kept:
-    """The last estimate of a site: approval asks again for what the plan was shown with."""
+    """What a site was last asked for: approval asks again for what the plan was shown with."""
 
     robot: RobotProfile
-    asked: tuple[Task, int, float]
-    found: Estimate
+    asked: tuple[Task, int, float, int]
+    explored: Branches
+    luck: Luck
+    found: Estimate | None = None
+
+
+def explore(
+    task: Task, site: Site, robot: RobotProfile, seed: int = 0, *, charge_percent: float = 100.0, draws: int = DRAWS
+) -> Branches:
+    """Every branch of a Task, with missions drawn along each; asked again for the same, it has them."""
+    return _explored(task, site, robot, seed, charge_percent, draws).explored
+
+
+def _explored(task: Task, site: Site, robot: RobotProfile, seed: int, charge_percent: float, draws: int) -> _Kept:
+    asked = (task, seed, charge_percent, draws)
+    kept = site.memory.get("estimate")
+    if isinstance(kept, _Kept) and kept.robot is robot and kept.asked == asked:
+        return kept
+    luck = Luck(cost_model(robot), seed, draws)
+    found = branches(task, site, robot, charge_percent=charge_percent, luck=luck, seed=seed)
+    made = site.memory["estimate"] = _Kept(robot=robot, asked=asked, explored=found, luck=luck)
+    return made
 
 
 def estimate(
@@ -132,8 +111,8 @@ def estimate(
     robot: RobotProfile,
     seed: int = 0,
     *,
-    drives: Drives | None = None,
     charge_percent: float = 100.0,
+    draws: int = DRAWS,
 ) -> Estimate:
     """Estimate a Task on every branch by drawing the cost of each leg.
 
@@ -143,34 +122,61 @@ def estimate(
     Args:
         task, site, robot: The mission.
         seed: The same seed gives the same estimate.
-        drives: The ways of the site, if the caller has them.
         charge_percent: Charge at the beginning.
+        draws: How many missions are drawn along each branch.
 
     Raises:
         PlaceError: A selector gives nothing on one of the branches.
         DriveFault: A place that cannot be reached.
+        TaskError: A branch comes to more steps than any mission.
     """
-    asked = (task, seed, charge_percent)
-    kept = site.memory.get("estimate")
-    if isinstance(kept, _Kept) and kept.robot is robot and kept.asked == asked and drives is None:
+    kept = _explored(task, site, robot, seed, charge_percent, draws)
+    if kept.found is not None:
         return kept.found
-    ways = drives or routes.drives_for(site, robot)
+    if kept.explored.broken:
+        raise kept.explored.broken[0].error
+    made = _estimated(kept, task, site, robot, charge_percent)
+    site.memory["estimate"] = replace(kept, found=made)
+    return made
+
+
+def _estimated(kept: _Kept, task: Task, site: Site, robot: RobotProfile, charge_percent: float) -> Estimate:
+    found, drives = kept.explored, routes.drives_for(site, robot)
     resources = resources_of(task.constraints, robot, charge_percent)
-    found = branches(task, site, robot, drives=ways, charge_percent=charge_percent, seed=seed)
-    speed = speed_of(task.constraints, robot)
-    estimates = tuple(_branch(w, resources, robot, speed) for w in found.walks)
-    worst = max(estimates, key=lambda b: (max(c.chance - c.accepted for c in b.chances), b.seconds.mean))
+    estimates = tuple(figures_of(w, resources, task.constraints, robot, charge_percent) for w in found.walks)
+    worst = _worst(estimates)
+    ways_home = exits(task, site, robot, drives, found.walks, found.told, kept.luck)
     if worst.visits and any(c.exceeded for c in worst.chances):
         # Optional visits can be left out, so what counts is whether the rest lasts without them.
-        problems = estimate(
-            mandatory_part(task), site, robot, seed, drives=ways, charge_percent=charge_percent
-        ).problems
+        problems = _of_mandatory(kept, task, site, robot, charge_percent)
     else:
-        problems = _problems(task, site, ways, resources, worst)
-    made = Estimate(branches=estimates, worst=worst, complete=found.complete, problems=problems)
-    if drives is None:
-        site.memory["estimate"] = _Kept(robot=robot, asked=asked, found=made)
-    return made
+        problems = _problems(task, site, drives, resources, worst)
+    return Estimate(
+        branches=estimates,
+        worst=worst,
+        faulted=tuple(
+            figures_of(walked, resources, task.constraints, robot, charge_percent, fault)
+            for fault, walked in ways_home.worst
+        ),
+        explored=found,
+        exits=ways_home,
+        problems=problems,
+        charge_percent=charge_percent,
+    )
+
+
+def _of_mandatory(kept: _Kept, task: Task, site: Site, robot: RobotProfile, charge_percent: float) -> tuple[str, ...]:
+    """The problems of a Task without what is optional."""
+    part = mandatory_part(task)
+    resources = resources_of(part.constraints, robot, charge_percent)
+    found = branches(part, site, robot, charge_percent=charge_percent, luck=kept.luck, seed=kept.luck.seed)
+    estimates = [figures_of(w, resources, part.constraints, robot, charge_percent) for w in found.walks]
+    worst = _worst(estimates)
+    return _problems(part, site, routes.drives_for(site, robot), resources, worst)
+
+
+def _worst(estimates: Sequence_[BranchEstimate]) -> BranchEstimate:
+    return max(estimates, key=lambda b: (max(c.chance - c.accepted for c in b.chances), b.seconds.mean))
 
 
 def mandatory_part(task: Task) -> Task:
@@ -193,39 +199,6 @@ def _without_optional(node: Node) -> Node:
             return replace(node, body=_without_optional(node.body), otherwise=_without_optional(node.otherwise))
         case _:
             return node
-
-
-def _branch(walked: Walk, resources: tuple[Resource, ...], robot: RobotProfile, speed: float) -> BranchEstimate:
-    used = walked.used
-    assert used is not None  # noqa: S101  estimates draw missions on every walk
-    metres, seconds = used.metres, used.metres / speed + used.seconds
-    driving, idling = robot.percent(1.0, 0.0), robot.percent(0.0, 1.0)
-    percent = driving * metres + idling * seconds + robot.percent(0.0, 0.0, 1.0) * used.joules
-    amount = {"distance_m": metres, "duration_s": seconds, "energy_percent": percent, "reserve": percent}
-    lists = [s for s in walked.steps if is_optional(s.node) and s.kind == "visit-list"]
-    return BranchEstimate(
-        decisions=walked.decisions,
-        metres=_figure(metres),
-        seconds=_figure(seconds),
-        percent=_figure(percent),
-        chances=tuple(
-            Chance(
-                kind=r.kind,
-                limit=r.limit,
-                accepted=r.failure_probability,
-                chance=float((amount[r.kind] > r.limit * (1 + 1e-9)).mean()),
-            )
-            for r in resources
-        ),
-        captures=sum(s.captures for s in walked.steps),
-        visits=sum(s.outlook.visits for s in lists if s.outlook is not None),
-        shed=tuple(p for s in lists for p in s.shed),
-        walk=walked,
-    )
-
-
-def _figure(draws: Floats) -> Figure:
-    return Figure(mean=float(draws.mean()), p90=float(np.quantile(draws, 0.9)))
 
 
 def _problems(

@@ -38,6 +38,7 @@ class Expected:
         shed: All others, the likeliest first.
         outlook: How likely each is.
         preview: Missions that make them.
+        ids: Of the places that can be reached, by the numbers of the preview less one.
         allowance: What later optional visits may still add to the chance of running short.
     """
 
@@ -45,6 +46,7 @@ class Expected:
     shed: tuple[Place, ...]
     outlook: Outlook
     preview: Preview
+    ids: tuple[str, ...]
     allowance: Allowance
 
 
@@ -90,6 +92,7 @@ def expected_visits(
             chances={v.place.id: float(chance) for v, chance in zip(visits, chances, strict=True)},
         ),
         preview=found,
+        ids=tuple(v.place.id for v in visits),
         allowance=allowance,
     )
 

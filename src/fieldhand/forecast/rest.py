@@ -16,7 +16,8 @@ from fieldhand.errors import DriveFault, PlaceError
 from fieldhand.forecast import routes
 from fieldhand.forecast.limits import speed_of
 from fieldhand.forecast.state import Visit, Work
-from fieldhand.forecast.steps import Answer
+from fieldhand.forecast.steps import Answer, never
+from fieldhand.forecast.trail import Answers
 from fieldhand.forecast.walker import Walker
 from fieldhand.forecast.ways import Way, way_of
 from fieldhand.robot.model import RobotProfile
@@ -101,7 +102,9 @@ def _most(task: Task, site: Site, robot: RobotProfile, drives: Drives, nodes: Se
     fixed = not any(_is_relative(node) for node in nodes)
     worst, most = Rest(), -1.0
     for holds in every_answer(nodes):
-        found = _walk_rest(Walker(task, site, robot, drives, holds, optional=False, context=context), nodes)
+        found = _walk_rest(
+            Walker(task, site, robot, drives, Answers(holds=holds), optional="none", context=context), nodes
+        )
         found = replace(found, fixed=fixed)
         seconds = (sum(found.legs_m) + found.work.metres) / speed + found.work.seconds
         if found.first is not None:
@@ -187,8 +190,8 @@ def _walk_rest(walker: Walker, nodes: Sequence[Node]) -> Rest:
             walker.site,
             walker.robot,
             walker.drives,
-            lambda _: False,
-            optional=False,
+            Answers(holds=never),
+            optional="none",
             context=walker.beginning,
         )
         walked = walker.run(())

@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
 
 
+#: Orders of visits that are kept with a site.
+_ORDERS = 64
+
+
 def drives_for(site: Site, robot: RobotProfile) -> Drives:
     """How this robot drives on this site: half its width stays clear of tree lines and of what it must keep out of.
 
@@ -77,9 +81,18 @@ def order_visits(drives: Drives, here: Place, places: Sequence[Place], home: Pla
     if len(places) == 1:
         return (0,)
     around = [here, *places] if home is None else [here, *places, home]
-    lengths = np.asarray(drives.lengths(around), dtype=np.float64)
-    order = shortest_order(lengths, 0, None if home is None else len(around) - 1)
-    return tuple(v - 1 for v in order if 1 <= v <= len(places))
+    # Every branch of a forecast, and then the robot, asks for the same order.
+    known = drives.site.memory.setdefault("orders", {})
+    assert isinstance(known, dict)  # noqa: S101  nobody else keeps anything there
+    key = (drives, home is None, tuple(p.stand or p.xy for p in around))
+    if key not in known:
+        lengths = np.asarray(drives.lengths(around), dtype=np.float64)
+        order = shortest_order(lengths, 0, None if home is None else len(around) - 1)
+        while len(known) >= _ORDERS:
+            del known[next(iter(known))]
+        known[key] = tuple(v - 1 for v in order if 1 <= v <= len(places))
+    found: tuple[int, ...] = known[key]
+    return found
 
 
 def visits_in_order(

@@ -50,6 +50,14 @@ def service_of(node: Node, robot: RobotProfile) -> tuple[float, float]:
             return (0.0, 0.0)
 
 
+def tried_again(node: Act, robot: RobotProfile) -> Work:
+    """What it takes to try a capture again as often as the robot does, with the waits between, until it has failed."""
+    action = robot.action[node.action]
+    retries = robot.retries if action.retries is None else action.retries
+    wait_s = robot.patience.retry_wait_s if action.retry_wait_s is None else action.retry_wait_s
+    return Work(seconds=retries * (action.duration_s + wait_s), joules=retries * action.energy_j)
+
+
 def work_of(node: Node, robot: RobotProfile) -> Work:
     """:func:`service_of` as work."""
     seconds, joules = service_of(node, robot)

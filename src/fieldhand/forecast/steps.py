@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from fieldhand.site.drives import Drive
 
 StepKind = Literal["drive", "act", "visit-list", "decide", "exit"]
+DecisionKind = Literal["holds", "fails", "blocked", "taken"]
 
 #: Answers a question about a node by its id: does its condition hold, does its action fail.
 Answer = Callable[[str], bool]
@@ -30,13 +31,19 @@ class Decision:
     """One answer along a walk.
 
     Attributes:
-        node: Whose condition (``If``, or ``until`` of a loop), or whose action inside a ``Try``.
-        kind: ``holds`` for a condition, ``fails`` for an action.
+        node: Whose condition (``If``, or ``until`` of a loop), whose action or drive inside a ``Try``, which optional
+            step or for-each.
+        kind: ``holds`` for a condition, ``fails`` for an action, ``blocked`` for a drive that never arrives, ``taken``
+            for an optional step.
+        sure: No other answer can be on this branch: what was read before, or the site, says it.
+        place: Id of the place in hand.
     """
 
     node: str
-    kind: Literal["holds", "fails"]
+    kind: DecisionKind
     answer: bool
+    sure: bool = field(default=False, compare=False)
+    place: str = field(default="", compare=False)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,6 +75,7 @@ class Step:
         captures: Of an act.
         seconds, joules: What it takes as legs cost on average; idle power is not counted in the joules.
         answer: Of a decision.
+        reached: False of a drive that is blocked just before its end.
     """
 
     node: Node
@@ -81,6 +89,7 @@ class Step:
     seconds: float = 0.0
     joules: float = 0.0
     answer: bool | None = None
+    reached: bool = True
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,6 +100,7 @@ class Walk:
         end: Where the robot is at last.
         exit: Which exit was taken.
         decisions: In the order in which they came up; they tell one walk from another.
+        unread: Conditions that test what nothing has read on this branch: id of the node, and the reading.
         used: What missions use that go this way, each with its own optional visits; None where none were drawn.
     """
 
@@ -98,6 +108,7 @@ class Walk:
     end: Place
     exit: Literal["nominal", "faulted"]
     decisions: tuple[Decision, ...] = ()
+    unread: tuple[tuple[str, str], ...] = ()
     used: Used | None = field(default=None, compare=False)
 
     @property

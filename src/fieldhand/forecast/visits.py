@@ -11,6 +11,7 @@ from fieldhand.forecast.limits import speed_of
 from fieldhand.forecast.rest import arrived, every_answer
 from fieldhand.forecast.service import reward_of, work_of
 from fieldhand.forecast.state import Visit
+from fieldhand.forecast.trail import Answers
 from fieldhand.forecast.walker import Walker
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context
@@ -97,8 +98,9 @@ class Visits:
         speed, work = speed_of(self._task.constraints, self._robot), work_of(body, self._robot)
         longest, most = Visit(place=context.here), -1.0
         for holds in every_answer((body,)):
+            answers = Answers(holds=holds)
             walker = Walker(
-                self._task, self._site, self._robot, self._drives, holds, optional=False, context=context
+                self._task, self._site, self._robot, self._drives, answers, optional="none", context=context
             )  # fmt: skip
             steps = walker.along(body)
             legs = [(s.drive.length_m, s.places[0]) for s in steps if s.drive is not None]

@@ -1,7 +1,7 @@
 """The state of a walk through a Task, one function for each kind of node.
 
 The meaning of every node is that of :mod:`fieldhand.task.plan`; orders come from :mod:`fieldhand.forecast.routes`, as
-they do on the robot. Optional visits and steps are made as missions make them on average.
+they do on the robot.
 """
 
 from __future__ import annotations
@@ -16,10 +16,11 @@ from fieldhand.errors import DriveFault, PlaceError, TaskError
 from fieldhand.forecast import routes
 from fieldhand.forecast.allowance import Allowance
 from fieldhand.forecast.drawn import Drawn
-from fieldhand.forecast.limits import speed_of
-from fieldhand.forecast.service import work_of
-from fieldhand.forecast.state import Spent, Visit, Work
-from fieldhand.forecast.steps import Answer, Decision, Ended, Failed, Step, StepKind, Walk, never
+from fieldhand.forecast.possible import Readings
+from fieldhand.forecast.service import tried_again, work_of
+from fieldhand.forecast.state import Visit, Work
+from fieldhand.forecast.steps import Ended, Failed, Step, Walk
+from fieldhand.forecast.trail import Answers, Trail
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context
 from fieldhand.site.model import Place, Site
@@ -33,18 +34,23 @@ if TYPE_CHECKING:
     from fieldhand.forecast.visits import Visits
     from fieldhand.site.drives import Drives
 
+OptionalVisits = Literal["likely", "told", "none"]
+
 #: A walk comes to so many nodes; a mission that would come to more is refused, as no robot could carry it out.
 MAX_NODES = 100_000
 
+#: Of optional visits of which nothing is known so many are driven to where a walk is told to make them.
+MOST_TOLD = 200
 
-class Walker:
-    """The state of one walk; the functions of a walk are its methods, one for each kind of node.
+
+class Walker(Trail):
+    """The functions of a walk, one for each kind of node.
 
     Args:
-        task, site, robot, drives, holds, fails, charge_percent: As for :func:`fieldhand.forecast.walk.walk`.
-        optional: Whether to plan optional visits and steps; without, a walk is what must be done.
-        context: Where the walk begins; at the start of the site by default.
-        drawn: Missions that use what the walk takes, each with its own luck; None for none.
+        task, site, robot, drives, answers, context, drawn, readings: As for a trail.
+        charge_percent: Charge at the beginning.
+        optional: What becomes of optional visits and steps: as many as missions make on average, what the answers say
+            of each step and all visits or none, or only what must be done.
         kept: What was found of optional visits on walks that had the same answers by then.
     """
 
@@ -54,42 +60,25 @@ class Walker:
         site: Site,
         robot: RobotProfile,
         drives: Drives,
-        holds: Answer,
-        fails: Answer = never,
+        answers: Answers,
         charge_percent: float = 100.0,
         *,
-        optional: bool = True,
+        optional: OptionalVisits = "likely",
         context: Context | None = None,
         drawn: Drawn | None = None,
+        readings: Readings | None = None,
         kept: dict[object, Expected] | None = None,
     ) -> None:
-        self.task, self.site, self.robot, self.drives = task, site, robot, drives
+        super().__init__(task, site, robot, drives, answers, context=context, drawn=drawn, readings=readings)
         self.charge_percent, self.optional = charge_percent, optional
-        self._holds, self._fails = holds, fails
-        #: Where the walk began.
-        self.beginning = context or Context(here=routes.beginning(drives))
-        self._context = self.beginning
-        self._speed = speed_of(task.constraints, robot)
-        self._steps: list[Step] = []
-        self._decisions: list[Decision] = []
-        self._inside_try = 0
-        self._inside_optional = 0
         self._nodes = 0
-        self.drawn, self._kept = drawn, {} if kept is None else kept
+        self._kept = {} if kept is None else kept
         #: What optional visits may still add to the chance of running short; None before the first of them.
         self.allowance: Allowance | None = None
-        self.spent = Spent()
         #: Places still to come of each for-each under way, outermost first.
         self.loops: list[tuple[ForEach, tuple[Place, ...]]] = []
         #: Further rounds of each repeat under way, by node id.
         self.rounds: dict[str, int] = {}
-        #: Every place that was gone to, in order; also those where the walk stood already.
-        self.stops: list[Place] = []
-
-    @property
-    def context(self) -> Context:
-        """Where the walk is and has been."""
-        return self._context
 
     def run(self, nodes: Sequence[Node]) -> Walk:
         """Walk nodes one after the other, then the exit."""
@@ -102,12 +91,13 @@ class Walker:
         except Ended as end:
             last, taken = end.node, end.node.exit
             then = then if taken == "nominal" else exit_of(self.task, "action_failed")
-        self._exit(last, self.site.home(then, self._context.here), goes=then != "stay")
+        self._exit(last, self.site.home(then, self._standing), goes=then != "stay")
         return Walk(
-            steps=tuple(self._steps),
-            end=self._context.here,
+            steps=tuple(self.steps),
+            end=self.context.here,
             exit=taken,
-            decisions=tuple(self._decisions),
+            decisions=tuple(self.decisions),
+            unread=tuple(dict.fromkeys(self.unread)),
             used=None if self.drawn is None else self.drawn.used,
         )
 
@@ -123,9 +113,9 @@ class Walker:
         except Ended:
             pass
         except PlaceError:
-            if not self._steps:
+            if not self.steps:
                 raise
-        return tuple(self._steps)
+        return tuple(self.steps)
 
     def _node(self, node: Node) -> None:
         self._nodes += 1
@@ -140,8 +130,8 @@ class Walker:
                 for step in steps:
                     self._node(step)
             case AnyOrder():
-                home = routes.home_if_last(self.task, self.site, node.id, self._context.here)
-                for index in routes.steps_in_order(node, self.site, self.drives, self._context, home):
+                home = routes.home_if_last(self.task, self.site, node.id, self.context.here)
+                for index in routes.steps_in_order(node, self.site, self.drives, self.context, home):
                     self._node(node.steps[index])
             case ForEach():
                 self._for_each(node)
@@ -162,30 +152,38 @@ class Walker:
             case Optional():
                 self._optional_step(node)
             case GoTo():
-                self._drive_to(node, routes.place_of(node, node.place, self.site, self._context))
-                self._bind(node.label, self._context.here)
+                self._drive_to(node, routes.place_of(node, node.place, self.site, self.context))
+                self._bind(node.label, self.context.here)
             case Act():
                 self._act(node)
             case Stop():
                 raise Ended(node)
 
     def _for_each(self, node: ForEach) -> None:
-        places = routes.places_of(node, node.select, self.site, self._context)
+        places = routes.places_of(node, node.select, self.site, self.context)
         if node.optional:
             open_, closed = routes.reachable(self.drives, places)
-            standing = routes.standing(self.drives, self._context.here, open_)
-            visits = self._visits().of_places(node, standing, self._context) if self.optional else ()
+            standing = routes.standing(self.drives, self.context.here, open_)
+            if self.optional == "told":
+                places = self._told(node, standing, most=self._decide(node, "taken"))
+                self._note(Step(node=node, kind="visit-list", context=self.context, places=places, shed=closed))
+                self._visit_all(node, places)
+                return
+            visits = self._visits().of_places(node, standing, self.context) if self.optional == "likely" else ()
             self._visit_all(node, self._some(node, visits, closed))
             return
-        home = routes.home_if_last(self.task, self.site, node.id, self._context.here)
-        places = routes.visits_in_order(node, self.drives, self._context.here, places, home)
-        self._note(Step(node=node, kind="visit-list", context=self._context, places=places))
+        home = routes.home_if_last(self.task, self.site, node.id, self.context.here)
+        places = routes.visits_in_order(node, self.drives, self.context.here, places, home)
+        self._note(Step(node=node, kind="visit-list", context=self.context, places=places))
         self._visit_all(node, places)
 
     def _optional_step(self, node: Optional) -> None:
-        if not self.optional:
+        if self.optional == "none":
             return
-        here = self._context
+        here = self.context
+        if self.optional == "told":
+            self._step_as_told(node)
+            return
         try:
             visit = self._visits().of_step(node, here)
         except DriveFault:
@@ -199,6 +197,26 @@ class Walker:
             finally:
                 self._inside_optional -= 1
 
+    def _told(self, node: ForEach, standing: tuple[Place, ...], *, most: bool) -> tuple[Place, ...]:
+        """The optional visits of the mission that makes most, or fewest; where none is known all, or none."""
+        known = self._kept.get(node.id)
+        if known is None:
+            return (standing if node.at_most is None else standing[: node.at_most])[:MOST_TOLD] if most else ()
+        visits, by_id = known.preview.visits, {p.id: p for p in standing}
+        made = known.preview.visited[int(visits.argmax() if most else visits.argmin())]
+        order = [known.ids[vertex - 1] for vertex in known.preview.vertices.tolist()]
+        return tuple(by_id[name] for name, makes in zip(order, made.tolist(), strict=True) if makes and name in by_id)
+
+    def _step_as_told(self, node: Optional) -> None:
+        try:
+            first = self._visits().of_step(node, self.context).place
+        except DriveFault:
+            return
+        known = self._kept.get(node.id)
+        if (known is None or known.preview.visited.any()) and self._decide(node, "taken"):
+            self._note(Step(node=node, kind="visit-list", context=self.context, places=(first,)))
+            self._node(node.body)
+
     def _visits(self) -> Visits:
         from fieldhand.forecast.visits import Visits
 
@@ -206,19 +224,19 @@ class Walker:
 
     def _some(self, node: ForEach | Optional, visits: Sequence[Visit], closed: tuple[Place, ...]) -> tuple[Place, ...]:
         """Of optional visits the likeliest to fit the budgets, as many as missions make on average."""
-        if not self.optional or not visits:
-            self._note(Step(node=node, kind="visit-list", context=self._context, shed=closed))
+        if self.optional == "none" or not visits:
+            self._note(Step(node=node, kind="visit-list", context=self.context, shed=closed))
             return ()
         from fieldhand.forecast.expected import expected_visits
 
-        key = (node.id, len(self._steps), tuple(self._decisions))
+        key = (node.id, len(self.steps), tuple(self.decisions))
         found = self._kept.get(key)
         if found is None:
-            rng = np.random.default_rng([0 if self.drawn is None else self.drawn.seed, len(self._steps)])
+            rng = np.random.default_rng([0 if self.drawn is None else self.drawn.seed, len(self.steps)])
             found = expected_visits(self, node, visits, rng, self._kept.get(node.id))
             self._kept[key] = self._kept[node.id] = found
         self.allowance = found.allowance
-        step = Step(node=node, kind="visit-list", context=self._context, shed=(*found.shed, *closed))
+        step = Step(node=node, kind="visit-list", context=self.context, shed=(*found.shed, *closed))
         self._note(replace(step, places=found.places, outlook=found.outlook))
         if self.drawn is not None:
             self.drawn.visit(found.preview, [v.work for v in visits])
@@ -267,81 +285,29 @@ class Walker:
 
     def _act(self, node: Act) -> None:
         if node.at is not None:
-            self._drive_to(node, routes.place_of(node, node.at, self.site, self._context))
-        here = self._context.here
+            self._drive_to(node, routes.place_of(node, node.at, self.site, self.context))
+        elif self._stuck:
+            self._drive_to(node, self.context.here)
+        here = self.context.here
         self._bind(node.label, here)
+        if self.readings is not None and node.reading:
+            self.readings.lose(node.reading)
         action = self.robot.action[node.action]
+        fails = bool(self._inside_try) and self._decide(node, "fails")
+        # One that fails is taken to do so at its last capture, each time that it is tried again.
+        again = tried_again(node, self.robot) if fails else Work()
         self._note(
             Step(
                 node=node,
                 kind="act",
-                context=self._context,
+                context=self.context,
                 places=(here,),
-                captures=node.count,
-                seconds=node.count * action.duration_s,
-                joules=node.count * action.energy_j,
+                captures=node.count - fails,
+                seconds=node.count * action.duration_s + again.seconds,
+                joules=node.count * action.energy_j + again.joules,
             )
         )
-        if self._inside_try and self._decide(node, "fails"):
+        if fails:
             raise Failed(node.id)
-
-    def _drive_to(self, node: Node, place: Place) -> None:
-        if place.xy != self._context.here.xy:
-            leg = self._leg(node, "drive", place)
-            self._note(leg)
-            (place,) = leg.places
-        else:
-            place = self._context.here
-        self.stops.append(place)
-        visited = self._context.visited
-        if place.kind == "tree" and place.id not in visited:
-            visited = (*visited, place.id)
-        self._context = Context(here=place, visited=visited, bound=self._context.bound)
-
-    def _exit(self, node: Node, home: Place, *, goes: bool) -> None:
-        if home.xy == self._context.here.xy:
-            if goes:
-                self.stops.append(self._context.here)
-            self._note(Step(node=node, kind="exit", context=self._context, places=(home,)))
-            return
-        leg = self._leg(node, "exit", home)
-        self._note(leg)
-        (home,) = leg.places
-        self.stops.append(home)
-        self._context = Context(here=home, visited=self._context.visited, bound=self._context.bound)
-
-    def _leg(self, node: Node, kind: StepKind, place: Place) -> Step:
-        drive = self.drives.between(self._context.here, place)
-        return Step(
-            node=node,
-            kind=kind,
-            context=self._context,
-            places=(drive.end,),
-            drive=drive,
-            seconds=drive.length_m / self._speed,
-            joules=drive.length_m * self.robot.energy.drive_j_per_m,
-        )
-
-    def _decide(self, node: Node, kind: Literal["holds", "fails"]) -> bool:
-        answer = self._holds(node.id) if kind == "holds" else self._fails(node.id)
-        self._decisions.append(Decision(node=node.id, kind=kind, answer=answer))
-        if kind == "holds":
-            self._note(Step(node=node, kind="decide", context=self._context, answer=answer))
-        return answer
-
-    def _bind(self, label: str, *places: Place) -> None:
-        if label:
-            bound = {**self._context.bound, label: places}
-            self._context = Context(here=self._context.here, visited=self._context.visited, bound=bound)
-
-    def _note(self, step: Step) -> None:
-        self._steps.append(step)
-        metres = 0.0 if step.drive is None else step.drive.length_m
-        if self.drawn is not None and not self._inside_optional:
-            if step.drive is not None:
-                self.drawn.drive(metres)
-            elif step.kind == "act":
-                self.drawn.work(Work(seconds=step.seconds, joules=step.joules))
-        self.spent += Spent(
-            metres=metres, seconds=step.seconds, percent=self.robot.percent(0.0, step.seconds, step.joules)
-        )
+        if self.readings is not None and node.reading:
+            self.readings.take(node.reading, node.action)

@@ -15,7 +15,7 @@ from py_trees.composites import Sequence as PyTreesSequence
 
 from fieldhand.errors import DriveFault, PlaceError
 from fieldhand.execution.attempt import Attempt
-from fieldhand.execution.conditions import evaluate
+from fieldhand.forecast.conditions import evaluate
 from fieldhand.forecast.routes import home_if_last, steps_in_order
 from fieldhand.task.plan import AnyOrder, If, Sequence, Try
 from fieldhand.task.results import Decided

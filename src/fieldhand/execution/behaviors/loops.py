@@ -21,10 +21,10 @@ from fieldhand.errors import BlockedFault, FieldhandError, OutputError
 from fieldhand.execution.attempt import Attempt
 from fieldhand.execution.behaviors.leaves import Leaf
 from fieldhand.execution.behaviors.surroundings import admitted, is_caught, shed, to_come_around, visit_to
-from fieldhand.execution.conditions import evaluate
 from fieldhand.execution.goals import drive
 from fieldhand.execution.obstacles import no_way
 from fieldhand.execution.waiting import Steps
+from fieldhand.forecast.conditions import evaluate
 from fieldhand.forecast.routes import home_if_last, order_visits, reachable, standing, visits_in_order
 from fieldhand.forecast.state import Choice, Visit
 from fieldhand.site.model import Place

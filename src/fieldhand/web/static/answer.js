@@ -130,20 +130,20 @@ function rest({ read_back: back, headings }) {
 
 function totals({ read_back: back, headings }) {
   const { metres, seconds, percent, captures } = back.totals;
-  const row = (name, mean, high) =>
-    el("tr", {}, el("th", { scope: "row" }, name), el("td", {}, mean), el("td", {}, high));
+  const row = (name, ...cells) => el("tr", {}, el("th", { scope: "row" }, name), cells.map((cell) => el("td", {}, cell)));
+  const figures = (figure, say) => [figure.mean, figure.p50, figure.p90].map(say);
   return el(
     "table",
     { class: "totals" },
     el("caption", {}, headings.totals),
-    el("thead", {}, el("tr", {}, el("td", {}), el("th", { scope: "col" }, headings.mean), el("th", { scope: "col" }, headings.p90))),
+    el("thead", {}, el("tr", {}, el("td", {}), ["mean", "p50", "p90"].map((kind) => el("th", { scope: "col" }, headings[kind])))),
     el(
       "tbody",
       {},
-      row(headings.driving, `${Math.round(metres.mean)} m`, `${Math.round(metres.p90)} m`),
-      row(headings.time, minutes(seconds.mean), minutes(seconds.p90)),
-      row(headings.battery, `${percent.mean.toFixed(0)} %`, `${percent.p90.toFixed(0)} %`),
-      row(headings.captures, String(captures), ""),
+      row(headings.driving, ...figures(metres, (value) => `${Math.round(value)} m`)),
+      row(headings.time, ...figures(seconds, minutes)),
+      row(headings.battery, ...figures(percent, (value) => `${value.toFixed(0)} %`)),
+      row(headings.captures, String(captures), "", ""),
     ),
   );
 }

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fieldhand.execution.conditions import Facts, evaluate
+from fieldhand.forecast.conditions import Facts, evaluate
 from fieldhand.task.conditions import AllOf, AnyOf, Between, Compare, Condition, Level, Not, TreeHas
 from fieldhand.task.selectors import Test, Value
 from rig import husky, orchard

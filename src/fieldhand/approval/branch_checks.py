@@ -1,0 +1,125 @@
+"""What is wrong on a branch of a mission. Drives are held against zones and rows alone: a second opinion on them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from fieldhand.approval.paths import say_decisions
+from fieldhand.approval.problem import Problem, node_in
+from fieldhand.approval.sentences import say_place
+from fieldhand.errors import DriveFault
+from fieldhand.forecast.branches import Branches
+from fieldhand.forecast.estimate import Estimate
+from fieldhand.forecast.steps import Step, Walk
+from fieldhand.language import message
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.task.frames import Task
+
+#: Metres inside a keep-out, or outside the boundary, that a drive may show from rounding.
+TOLERANCE_M = 0.01
+
+
+def branch_problems(explored: Branches, task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
+    """What is wrong on any branch: a place that cannot be told or reached, a test of what nothing read, a drive."""
+    for broken in explored.broken:
+        error, on = broken.error, say_decisions(broken.decisions, task, robot)
+        what = message("{what} (on the branch: {branch})", what=error.what, branch=on) if on else error.what
+        node, where = node_in(error.where)
+        node = broken.node if not node and isinstance(error, DriveFault) else node
+        yield Problem(node=node, where=where, what=what, advice=error.advice)
+    walks = (*explored.walks, *explored.told)
+    yield from _unread(walks, task, robot)
+    steps = (*(s for w in walks for s in w.steps), *(s for b in explored.broken for s in b.steps))
+    for node, through in driven_through(steps, site):
+        yield Problem(
+            node=node,
+            where=site.name,
+            what=message("the drive there goes {through}", through=through),
+            advice=message("choose other trees, or another way"),
+        )
+    if not explored.complete:
+        yield Problem(
+            where=message("plan"),
+            what=message("it has more branches than were looked at ({count})", count=len(explored.walks)),
+            advice=message("nest fewer conditions, or watch the mission"),
+            severity="warning",
+        )
+
+
+def exit_problems(forecast: Estimate, site: Site) -> Iterator[Problem]:
+    """Ways home after faults, from where a mission may stop."""
+    for place, home, error in forecast.exits.broken:
+        yield Problem(
+            where=site.name,
+            what=message(
+                "after a fault at {place} there is no way to {home}: {why}",
+                place=say_place(place),
+                home=say_place(home),
+                why=error.what,
+            ),
+            advice=message("correct the site; else the robot will stop where it is then"),
+            severity="warning",
+        )
+    for node, through in driven_through(forecast.exits.steps, site):
+        yield Problem(
+            node=node,
+            where=site.name,
+            what=message("the way home from there after a fault goes {through}", through=through),
+            advice=message("choose other trees, or another way"),
+        )
+
+
+def _unread(walks: Sequence[Walk], task: Task, robot: RobotProfile) -> Iterator[Problem]:
+    """Tests of readings that are not there on some branch; a warning where only a fault, or the budget, leads to it."""
+    found: dict[tuple[str, str], Walk] = {}
+    for walked in sorted(walks, key=_troubled):
+        for node, reading in walked.unread:
+            found.setdefault((node, reading), walked)
+    for (node, reading), walked in found.items():
+        on = say_decisions(walked.decisions, task, robot)
+        what = message("it tests the reading '{reading}', which nothing has taken", reading=reading)
+        yield Problem(
+            node=node,
+            where=message("plan"),
+            what=message("{what} (on the branch: {branch})", what=what, branch=on) if on else what,
+            advice=message("read it on every branch before it is tested; what is not known does not hold"),
+            severity="warning" if _troubled(walked) else "error",
+        )
+
+
+def _troubled(walked: Walk) -> bool:
+    """Whether something failed on a branch, or the budget did not last for an optional step."""
+    return any(d.answer is (d.kind != "taken") for d in walked.decisions if d.kind != "holds")
+
+
+def driven_through(walked: Iterable[Step], site: Site) -> tuple[tuple[str, str], ...]:
+    """Each forbidden crossing as the id of the node that drives and what it crosses ("through the keep-out “pond”")."""
+    rows = [row for row in site.planting.rows if len(row.trees) > 1]
+    if not site.zones and not rows:
+        return ()
+    from shapely import STRtree
+    from shapely.geometry import LineString
+    from shapely.ops import unary_union
+
+    tree_lines = STRtree([LineString(site.xy[row.trees]) for row in rows])
+
+    # Driving along an edge is allowed: only what lies inside a keep-out counts, and outside the boundary.
+    keep_outs = [(z.name, z.polygon.buffer(-TOLERANCE_M)) for z in site.zones_of("keep_out")]
+    boundaries = site.zones_of("boundary")
+    inside = unary_union([b.polygon for b in boundaries]).buffer(TOLERANCE_M) if boundaries else None
+    found: dict[tuple[str, str], None] = {}
+    seen: set[tuple[tuple[float, float], ...]] = set()
+    for step in walked:
+        if step.drive is None or step.drive.points in seen:
+            continue
+        seen.add(step.drive.points)
+        line = LineString(step.drive.points)
+        for k in tree_lines.query(line, predicate="intersects").tolist():
+            found[step.node.id, message("through the trees of row {row}", row=rows[k].name)] = None
+        for name, polygon in keep_outs:
+            if line.intersects(polygon) and line.intersection(polygon).length > TOLERANCE_M:
+                found[step.node.id, message("through the keep-out “{zone}”", zone=name)] = None
+        if inside is not None and line.difference(inside).length > TOLERANCE_M:
+            found[step.node.id, message("outside the boundary")] = None
+    return tuple(found)

@@ -1,0 +1,91 @@
+"""Branches in words: which conditions went which way, with the nodes that they stand in."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Literal
+
+from fieldhand.approval.clauses import say_condition
+from fieldhand.forecast.figures import BranchEstimate
+from fieldhand.forecast.steps import Decision
+from fieldhand.language import joined, message
+from fieldhand.robot.model import RobotProfile
+from fieldhand.task import plan
+from fieldhand.task.frames import Fault, Task
+from fieldhand.task.words import listed, say_action, say_times
+
+FAULTS: dict[Fault, str] = {
+    "action_failed": message("an action fails for good"),
+    "drive_failed": message("a way cannot be driven"),
+    "low_budget": message("what is left only just lasts for the way home"),
+    "aborted": message("somebody aborts the mission"),
+}
+
+#: A branch that has more to say is cut there.
+_MOST = 6
+
+
+def say_branch(branch: BranchEstimate, task: Task, robot: RobotProfile) -> str:
+    """Which way a branch goes, in one line: "the canopy temperature is below 33 °C (n4): 3 times yes, once no"."""
+    said = say_decisions(branch.decisions, task, robot)
+    if branch.fault is None:
+        return said or message("the only one")
+    last = branch.walk.steps[-1].node.id
+    fault = message("{fault} ({node})", fault=FAULTS[branch.fault], node=last)
+    return message("{clause}; {other}", clause=said, other=fault) if said else fault
+
+
+def say_decisions(decisions: Sequence[Decision], task: Task, robot: RobotProfile) -> str:
+    """What was decided, node by node; empty where nothing was."""
+    answers: dict[tuple[str, str], list[Decision]] = {}
+    for decision in decisions:
+        answers.setdefault((decision.node, decision.kind), []).append(decision)
+    nodes = {node.id: node for node in plan.walk(task.composition.plan)}
+    # What did not fail needs no word.
+    told = {key: some for key, some in answers.items() if key[1] in ("holds", "taken") or any(d.answer for d in some)}
+    taken = {
+        node.reading: message("of {node}", node=node.id)
+        for node in reversed(nodes.values())
+        if isinstance(node, plan.Act) and node.reading
+    }
+    said = [_said(kind, nodes[node], some, taken, robot) for (node, kind), some in list(told.items())[:_MOST]]
+    if len(told) > _MOST:
+        said.append(message("and {count} more", count=len(told) - _MOST))
+    return joined("; ", said) if said else ""
+
+
+def _said(
+    kind: str, node: plan.Node, answers: Sequence[Decision], taken: Mapping[str, str], robot: RobotProfile
+) -> str:
+    match kind:
+        case "holds":
+            condition = plan.condition_of(node)
+            assert condition is not None  # noqa: S101  only conditions hold
+            what = say_condition(condition, taken, robot)
+        case "fails":
+            assert isinstance(node, plan.Act)  # noqa: S101  only actions fail
+            what = message("“{action}” fails", action=say_action(node.action))
+        case "blocked":
+            what = message("the way there is blocked")
+        case _:
+            what = message("what the budget decides on is done")
+    return message("{what} ({node}): {answers}", what=what, node=node.id, answers=_answers(answers))
+
+
+def _answers(decisions: Sequence[Decision]) -> str:
+    yes, no = ([d for d in decisions if d.answer is answer] for answer in (True, False))
+    if yes and no:
+        return listed([_times(yes, "yes", places=len(yes) <= len(no)), _times(no, "no", places=len(no) < len(yes))])
+    if len(decisions) == 1:
+        return message("yes") if yes else message("no")
+    return _times(decisions, "yes" if yes else "no", places=False)
+
+
+def _times(decisions: Sequence[Decision], answer: Literal["yes", "no"], *, places: bool) -> str:
+    """How often, and where, if that is what tells the branch from others."""
+    times = say_times(len(decisions))
+    said = message("{times} yes", times=times) if answer == "yes" else message("{times} no", times=times)
+    where = ", ".join(dict.fromkeys(d.place for d in decisions))
+    if not places or not where or len(decisions) > _MOST:
+        return said
+    return message("{what} (at {places})", what=said, places=where)

@@ -1,0 +1,182 @@
+"""The ways home after a fault: from wherever a mission may stop, to where its Task then wants the robot."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from fieldhand.errors import DriveFault
+from fieldhand.forecast.drawn import Drawn, Luck
+from fieldhand.forecast.limits import speed_of
+from fieldhand.forecast.service import tried_again
+from fieldhand.forecast.state import Work
+from fieldhand.forecast.steps import Decision, Step, Walk
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Place, Site
+from fieldhand.task.build import exit_of
+from fieldhand.task.frames import Fault, Task
+from fieldhand.task.plan import Act
+
+if TYPE_CHECKING:
+    from fieldhand.site.drives import Drives
+
+#: Places from which the way home is driven on paper: the farthest, and others evenly among the rest.
+MAX_PLACES = 120
+
+_FAULTS: tuple[Fault, ...] = ("action_failed", "drive_failed", "low_budget", "aborted")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Exits:
+    """What was found.
+
+    Attributes:
+        steps: A way home each, with the node after which it is driven.
+        broken: Where there is none: the place, where it should lead, and why.
+        worst: For each fault that brings the robot home, the branch that takes longest until then, with missions drawn
+            along it. Not for a low budget: what that leaves is for the guard.
+        looked_at, places: From how many of how many places.
+    """
+
+    steps: tuple[Step, ...]
+    broken: tuple[tuple[Place, Place, DriveFault], ...]
+    worst: tuple[tuple[Fault, Walk], ...]
+    looked_at: int
+    places: int
+
+
+def exits(
+    task: Task,
+    site: Site,
+    robot: RobotProfile,
+    drives: Drives,
+    walks: Sequence[Walk],
+    told: Sequence[Walk],
+    luck: Luck,
+) -> Exits:
+    """Drive home from the places of some walks, after each fault that a Task brings the robot home from."""
+    then = {fault: exit_of(task, fault) for fault in _FAULTS}
+    homes = {f: site.home(t, site.start) for f, t in then.items() if t != "stay"}
+    stops = _stops((*walks, *told))
+    distinct = {s.places[0].stand or s.places[0].xy: s for s in stops.values()}
+    found: dict[tuple[object, object], Step] = {}
+    broken: dict[tuple[object, object], tuple[Place, Place, DriveFault]] = {}
+    looked: set[object] = set()
+    for home in {h.xy: h for h in homes.values()}.values():
+        for stand, step in _some(distinct, home):
+            looked.add(stand)
+            place = step.places[0]
+            if place.xy == home.xy:
+                found[stand, home.xy] = replace(step, kind="exit", places=(home,), drive=None, seconds=0.0, joules=0.0)
+                continue
+            try:
+                drive = drives.between(place, home)
+            except DriveFault as error:
+                broken[stand, home.xy] = (place, home, error)
+            else:
+                found[stand, home.xy] = replace(step, kind="exit", places=(drive.end,), drive=drive)
+    faults = [f for f in homes if f != "low_budget"]
+    worst = [(f, _longest(f, homes[f], walks, stops, found, task, robot, luck)) for f in faults]
+    return Exits(
+        steps=tuple(found.values()),
+        broken=tuple(broken.values()),
+        worst=tuple((f, walked) for f, walked in worst if walked is not None),
+        looked_at=len(looked),
+        places=len(distinct),
+    )
+
+
+def _stops(walks: Sequence[Walk]) -> dict[tuple[int, int], Step]:
+    """Each step at which a robot stands somewhere, by the number of its walk and its own."""
+    return {
+        (w, k): step
+        for w, walked in enumerate(walks)
+        for k, step in enumerate(walked.steps)
+        if step.kind in ("act", "drive") and step.places
+    }
+
+
+def _some(distinct: dict[tuple[float, float], Step], home: Place) -> list[tuple[tuple[float, float], Step]]:
+    """All of some places, or as many as are driven from."""
+    each = list(distinct.items())
+    if len(each) <= MAX_PLACES:
+        return each
+    away = np.hypot(*(np.array([stand for stand, _ in each]) - np.array(home.xy)).T)
+    far = np.argsort(-away)[: MAX_PLACES // 4].tolist()
+    evenly = np.linspace(0, len(each) - 1, MAX_PLACES - len(far)).round().astype(int).tolist()
+    return [each[k] for k in dict.fromkeys([*far, *evenly])]
+
+
+def _longest(
+    fault: Fault,
+    home: Place,
+    walks: Sequence[Walk],
+    stops: dict[tuple[int, int], Step],
+    found: dict[tuple[object, object], Step],
+    task: Task,
+    robot: RobotProfile,
+    luck: Luck,
+) -> Walk | None:
+    """The branch that takes longest until a fault and the way home from there."""
+    speed = speed_of(task.constraints, robot)
+    longest, most = None, -1.0
+    before = {w: np.cumsum([s.seconds for s in walked.steps]) for w, walked in enumerate(walks)}
+    for (w, k), step in stops.items():
+        if w >= len(walks):
+            break
+        place = step.places[0]
+        way = found.get((place.stand or place.xy, home.xy))
+        if way is None or (fault == "action_failed" and step.kind != "act"):
+            continue
+        again = _again(step, robot).seconds if fault == "action_failed" else 0.0
+        seconds = float(before[w][k]) + again + (0.0 if way.drive is None else way.drive.length_m / speed)
+        if seconds > most:
+            longest, most = (w, k, way), seconds
+    if longest is None:
+        return None
+    w, k, way = longest
+    return _ended(fault, walks[w], k, way, robot, luck)
+
+
+def _ended(fault: Fault, walked: Walk, last: int, way: Step, robot: RobotProfile, luck: Luck) -> Walk:
+    """A walk that a fault ends at one of its steps."""
+    steps, drawn = list(walked.steps[: last + 1]), Drawn(luck)
+    for step in steps:
+        if step.drive is not None:
+            drawn.drive(step.drive.length_m)
+        elif step.kind == "act":
+            drawn.work(Work(seconds=step.seconds, joules=step.joules))
+    if fault == "action_failed":
+        failed = steps[-1]
+        again = _again(failed, robot)
+        drawn.work(again)
+        steps[-1] = replace(
+            failed,
+            captures=max(0, failed.captures - 1),
+            seconds=failed.seconds + again.seconds,
+            joules=failed.joules + again.joules,
+        )
+    if way.drive is not None:
+        drawn.drive(way.drive.length_m)
+    decided = sum(s.kind == "decide" for s in steps)
+    decisions: list[Decision] = []
+    for decision in walked.decisions:
+        decided -= decision.kind == "holds"
+        if decided < 0:
+            break
+        decisions.append(decision)
+    return Walk(
+        steps=(*steps, replace(way, node=steps[-1].node)),
+        end=way.places[0],
+        exit="faulted",
+        decisions=tuple(decisions),
+        used=drawn.used,
+    )
+
+
+def _again(step: Step, robot: RobotProfile) -> Work:
+    """What it takes to try the last capture of an action again, as often as the robot does."""
+    return tried_again(step.node, robot) if isinstance(step.node, Act) else Work()

@@ -1,0 +1,159 @@
+"""What a branch takes: metres, time and charge as distributions, and the chance of running short of each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict, dataclass
+from itertools import groupby
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.forecast.drawn import Used
+from fieldhand.forecast.limits import Resource, ResourceKind, speed_of
+from fieldhand.forecast.steps import Decision, Walk
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Place
+from fieldhand.task.frames import Constraints, Fault
+from fieldhand.task.plan import is_optional
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Figure:
+    """A random amount: its mean, what it exceeds every other time (median), and once in ten (90th percentile)."""
+
+    mean: float
+    p50: float
+    p90: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Chance:
+    """The chance of using more of a resource than there is.
+
+    Attributes:
+        kind: Which budget, or ``reserve``.
+        limit: Metres, seconds, or percent of a full battery.
+        accepted: The failure probability that the Task accepts.
+        draws: From how many missions it was found.
+    """
+
+    kind: ResourceKind
+    limit: float
+    accepted: float
+    chance: float
+    draws: int
+
+    @property
+    def exceeded(self) -> bool:
+        """Whether the chance is more than is accepted, beyond what the number of draws can tell."""
+        noise = 2.0 * np.sqrt(self.accepted * (1.0 - self.accepted) / self.draws)
+        return bool(self.chance > self.accepted + noise)
+
+
+@dataclass(frozen=True, kw_only=True)
+class BranchEstimate:
+    """One branch.
+
+    Attributes:
+        decisions: What was answered on it.
+        metres, seconds, percent: What it takes; percent of a full battery.
+        left: Percent of a full battery that is left at the end: its median, and the least nine times out of ten.
+        chances: For each budget, and then for the battery's reserve.
+        captures: Number of captures on it.
+        visits: Optional visits and steps that missions make on average.
+        shed: Places of those for which the budget will hardly last.
+        walk: The branch itself.
+        fault: For good, at the last node that it reaches; None on a branch that no fault ends.
+    """
+
+    decisions: tuple[Decision, ...]
+    metres: Figure
+    seconds: Figure
+    percent: Figure
+    left: tuple[float, float]
+    chances: tuple[Chance, ...]
+    captures: int
+    visits: float
+    shed: tuple[Place, ...]
+    walk: Walk
+    fault: Fault | None = None
+
+    @property
+    def short(self) -> float:
+        """The chance of running short of whatever is scarcest."""
+        return max((c.chance for c in self.chances), default=0.0)
+
+    def as_record(self) -> dict[str, object]:
+        """As JSON."""
+        return {
+            "decisions": decisions_record(self.decisions),
+            "fault": self.fault,
+            "distance_m": asdict(self.metres),
+            "duration_s": asdict(self.seconds),
+            "battery_percent": asdict(self.percent),
+            "battery_left_percent": {"p50": self.left[0], "p90": self.left[1]},
+            "captures": self.captures,
+            "limits": [asdict(chance) for chance in self.chances],
+        }
+
+
+def decisions_record(decisions: Iterable[Decision]) -> list[dict[str, object]]:
+    """Decisions in their order, those of one node that follow each other together: a letter each, y or n."""
+    return [
+        {"node": node, "kind": kind, "answers": "".join("y" if d.answer else "n" for d in some)}
+        for (node, kind), some in groupby(decisions, key=lambda d: (d.node, d.kind))
+    ]
+
+
+def figures_of(
+    walked: Walk,
+    resources: Sequence[Resource],
+    constraints: Constraints,
+    robot: RobotProfile,
+    charge_percent: float,
+    fault: Fault | None = None,
+) -> BranchEstimate:
+    """What missions take that go one way; they were drawn along it (:attr:`Walk.used`)."""
+    used = walked.used
+    assert used is not None  # noqa: S101  estimates draw missions on every walk
+    metres, seconds, percent = amounts(used, constraints, robot)
+    amount = {"distance_m": metres, "duration_s": seconds, "energy_percent": percent, "reserve": percent}
+    lists = [s for s in walked.steps if is_optional(s.node) and s.kind == "visit-list"]
+    energy = _figure(percent)
+    return BranchEstimate(
+        decisions=walked.decisions,
+        metres=_figure(metres),
+        seconds=_figure(seconds),
+        percent=energy,
+        left=(max(0.0, charge_percent - energy.p50), max(0.0, charge_percent - energy.p90)),
+        chances=tuple(
+            Chance(
+                kind=r.kind,
+                limit=r.limit,
+                accepted=r.failure_probability,
+                chance=float((amount[r.kind] > r.limit * (1 + 1e-9)).mean()),
+                draws=len(metres),
+            )
+            for r in resources
+        ),
+        captures=sum(s.captures for s in walked.steps),
+        visits=sum(s.outlook.visits for s in lists if s.outlook is not None),
+        shed=tuple(p for s in lists for p in s.shed),
+        walk=walked,
+        fault=fault,
+    )
+
+
+def amounts(used: Used, constraints: Constraints, robot: RobotProfile) -> tuple[Floats, Floats, Floats]:
+    """Metres, seconds and percent of a full battery that each of some missions takes."""
+    metres, seconds = used.metres, used.metres / speed_of(constraints, robot) + used.seconds
+    driving, idling = robot.percent(1.0, 0.0), robot.percent(0.0, 1.0)
+    return metres, seconds, driving * metres + idling * seconds + robot.percent(0.0, 0.0, 1.0) * used.joules
+
+
+def _figure(draws: Floats) -> Figure:
+    median, high = np.quantile(draws, (0.5, 0.9)).tolist()
+    return Figure(mean=float(draws.mean()), p50=median, p90=high)

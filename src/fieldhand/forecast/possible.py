@@ -1,0 +1,177 @@
+"""Which answers a condition can have on a branch: what was read, what may still be read, what the site knows.
+
+Of a reading only its place among the thresholds of the plan matters, so a few values stand for all that a sensor can
+give. An answer leaves those values that go with it, and a later test of the same reading is held to them: no branch is
+both hotter than 38 °C and colder than 33 °C. A reading that nothing has taken on the branch makes its test unknown, as
+on the robot, and so does a tree's attribute whatever the site says of it.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from fieldhand.forecast.conditions import Facts, evaluate
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Place, Site
+from fieldhand.task import conditions as c
+from fieldhand.task import plan
+from fieldhand.task.conditions import Between, Compare, Condition, Level, TreeHas
+
+#: So many combinations of values are tried for one test; beyond, either answer counts as possible.
+_MOST = 256
+
+#: A quantity of one taking of a reading; reading and quantity that a condition tests; values that they may have.
+_Taken = tuple[int, str]
+_Tested = tuple[tuple[str, str], ...]
+_Values = tuple[float, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Outcome:
+    """What can come of a test: the answers, and with each of them the values that go with it."""
+
+    values: Mapping[bool, tuple[_Values, ...]]
+
+    @property
+    def answers(self) -> tuple[bool, ...]:
+        return tuple(answer for answer in (True, False) if answer in self.values)
+
+
+class Outlooks:
+    """What does not change from branch to branch; kept for all walks of a mission.
+
+    Args:
+        root: The plan, for its thresholds.
+        site, robot: Where and with what.
+    """
+
+    def __init__(self, root: plan.Node, site: Site, robot: RobotProfile) -> None:
+        self._site, self._robot = site, robot
+        self._values = dict(_standing_for(root, robot))
+        self._found: dict[object, _Outcome] = {}
+
+    def measured(self, action: str) -> dict[str, _Values]:
+        """What an action may read: values that stand for all others, by quantity."""
+        known = self._robot.action.get(action)
+        return {q: self._values.get(q, (0.0,)) for q in known.measures} if known else {}
+
+    def outcome(
+        self,
+        node_id: str,
+        condition: Condition,
+        here: Place,
+        tested: _Tested,
+        values: tuple[_Values, ...],
+    ) -> _Outcome | None:
+        """What can come of a test, given the values that each of some readings may have; None where that is too much.
+
+        Args:
+            node_id: Whose condition it is.
+            condition: The condition.
+            here: The place in hand.
+            tested: Reading and quantity of each that was taken.
+            values: What each may be.
+        """
+        at = here.id if any(isinstance(part, TreeHas) for part in c.walk(condition)) else ""
+        key = (node_id, at, tested, values)
+        known = self._found.get(key)
+        if known is None and math.prod(len(v) for v in values) <= _MOST:
+            known = self._found[key] = self._try(condition, here, tested, values)
+        return known
+
+    def _try(self, condition: Condition, here: Place, tested: _Tested, values: tuple[_Values, ...]) -> _Outcome:
+        with_answer: dict[bool, list[tuple[float, ...]]] = {}
+        for combination in itertools.product(*values):
+            readings: dict[str, dict[str, float]] = {}
+            for (reading, quantity), value in zip(tested, combination, strict=True):
+                readings.setdefault(reading, {})[quantity] = value
+            facts = Facts(site=self._site, robot=self._robot, here=here, readings=readings)
+            with_answer.setdefault(evaluate(condition, facts).holds, []).append(combination)
+        return _Outcome(
+            values={
+                answer: tuple(tuple(dict.fromkeys(each)) for each in zip(*some, strict=True))
+                for answer, some in with_answer.items()
+            }
+        )
+
+
+class Readings:
+    """What was read on one branch.
+
+    Args:
+        outlooks: Shared by the branches.
+    """
+
+    def __init__(self, outlooks: Outlooks) -> None:
+        self._outlooks = outlooks
+        self._bound: dict[str, tuple[int, str]] = {}
+        self._left: dict[_Taken, _Values] = {}
+        self._takings = 0
+
+    def take(self, reading: str, action: str) -> None:
+        """An action has bound a reading anew."""
+        self._takings += 1
+        self._bound[reading] = (self._takings, action)
+        for quantity, values in self._outlooks.measured(action).items():
+            self._left[self._takings, quantity] = values
+
+    def lose(self, reading: str) -> None:
+        """The reading is unknown: its action has failed."""
+        self._bound.pop(reading, None)
+
+    def missing(self, condition: Condition) -> tuple[str, ...]:
+        """The readings that a condition tests and nothing has taken."""
+        return tuple(sorted(r for r in c.readings(condition) if r not in self._bound))
+
+    def answers(self, node_id: str, condition: Condition, here: Place) -> tuple[bool, ...]:
+        """The answers that a condition can have now, at least one."""
+        tested, values = self._tested(condition)
+        found = self._outlooks.outcome(node_id, condition, here, tested, values)
+        return (True, False) if found is None else found.answers
+
+    def settle(self, node_id: str, condition: Condition, here: Place, answer: bool) -> None:
+        """The condition had that answer: what was read is as that says."""
+        tested, values = self._tested(condition)
+        found = self._outlooks.outcome(node_id, condition, here, tested, values)
+        if found is None:
+            return
+        for (reading, quantity), left in zip(tested, found.values[answer], strict=bool(tested)):
+            self._left[self._bound[reading][0], quantity] = left
+
+    def _tested(self, condition: Condition) -> tuple[_Tested, tuple[_Values, ...]]:
+        tests = {
+            (part.reading, part.quantity): self._left.get((self._bound[part.reading][0], part.quantity))
+            for part in c.walk(condition)
+            if isinstance(part, Compare | Between | Level) and part.reading in self._bound
+        }
+        known = {test: values for test, values in tests.items() if values is not None}
+        return tuple(known), tuple(known.values())
+
+
+def _standing_for(root: plan.Node, robot: RobotProfile) -> Iterator[tuple[str, _Values]]:
+    """For each quantity values within its range: its thresholds in the plan, one between any two, and the ends."""
+    thresholds: dict[str, set[float]] = {}
+    for node in plan.walk(root):
+        condition = plan.condition_of(node)
+        for part in c.walk(condition) if condition is not None else ():
+            match part:
+                case Compare(quantity=name, value=value):
+                    thresholds.setdefault(name, set()).add(value)
+                case Between(quantity=name, low=low, high=high):
+                    thresholds.setdefault(name, set()).update((low, high))
+                case Level(quantity=name, level=level) if name in robot.quantity:
+                    known = robot.quantity[name].levels.get(level)
+                    thresholds.setdefault(name, set()).update(() if known is None else (known.value,))
+                case _:
+                    pass
+    for name, some in thresholds.items():
+        quantity = robot.quantity.get(name)
+        if quantity is None:
+            continue
+        low, high = quantity.minimum, quantity.maximum
+        inside = sorted({low, high, *(value for value in some if low <= value <= high)})
+        between = [a + (b - a) / 2 for a, b in itertools.pairwise(inside)]
+        yield name, tuple(sorted({*inside, *between}))

@@ -1,0 +1,189 @@
+"""What a walk leaves behind: its steps and answers, where it is, what it has used."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from fieldhand.forecast import routes
+from fieldhand.forecast.drawn import Drawn
+from fieldhand.forecast.limits import speed_of
+from fieldhand.forecast.possible import Readings
+from fieldhand.forecast.state import Spent, Work
+from fieldhand.forecast.steps import Answer, Decision, DecisionKind, Failed, Step, StepKind, never
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.context import Context
+from fieldhand.site.model import Place, Site
+from fieldhand.task import plan
+from fieldhand.task.frames import Task
+from fieldhand.task.plan import Node
+
+if TYPE_CHECKING:
+    from fieldhand.site.drives import Drives
+
+
+def _always(node_id: str) -> bool:  # noqa: ARG001
+    """Every condition holds."""
+    return True
+
+
+@dataclass(frozen=True, kw_only=True)
+class Answers:
+    """Who answers what a walk cannot know.
+
+    Attributes:
+        holds: Asked for the id of each ``If`` that is reached, and of a loop with ``until`` after each of its rounds.
+        fails: Asked for the id of each action inside a ``Try``; what is outside one does not fail in a walk.
+        blocked: Asked for the id of each node inside a ``Try`` that drives: whether it never arrives.
+        taken: Asked for the id of each optional step, where a walk does not do what missions do on average.
+    """
+
+    holds: Answer = _always
+    fails: Answer = never
+    blocked: Answer = never
+    taken: Answer = never
+
+    def of(self, kind: DecisionKind) -> Answer:
+        """Who answers that."""
+        by_kind: dict[DecisionKind, Callable[[str], bool]] = {
+            "holds": self.holds,
+            "fails": self.fails,
+            "blocked": self.blocked,
+            "taken": self.taken,
+        }
+        return by_kind[kind]
+
+
+class Trail:
+    """Where a walk is and has been.
+
+    Args:
+        task, site, robot, drives: The mission.
+        answers: To what it cannot know.
+        context: Where it begins; at the start of the site by default.
+        drawn: Missions that use what the walk takes, each with its own luck; None for none.
+        readings: What was read on the way; None where a walk begins somewhere on a mission and cannot know.
+    """
+
+    def __init__(
+        self,
+        task: Task,
+        site: Site,
+        robot: RobotProfile,
+        drives: Drives,
+        answers: Answers,
+        *,
+        context: Context | None = None,
+        drawn: Drawn | None = None,
+        readings: Readings | None = None,
+    ) -> None:
+        self.task, self.site, self.robot, self.drives = task, site, robot, drives
+        self._answers, self.readings = answers, readings
+        #: Where the walk began.
+        self.beginning = context or Context(here=routes.beginning(drives))
+        self.context = self.beginning
+        #: Where the robot itself is: the place in hand, or where a drive was blocked.
+        self._standing = self.context.here
+        self._speed = speed_of(task.constraints, robot)
+        self.steps: list[Step] = []
+        self.decisions: list[Decision] = []
+        #: Tests of readings that nothing had taken: node and reading.
+        self.unread: list[tuple[str, str]] = []
+        #: Id of the node that drove last, or tried to.
+        self.bound_for = ""
+        self._inside_try = 0
+        self._inside_optional = 0
+        self.drawn = drawn
+        self.spent = Spent()
+        #: Every place that was gone to, in order; also those where the walk stood already.
+        self.stops: list[Place] = []
+
+    def _drive_to(self, node: Node, place: Place) -> None:
+        if place.xy != self.context.here.xy or self._stuck:
+            leg = self._leg(node, "drive", place)
+            if self._inside_try and self._decide(node, "blocked"):
+                # As bad as it gets: all of the way is driven, and the robot stands just before the place.
+                self._note(replace(leg, reached=False))
+                self._standing = _on_the_way(leg.places[0])
+                raise Failed(node.id)
+            self._note(leg)
+            (place,) = leg.places
+        else:
+            place = self.context.here
+        self.stops.append(place)
+        visited = self.context.visited
+        if place.kind == "tree" and place.id not in visited:
+            visited = (*visited, place.id)
+        self._stand(Context(here=place, visited=visited, bound=self.context.bound))
+
+    def _exit(self, node: Node, home: Place, *, goes: bool) -> None:
+        if not goes or (home.xy == self.context.here.xy and not self._stuck):
+            if goes:
+                self.stops.append(self.context.here)
+            self._note(Step(node=node, kind="exit", context=self.context, places=(home,)))
+            return
+        leg = self._leg(node, "exit", home)
+        self._note(leg)
+        (home,) = leg.places
+        self.stops.append(home)
+        self._stand(Context(here=home, visited=self.context.visited, bound=self.context.bound))
+
+    @property
+    def _stuck(self) -> bool:
+        return self._standing is not self.context.here
+
+    def _stand(self, context: Context) -> None:
+        self.context, self._standing = context, context.here
+
+    def _leg(self, node: Node, kind: StepKind, place: Place) -> Step:
+        self.bound_for = node.id
+        drive = self.drives.between(self._standing, place)
+        return Step(
+            node=node,
+            kind=kind,
+            context=self.context,
+            places=(drive.end,),
+            drive=drive,
+            seconds=drive.length_m / self._speed,
+            joules=drive.length_m * self.robot.energy.drive_j_per_m,
+        )
+
+    def _decide(self, node: Node, kind: DecisionKind) -> bool:
+        condition = plan.condition_of(node) if kind == "holds" else None
+        possible: tuple[bool, ...] = (True, False)
+        if condition is not None and self.readings is not None:
+            possible = self.readings.answers(node.id, condition, self.context.here)
+            self.unread += [(node.id, reading) for reading in self.readings.missing(condition)]
+        sure = len(possible) == 1
+        answer = possible[0] if sure else self._answers.of(kind)(node.id)
+        if condition is not None and self.readings is not None:
+            self.readings.settle(node.id, condition, self.context.here, answer)
+        place = self.context.here.id
+        self.decisions.append(Decision(node=node.id, kind=kind, answer=answer, sure=sure, place=place))
+        if kind == "holds":
+            self._note(Step(node=node, kind="decide", context=self.context, answer=answer))
+        return answer
+
+    def _bind(self, label: str, *places: Place) -> None:
+        if label:
+            bound = {**self.context.bound, label: places}
+            self.context = Context(here=self.context.here, visited=self.context.visited, bound=bound)
+
+    def _note(self, step: Step) -> None:
+        self.steps.append(step)
+        metres = 0.0 if step.drive is None else step.drive.length_m
+        if self.drawn is not None and not self._inside_optional:
+            if step.drive is not None:
+                self.drawn.drive(metres)
+            elif step.kind == "act":
+                self.drawn.work(Work(seconds=step.seconds, joules=step.joules))
+        self.spent += Spent(
+            metres=metres, seconds=step.seconds, percent=self.robot.percent(0.0, step.seconds, step.joules)
+        )
+
+
+def _on_the_way(place: Place) -> Place:
+    """A point just before a place that was not reached."""
+    x, y = place.stand or place.xy
+    return Place(kind="point", id="on the way", x=x, y=y, lat=place.lat, lon=place.lon, stand=(x, y))
