@@ -81,7 +81,7 @@ def _as_before(clause: Clause) -> Clause | None:
 
 def _is_plain(clause: Clause) -> bool:
     """Take "when", "until" and "before" off what is done or gone to. False if they say when something else is done."""
-    if any(_is_when(t) for t in clause.terms):
+    if any(_is_when(t) for t in clause.terms[:2]):
         clause.terms = [t for t in clause.terms if not _is_when(t)]
         clause.done = any(is_participle(t) for t in clause.terms if t.kind in CAPTURES)
         if not clause.done and clause.has({"NOUN", "ACTV"}):
@@ -123,7 +123,10 @@ def _ending(clause: Clause, place: list[Term], nouns: list[Term]) -> bool | None
         "marker" in t.text for t in clause.terms
     )
     clause.kind, clause.said = "end", [word("STOP", clause.terms[0], "stop")]
-    if where is not None and drives:
+    back = next((t for t in clause.terms if t.kind in ("RETURN", "GOHOME")), None)
+    if where is None and back is not None:
+        clause.said = [back]
+    elif where is not None and drives:
         clause.said = [word("RETURN", where, "return"), word("AT", where, "to"), word("DET", where, "the"), where]
     at_last = len(place) == 1 and place[0].kind == "LAST"
     return clause.kinds <= _STEP | _ENDS and (not place or at_last)
