@@ -3,8 +3,8 @@
 * Every goal counts captures: those that succeeded against those wanted on the branch that was taken.
 * What had to be done and was not is a failure, whatever the reason; a goal whose branch was not taken, or whose step is
   optional and was shed, is met with none wanted; "as many as you can" is met by one capture if nothing failed.
-* Where the mission was cut off before it could be known, the outcome is indeterminate; so it is where all that is missing
-  is in doubt.
+* Where the mission was cut off before it could be known, the outcome is indeterminate; so it is where all that is
+  missing is in doubt.
 """
 
 from __future__ import annotations

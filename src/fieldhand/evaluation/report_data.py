@@ -33,7 +33,7 @@ _FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
 
 
 def observations_csv(events: Sequence[Event]) -> str:
-    """One row a reading, and one a capture that read nothing, failed or is in doubt; times in seconds, degrees in WGS 84.
+    """One row a reading, and one a capture that read nothing, failed or is in doubt; times in seconds, degrees WGS 84.
 
     Text that a spreadsheet would take for a formula begins with an apostrophe, so that it stays text.
     """
