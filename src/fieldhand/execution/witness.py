@@ -296,9 +296,9 @@ class Witness:
     def _matters(self, goal: DriveGoal | ActionGoal | None) -> bool:
         """Whether beginning and end of a goal must be on the disk before anything else is done.
 
-        Where time jumps, no wheel has turned for a drive, and it may be driven again.
+        In a simulation whose time jumps no wheel has turned for a drive, and it may be driven again.
         """
-        return isinstance(goal, ActionGoal) or math.isfinite(self._clock.speed)
+        return isinstance(goal, ActionGoal) or not self._shadow or math.isfinite(self._clock.speed)
 
     def _cut_off(self, progress: Progress) -> Progress:
         """What is known of a goal that was under way when the power was cut, once the robot stands still.

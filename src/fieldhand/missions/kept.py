@@ -106,9 +106,7 @@ def status(folder: Path) -> Status:
     number, lines, sight, _ = heard(folder / JOURNAL)
     events = tuple(e for e in (from_json(line, where=str(folder)) for _, line in lines) if e is not None)
     task = decode(read_file(folder, "task.xml", about["files"]["task.xml"]), source=str(folder / "task.xml"))
-    robot = parse_profile(
-        read_file(folder, "robot.yaml", about["files"]["robot.yaml"]), source=str(folder / "robot.yaml")
-    )
+    robot = parse_profile(read_file(folder, "robot.yaml", about["files"]["robot.yaml"]), source=f"{folder}/robot.yaml")
     now = standing(task, robot, events, running=running)
     if sight is not None and now.state != "ended":
         seen = sight_of(sight)

@@ -20,6 +20,9 @@ from fieldhand.execution.log import EventLog
 #: Of the file; a program that writes another one refuses this.
 FORMAT = 1
 
+#: SQLite waits for the disk at every commit. Less is for tests, which do not pull the plug of the machine.
+SYNCHRONOUS = "FULL"
+
 _TABLES = (
     "CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
     "CREATE TABLE tape (n INTEGER PRIMARY KEY, kind TEXT NOT NULL, body TEXT NOT NULL)",
@@ -48,7 +51,7 @@ def create(path: Path, mission: str) -> None:
     """
     with _said(path), closing(sqlite3.connect(path, isolation_level=None)) as db:
         db.execute("PRAGMA journal_mode=WAL")
-        db.execute("PRAGMA synchronous=FULL")
+        db.execute(f"PRAGMA synchronous={SYNCHRONOUS}")
         db.execute("BEGIN IMMEDIATE")
         for table in _TABLES:
             db.execute(table)
@@ -200,7 +203,7 @@ def _open(path: Path, mission: str | None) -> sqlite3.Connection:
         raise JournalError("the mission has no journal", where=str(path), advice=_ANEW)
     db = sqlite3.connect(path, isolation_level=None, timeout=5.0)
     db.execute("PRAGMA journal_mode=WAL")
-    db.execute("PRAGMA synchronous=FULL")
+    db.execute(f"PRAGMA synchronous={SYNCHRONOUS}")
     about = dict(db.execute("SELECT key, value FROM about"))
     if about.get("format") != str(FORMAT):
         raise JournalError(
