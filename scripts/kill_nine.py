@@ -1,23 +1,24 @@
-"""Kill missions with ``kill -9`` at random instants, resume each to its end, and hold the log against what the robot did.
+"""Kill missions with ``kill -9`` at random instants, resume each to its end, and hold its log against what was done.
 
     python scripts/kill_nine.py --kills 300 [--seed 1] [--json]
 
 The robot is simulated in this process; the mission is carried out in another, which is killed at any moment: inside a
 commit, between two, while a goal is under way. The robot outlives it, as a real one does, and keeps its own account of
-what it made. Missions are drawn as ``fieldhand bench guard`` draws them (conditions, loops, optional visits, budgets that
-bind), with faults of actions, sensors and aisles.
+what it made. Missions are drawn as ``fieldhand bench guard`` draws them (conditions, loops, optional visits, budgets
+that bind), with faults of actions, sensors and aisles.
 
 Judged of each mission, from journal, event log and the robot's account:
 
 * lost: captures that the robot made and that are neither in the log nor in doubt;
-* repeated: captures beyond what the plan asks for on the branch that was taken, and in the log more often than made;
-* incomplete: the log does not end with one end, differs from the journal, runs back in time, or a goal cannot be judged.
+* repeated: captures beyond what the plan asks for on the branch that was taken, or more often in the log than made;
+* incomplete: the log does not end with one end, differs from the journal, or runs back in time.
 """
 
 from __future__ import annotations
 
 import argparse
 import contextlib
+import itertools
 import json
 import multiprocessing
 import os
@@ -141,6 +142,10 @@ def world_of(draft: Draft, rng: random.Random) -> World:
     return World(faults=tuple(faults), charge_percent=draft.charge_percent)
 
 
+def nobody_hears(told: object) -> None:
+    """Takes an event, and does nothing."""
+
+
 def live(folder: Path, approved: AuthorizedTask, draft: Draft, line: Connection) -> None:
     """Carry the mission out, or go on with it: this is what is killed."""
     robot: Any = Line(line)
@@ -148,7 +153,7 @@ def live(folder: Path, approved: AuthorizedTask, draft: Draft, line: Connection)
     guard = BudgetGuard(
         task, site, profile, drives_for(site, profile), draft.flight_seed, charge_percent=draft.charge_percent
     )
-    with Journal(folder / "journal.sqlite", "kill -9", folder / "events.jsonl", lambda line: None) as journal:
+    with Journal(folder / "journal.sqlite", "kill -9", folder / "events.jsonl", nobody_hears) as journal:
         run(
             approved,
             site=site,
@@ -156,7 +161,7 @@ def live(folder: Path, approved: AuthorizedTask, draft: Draft, line: Connection)
             driver=robot,
             guard=guard,
             clock=robot,
-            emit=lambda event: None,
+            emit=nobody_hears,
             tape=journal,
         )
 
@@ -216,7 +221,7 @@ def judge(folder: Path, draft: Draft, robot: Robot, verdict: Verdict) -> None:
     """Hold journal and log against what the robot made."""
     robot.note()
     lines = (folder / "events.jsonl").read_text().splitlines()
-    with Journal(folder / "journal.sqlite", "kill -9", folder / "events.jsonl", lambda line: None) as journal:
+    with Journal(folder / "journal.sqlite", "kill -9", folder / "events.jsonl", nobody_hears) as journal:
         kept = list(journal.before)
     events = [event for event in map(from_json, lines) if event is not None]
     told = Counter((e.action, e.place) for e in events if isinstance(e, Acted) and e.status == "success")
@@ -228,7 +233,7 @@ def judge(folder: Path, draft: Draft, robot: Robot, verdict: Verdict) -> None:
     verdict.repeated += (told - made).total()
     ends = [e for e in events if isinstance(e, Ended)]
     whole = lines == kept and len(ends) == 1 and events[-1] is ends[0] and isinstance(events[0], Started)
-    whole = whole and all(a.t <= b.t + 1e-9 for a, b in zip(events, events[1:], strict=False))
+    whole = whole and all(a.t <= b.t + 1e-9 for a, b in itertools.pairwise(events))
     outcomes = mission.assess(draft.task, events).outcomes
     for goal in outcomes:
         if goal.wanted is not None and goal.done > goal.wanted:

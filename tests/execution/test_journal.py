@@ -284,7 +284,7 @@ def test_a_full_disk_stops_the_robot_and_the_mission_goes_on_later(tmp_path: Pat
     with Full(tmp_path / "journal.sqlite", "mission", tmp_path / "log", print) as journal:
         for _ in range(40):
             journal.event("x" * 4000)
-        with pytest.raises(JournalError, match="full.*free some space"):
+        with pytest.raises(JournalError, match=r"full.*free some space"):
             journal.commit()
     assert field.fly().status == "completed"
 
