@@ -40,8 +40,8 @@ def inputs() -> missions.Inputs:
     approved = mission.authorize(task, site, robot, by="tester", at=at, confirmed=EveryWarning())
     return missions.Inputs(
         task=encode(approved.task),
-        site=site_files("demo"),
-        robot=profile_bytes("husky"),
+        site=site_files("demo").parts,
+        robot=profile_bytes("husky")[0],
         authorization=approved.authorization,
         world=WORLD,
         seed=3,
