@@ -52,7 +52,17 @@ from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.results import Acted, Ended, InDoubt, Started, from_json
 
 #: What a driver and a clock are asked over the line.
-ASKED = ("start_drive", "start_action", "poll", "cancel", "next_event_in", "position", "charge_percent", "stopped")
+ASKED = (
+    "start_drive",
+    "start_action",
+    "poll",
+    "cancel",
+    "next_event_in",
+    "position",
+    "charge_percent",
+    "stopped",
+    "lost",
+)
 LONGEST_S = 120.0
 
 
