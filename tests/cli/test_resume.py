@@ -88,7 +88,7 @@ def test_paused_killed_twice_and_resumed(missions: Path, tmp_path: Path) -> None
     made = [e["place"] for e in events if e["event"] == "action"]
     assert len(made) == len(set(made)) == 18
     assert [e["event"] for e in events].count("resumed") == 2
-    assert (tmp_path / "out" / "report.md").exists()
+    assert (tmp_path / "out" / "report.html").exists()
     late = fieldhand("abort")
     assert (late.status, "has ended" in late.err) == (1, True)
 

@@ -24,7 +24,7 @@ def resume(
 ) -> None:
     """Go on with a mission that a power cut has cut off, from where it was; or end the pause of one under way."""
     from fieldhand import mission as steps
-    from fieldhand import missions
+    from fieldhand import missions, past
     from fieldhand.cli.flight import Orders, conclude, go_on, leave_plan, parse_speed
     from fieldhand.cli.inputs import Ground
     from fieldhand.cli.tell import tell
@@ -47,6 +47,7 @@ def resume(
         speed=pace,
         log=events,
         folder=output,
+        history=past.history_folder(os.environ),
         quiet=json,
         language=spoken(lang, os.environ),
     )
