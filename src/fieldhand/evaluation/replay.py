@@ -139,13 +139,14 @@ class _Replay:
         if not isinstance(event, Visiting):
             return self._absent(node)
         self._next += 1
-        places, visits, shed = len(event.places), 0, 0
+        listed, places, visits, shed = frozenset(event.places), len(event.places), 0, 0
         most = places if node.at_most is None else min(places, node.at_most)
         while True:
             event = self._skim(node)
             left = min(most, places - shed) - visits
             if isinstance(event, Shed) and event.node == node.id:
-                shed += len(event.places)
+                # Places that were closed when the loop began are shed, and not among those to visit.
+                shed += len(listed.intersection(event.places))
                 self._shed(node, event)
             elif isinstance(event, Decided) and event.node == node.id:
                 self._next += 1
