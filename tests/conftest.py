@@ -34,6 +34,14 @@ def _no_private_environment(tmp_path_factory: pytest.TempPathFactory) -> Iterato
 
 
 @pytest.fixture(scope="session", autouse=True)
+def _missions_of_the_tests(_no_private_environment: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Missions of the tests do not lie among the developer's own."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("FIELDHAND_MISSIONS", str(tmp_path_factory.mktemp("missions")))
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
 def _no_real_model_calls() -> Iterator[None]:
     """A test that reaches for another machine fails, whoever catches exceptions on the way."""
     connect, resolve = socket.socket.connect, socket.getaddrinfo

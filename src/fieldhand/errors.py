@@ -12,6 +12,7 @@
     │   ├── KeyFileError            a key: its file, its rights, its passphrase, or that there is none
     │   ├── PlaceError              a selector that this site cannot resolve
     │   ├── OutputError             a place to write to that cannot be written
+    │   │   └── JournalError        a mission's folder or journal that cannot be gone on with
     │   ├── ProblemError            an orienteering problem that contradicts itself or has no solution
     │   └── ModelError              the language model: key, endpoint, answer
     ├── NotApprovedError            a check failed or the operator said no
@@ -37,6 +38,7 @@ __all__ = [
     "ExecutionError",
     "FieldhandError",
     "InputError",
+    "JournalError",
     "KeyFileError",
     "LostFault",
     "ModelError",
@@ -121,6 +123,13 @@ class PlaceError(InputError):
 
 class OutputError(InputError):
     """A file or folder cannot be written."""
+
+
+class JournalError(OutputError):
+    """A mission's folder or its journal cannot be gone on with: damaged, another mission's, in use, not to be written.
+
+    No behavior works around it: a mission that cannot keep what it does stops.
+    """
 
 
 class ProblemError(InputError):

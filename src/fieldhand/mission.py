@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from fieldhand.approval.readback import ReadBack
     from fieldhand.evaluation.report import ReportFiles
     from fieldhand.execution.guard import Guard
+    from fieldhand.execution.journal.records import Tape
+    from fieldhand.execution.orders import Order
     from fieldhand.execution.runtime import Result
     from fieldhand.execution.world import World
     from fieldhand.forecast.estimate import Estimate
@@ -284,18 +286,17 @@ def carry_out(
     emit: Callable[[Event], None],
     interrupted: Callable[[], str | None] = lambda: None,
     watched: Callable[[Guard], Guard] = lambda guard: guard,
+    orders: Callable[[], Order | None] = lambda: None,
+    tape: Tape | None = None,
 ) -> Result:
-    """Carry a mission out in simulation.
+    """Carry a mission out in simulation. :mod:`fieldhand.missions` keeps it in a folder: then it outlasts a power cut.
 
     Args:
-        authorized: What approval gave.
-        site: The site that was approved.
-        robot: The profile that was approved.
+        authorized: What approval gave, for ``site`` and ``robot``.
         world: What the sensors would read, and what goes wrong.
         seed: Of every random thing in it.
         speed: Simulated seconds in a second; None for as fast as it goes.
-        emit: Takes each event as it happens.
-        interrupted: Asked at every tick; a reason ends the mission in order.
+        emit, interrupted: As for :func:`fieldhand.execution.runtime.run`; so are ``orders`` and ``tape``.
         watched: Takes the budget guard and gives one that asks it: to time its decisions, say.
     """
     import numpy as np
@@ -304,10 +305,11 @@ def carry_out(
     from fieldhand.evaluation.guard import BudgetGuard
     from fieldhand.execution.drivers.simulation import SimulatedDriver
     from fieldhand.execution.drivers.surroundings import wall_clock_of, writing_in
+    from fieldhand.execution.mission_clock import MissionClock
     from fieldhand.execution.runtime import run
     from fieldhand.forecast.routes import drives_for
 
-    clock = SimulatedClock() if speed is None else ScaledClock(speed)
+    clock = MissionClock(SimulatedClock() if speed is None else ScaledClock(speed))
     drives = drives_for(site, robot)
     driver = SimulatedDriver(site, robot, world, clock, np.random.default_rng(seed))
     guard = BudgetGuard(authorized.task, site, robot, drives, seed, charge_percent=world.charge_percent)
@@ -321,6 +323,9 @@ def carry_out(
         emit=writing_in(world, emit),
         interrupted=interrupted,
         wall=wall_clock_of(world, clock),
+        orders=orders,
+        tape=tape,
+        simulated=True,
     )
 
 

@@ -161,6 +161,19 @@ def test_as_many_as_you_can_is_not_met_by_none():
     assert "2 places left out (too far)" in outcome.why
 
 
+def test_a_place_that_was_closed_when_its_loop_began_is_not_taken_off_twice():
+    plan = ForEach(id="", select=Trees(), body=PICTURE, optional=True)
+    events = [
+        Visiting(t=0, node="n1", places=("1", "2"), optional=True),
+        Shed(t=0, node="n1", places=("3",), optional=True, reason="cannot be reached"),
+        acted("n2"),
+        acted("n2", place="2"),
+        ended(),
+    ]
+    outcome = only(task_of(plan), events)
+    assert (outcome.outcome, outcome.done, outcome.wanted) == ("success", 2, 2)
+
+
 def test_at_most_counts_what_was_shed_beyond_it_only_once():
     task = task_of(ForEach(id="", select=Trees(), body=PICTURE, optional=True, at_most=2))
     places = tuple(str(k) for k in range(9))

@@ -83,6 +83,31 @@ def uphold(task: Task, authorization: Authorization) -> AuthorizedTask:
     return AuthorizedTask(task=task, authorization=authorization)
 
 
+def approved_before(
+    document: bytes, task: Task, authorization: Authorization, site: Site, robot: RobotProfile
+) -> AuthorizedTask:
+    """A Task that was approved, and kept with its authorization: what was approved must be what was kept.
+
+    Args:
+        document: The Task as it was approved.
+        task: What it says.
+
+    Raises:
+        NotApprovedError: Task, site or profile are not those that were approved.
+    """
+    for kind, given, wanted in (
+        ("Task", hashlib.sha256(document).hexdigest(), authorization.task_sha256),
+        ("site", site.sha256, authorization.site_sha256),
+        ("robot profile", robot.sha256, authorization.robot_sha256),
+    ):
+        if given != wanted:
+            raise NotApprovedError(
+                f"the {kind} is not the one that was approved (SHA-256 {given[:12]}, approved {wanted[:12]})",
+                advice="approve the Task again",
+            )
+    return AuthorizedTask(task=task, authorization=authorization)
+
+
 def _require_confirmed(warnings: tuple[str, ...], confirmed: Container[str]) -> None:
     left = tuple(warning for warning in warnings if warning not in confirmed)
     if left:

@@ -22,9 +22,12 @@ from fieldhand.cli.keys import keys
 from fieldhand.cli.plan import plan
 from fieldhand.cli.replay import replay
 from fieldhand.cli.report import report
+from fieldhand.cli.resume import resume
 from fieldhand.cli.robot import robot
 from fieldhand.cli.run import run
 from fieldhand.cli.site import site
+from fieldhand.cli.status import status
+from fieldhand.cli.tell import abort, come_home, pause
 
 
 def assemble(*others: Callable[..., None]) -> typer.Typer:
@@ -38,11 +41,26 @@ def assemble(*others: Callable[..., None]) -> typer.Typer:
         context_settings={"help_option_names": ["-h", "--help"]},
     )
     commands: tuple[Callable[..., None], ...] = (
-        plan, check, approve, inspect, run, report, replay, export, site, demo, *others,
-    )  # fmt: skip
+        plan,
+        check,
+        approve,
+        inspect,
+        run,
+        resume,
+        status,
+        pause,
+        abort,
+        report,
+        replay,
+        export,
+        site,
+        demo,
+        *others,
+    )
     for command in commands:
         app.command()(command)
     app.command("import")(import_tree)
+    app.command("return")(come_home)
     app.add_typer(robot)
     bench.command("orienteering")(bench_orienteering)
     bench.command("guard")(bench_guard)

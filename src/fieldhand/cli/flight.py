@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fieldhand import mission, past
+from fieldhand import mission, missions, past
 from fieldhand.cli import show
 from fieldhand.cli.approving import approve_plan, review_plan
 from fieldhand.cli.inputs import Ground, write_file
@@ -23,6 +23,25 @@ from fieldhand.task.results import Ended, Event
 if TYPE_CHECKING:
     from fieldhand.execution.world import World
     from fieldhand.task.authorization import AuthorizedTask
+
+
+@dataclass(frozen=True, kw_only=True)
+class Kept:
+    """What a mission's folder takes along.
+
+    Attributes:
+        under: The folder of all missions.
+        site: The site's files.
+        robot: The profile.
+        world: The world file, if there is one.
+        lenient: Whether the site was read leniently.
+    """
+
+    under: Path
+    site: Mapping[str, bytes]
+    robot: bytes
+    world: bytes | None
+    lenient: bool
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,6 +60,7 @@ class Orders:
         history: Folder in which it is kept what missions cost the robot; None to keep nothing.
         quiet: Print one JSON object at the end and nothing else.
         language: In which the plan is read back.
+        kept: Where the mission is kept, so that it outlasts a power cut; None for one that does not.
     """
 
     ask: bool
@@ -55,6 +75,7 @@ class Orders:
     history: Path | None = None
     quiet: bool = False
     language: Language = ENGLISH
+    kept: Kept | None = None
 
 
 def fly(
@@ -79,9 +100,9 @@ def fly(
     review = review_plan(ground, task, document, orders)
     if authorized is None:
         authorized = approve_plan(ground, review, orders, message("Approve and carry out?"))
-    _leave_plan(ground, review, document, orders)
-    events = _carry_out(ground, authorized, orders)
-    return _conclude(ground, review, authorized, events, orders, planner)
+    leave_plan(ground, review, document, orders)
+    events = _carry_out(ground, authorized, orders, planner)
+    return conclude(ground, review, authorized, events, orders, planner)
 
 
 def parse_speed(text: str) -> float | None:
@@ -103,7 +124,7 @@ def parse_speed(text: str) -> float | None:
     return speed
 
 
-def _leave_plan(ground: Ground, review: mission.Review, document: bytes | None, orders: Orders) -> None:
+def leave_plan(ground: Ground, review: mission.Review, document: bytes | None, orders: Orders) -> None:
     """Write Task and map before a wheel turns, so that an unwritable folder costs no mission."""
     if orders.folder is None:
         return
@@ -114,14 +135,58 @@ def _leave_plan(ground: Ground, review: mission.Review, document: bytes | None, 
     draw_plan(orders.folder / "map.png", review, ground, orders.language)
 
 
-def _carry_out(ground: Ground, authorized: AuthorizedTask, orders: Orders) -> tuple[Event, ...]:
+def _carry_out(ground: Ground, authorized: AuthorizedTask, orders: Orders, planner: str) -> tuple[Event, ...]:
+    if orders.kept is not None:
+        return go_on(_begin(authorized, orders, orders.kept, planner), orders)
+    with _taking(ground, orders, ()) as take:
+        return mission.carry_out(
+            authorized,
+            ground.site,
+            ground.robot,
+            world=orders.world,
+            seed=orders.seed,
+            speed=orders.speed,
+            emit=take,
+        ).events
+
+
+def _begin(authorized: AuthorizedTask, orders: Orders, kept: Kept, planner: str) -> missions.Mission:
+    from fieldhand.task.codec import encode
+
+    inputs = missions.Inputs(
+        task=encode(authorized.task),
+        site=kept.site,
+        lenient=kept.lenient,
+        robot=kept.robot,
+        world=kept.world,
+        authorization=authorized.authorization,
+        seed=orders.seed,
+        planner=planner,
+    )
+    given = missions.open_mission(missions.begin(kept.under, missions.new_id(datetime.now(UTC)), inputs))
+    if not orders.quiet:
+        show.note(f"mission {given.id}; fieldhand status, pause, resume, abort and return know it by this name")
+    return given
+
+
+def go_on(given: missions.Mission, orders: Orders) -> tuple[Event, ...]:
+    """Carry out what is left of a mission that is kept: all of it, or what was not done before a power cut."""
+    before = missions.events_of(given.folder)
+    with _taking(Ground(site=given.site, robot=given.robot), orders, before) as take:
+        return missions.carry_out(given, speed=orders.speed, emit=take).events
+
+
+@contextmanager
+def _taking(ground: Ground, orders: Orders, before: Sequence[Event]) -> Iterator[Callable[[Event], None]]:
+    """What takes each event: the logs that were asked for, in which those before stand as well, and the terminal."""
     from fieldhand.evaluation.telling import Teller
     from fieldhand.execution.log import EventLog
 
-    events: list[Event] = []
     teller = Teller(ground.robot)
     if not orders.quiet:
         show.heading("The mission")
+        if before:
+            show.out.print(f"          {len(before)} events before the power cut")
     with ExitStack() as stack:
         paths = [orders.log, None if orders.folder is None else orders.folder / "events.jsonl"]
         logs: list[Callable[[Event], None]] = [
@@ -131,30 +196,22 @@ def _carry_out(ground: Ground, authorized: AuthorizedTask, orders: Orders) -> tu
             from fieldhand.exchange.mcap import McapLog
 
             began = datetime.now(UTC).timestamp()
-            told = Teller(ground.robot).tell
-            logs.append(stack.enter_context(McapLog(orders.mcap, began_s=began, tell=told, site=ground.site)))
+            logs.append(stack.enter_context(McapLog(orders.mcap, began_s=began, tell=teller.tell, site=ground.site)))
 
         def take(event: Event) -> None:
-            events.append(event)
             for log in logs:
                 log(event)
             line = teller.tell(event)
             if line and not orders.quiet:
                 show.out.print(line)
 
-        mission.carry_out(
-            authorized,
-            ground.site,
-            ground.robot,
-            world=orders.world,
-            seed=orders.seed,
-            speed=orders.speed,
-            emit=take,
-        )
-    return tuple(events)
+        for event in before:
+            for log in logs:
+                log(event)
+        yield take
 
 
-def _conclude(
+def conclude(
     ground: Ground,
     review: mission.Review,
     authorized: AuthorizedTask,
@@ -162,6 +219,11 @@ def _conclude(
     orders: Orders,
     planner: str,
 ) -> int:
+    """Judge and report a mission that was carried out.
+
+    Returns:
+        The exit status, as :func:`fly`.
+    """
     from fieldhand.evaluation.telling import goal_names
 
     assessment = mission.assess(review.task, events)

@@ -48,6 +48,13 @@ LangOption = Annotated[
     str | None,
     typer.Option("--lang", help="Language to read back in: en, es; else the environment's (LANG) if there is one."),
 ]
+MissionsOption = Annotated[
+    Path | None,
+    typer.Option("--missions", help="Folder of all missions; else FIELDHAND_MISSIONS, or in the user's state folder."),
+]
+MissionArgument = Annotated[
+    str | None, typer.Argument(help="Name of the mission, or its folder; else the one begun last.")
+]
 PictureOption = Annotated[Path | None, typer.Option("--picture", help="Draw a map to this PNG file.")]
 SeedOption = Annotated[int, typer.Option("--seed", min=0, help="Same seed, same mission.")]
 CpuTimeOption = Annotated[

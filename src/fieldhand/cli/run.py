@@ -17,6 +17,7 @@ from fieldhand.cli.options import (
     LenientOption,
     MissionRobotOption,
     MissionSiteOption,
+    MissionsOption,
     PlannerOption,
     TranscriptOption,
 )
@@ -56,20 +57,23 @@ def run(
     transcript: TranscriptOption = None,
     lenient: LenientOption = False,
     lang: LangOption = None,
+    kept: MissionsOption = None,
     json: JsonOption = False,
 ) -> None:
     """Carry a mission out in simulation and judge it: plan and approve it first, unless it is signed."""
     import os
 
-    from fieldhand import mission, past
+    from fieldhand import mission, missions, past
     from fieldhand.approval.production import require_unsigned_allowed
     from fieldhand.cli import show
     from fieldhand.cli.asking import Replies, plan_or_read
     from fieldhand.cli.bundles import is_bundle, open_mission, require_site, tell_signer
-    from fieldhand.cli.flight import Orders, fly, parse_speed
+    from fieldhand.cli.flight import Kept, Orders, fly, parse_speed
     from fieldhand.cli.inputs import Ground, open_ground
     from fieldhand.execution.world import World, load_world
     from fieldhand.language import spoken
+    from fieldhand.robot.loader import profile_bytes
+    from fieldhand.site.geojson import site_files
 
     language = spoken(lang, os.environ)
     pace = parse_speed(speed)
@@ -102,5 +106,12 @@ def run(
         history=None if no_history else past.history_folder(os.environ),
         quiet=json,
         language=language,
+        kept=Kept(
+            under=kept or missions.missions_folder(os.environ),
+            site=(site_files(require_site(site)) if bundle is None else bundle.files).parts,
+            robot=profile_bytes(robot or "husky")[0] if bundle is None else bundle.profile,
+            world=None if world is None else world.read_bytes(),
+            lenient=lenient if bundle is None else bundle.manifest.site.lenient,
+        ),
     )
     raise SystemExit(fly(ground, task, document, orders, planner=planned_by, authorized=authorized))

@@ -3,7 +3,8 @@
 * Every goal counts captures: those that succeeded against those wanted on the branch that was taken.
 * What had to be done and was not is a failure, whatever the reason; a goal whose branch was not taken, or whose step is
   optional and was shed, is met with none wanted; "as many as you can" is met by one capture if nothing failed.
-* Where the mission was cut off before it could be known, the outcome is indeterminate.
+* Where the mission was cut off before it could be known, the outcome is indeterminate; so it is where all that is
+  missing is in doubt.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ def _mandatory(tally: Tally, ended: Ended | None) -> Verdict:
         return "success"
     if tally.failed or tally.given_up:
         return "failure"
-    if ended is None:
+    if ended is None or (not tally.open and tally.done + tally.in_doubt >= tally.wanted):
         return "indeterminate"
     if ended.status == "aborted" and not tally.reached:
         return "indeterminate"
@@ -65,7 +66,7 @@ def _optional(goal: Goal, tally: Tally, ended: Ended | None) -> Verdict:
         unknown = cut or (tally.undecided and ended is not None and ended.status != "faulted")
         return "indeterminate" if unknown else "failure"
     if tally.done < tally.wanted:
-        return "indeterminate" if cut else "failure"
+        return "indeterminate" if cut or tally.done + tally.in_doubt >= tally.wanted else "failure"
     if tally.done or tally.skipped or tally.stopped or tally.spared:
         return "success"
     return "indeterminate" if goal.conditional or cut else "failure"
@@ -76,6 +77,8 @@ def _why(goal: Goal, tally: Tally, verdict: Verdict, ended: Ended | None) -> str
     parts = [_counted(goal, tally)]
     if tally.done == 0 and tally.wanted == 0 and verdict == "success":
         return _not_called_for(tally)
+    if tally.in_doubt:
+        parts.append(f"{tally.in_doubt} in doubt (the power was cut while it was made)")
     if tally.failed:
         parts.append(f"failed for good {say_count(tally.failed, 'time')}")
     if tally.given_up:

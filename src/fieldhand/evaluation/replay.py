@@ -22,6 +22,7 @@ from fieldhand.task.results import (
     Event,
     Exited,
     Faulted,
+    InDoubt,
     Obstructed,
     Shed,
     Visiting,
@@ -65,6 +66,9 @@ class _Replay:
                 tally = self._tallies.of[event.node]
                 tally.reached = True
                 tally.done += event.count if event.status == "success" else 0
+            elif isinstance(event, InDoubt) and event.node in self._tallies.of:
+                self._tallies.of[event.node].reached = True
+                self._tallies.of[event.node].in_doubt += event.then == "skip"
         self._play(self._plan)
         return self._tallies.of
 
@@ -135,13 +139,14 @@ class _Replay:
         if not isinstance(event, Visiting):
             return self._absent(node)
         self._next += 1
-        places, visits, shed = len(event.places), 0, 0
+        listed, places, visits, shed = frozenset(event.places), len(event.places), 0, 0
         most = places if node.at_most is None else min(places, node.at_most)
         while True:
             event = self._skim(node)
             left = min(most, places - shed) - visits
             if isinstance(event, Shed) and event.node == node.id:
-                shed += len(event.places)
+                # Places that were closed when the loop began are shed, and not among those to visit.
+                shed += len(listed.intersection(event.places))
                 self._shed(node, event)
             elif isinstance(event, Decided) and event.node == node.id:
                 self._next += 1
@@ -232,18 +237,20 @@ class _Replay:
     def _act(self, node: p.Act) -> _Flow:
         tally = self._tallies.of[node.id]
         tally.wanted += node.count
-        captures, failed_at, faulted = 0, 0, False
-        while captures < node.count:
+        captures, unknown, failed_at, faulted = 0, 0, 0, False
+        while captures + unknown < node.count:
             event = self._peek()
             if event is None or event.node != node.id:
                 break
             # The same place again from the first attempt is the next visit; the last one failed for good.
-            begun = captures > 0 or failed_at > 0
+            begun = captures + unknown > 0 or failed_at > 0
             if isinstance(event, Acted):
                 if failed_at and event.attempt <= failed_at:
                     break
                 good = event.status == "success"
                 captures, failed_at = (captures + event.count, 0) if good else (captures, event.attempt)
+            elif isinstance(event, InDoubt):
+                unknown, failed_at = (unknown + 1, 0) if event.then == "skip" else (unknown, failed_at)
             elif isinstance(event, Faulted):
                 faulted = faulted or not event.handled
             elif isinstance(event, Shed):
@@ -254,7 +261,7 @@ class _Replay:
                 break
             self._next += 1
         tally.seen += captures
-        if captures >= node.count:
+        if captures + unknown >= node.count:
             return _Flow.DONE
         tally.failed += 1 if failed_at else 0
         return _Flow.CUT if self._peek() is None and not (failed_at or faulted) else _Flow.FAILED

@@ -9,8 +9,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from fieldhand.evaluation.report_facts import captures
-from fieldhand.task.results import Acted, Event
+from fieldhand.task.results import Acted, Event, InDoubt
 
 COLUMNS = (
     "t_s",
@@ -34,14 +33,14 @@ _FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
 
 
 def observations_csv(events: Sequence[Event]) -> str:
-    """One row a reading, and one a capture that read nothing or failed; times in seconds, degrees in WGS 84.
+    """One row a reading, and one a capture that read nothing, failed or is in doubt; times in seconds, degrees WGS 84.
 
     Text that a spreadsheet would take for a formula begins with an apostrophe, so that it stays text.
     """
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\r\n")
     writer.writerow(COLUMNS)
-    for event in captures(events):
+    for event in _tried(events):
         readings: list[tuple[str, float | None]] = [*sorted(event.readings.items())]
         for quantity, value in readings or [("", None)]:
             row = (
@@ -66,8 +65,13 @@ def observations_csv(events: Sequence[Event]) -> str:
 
 def observations_geojson(events: Sequence[Event]) -> str:
     """One point feature a capture; readings are properties by quantity, units by ``<quantity>_unit``."""
-    features = [_feature(event) for event in captures(events)]
+    features = [_feature(event) for event in _tried(events)]
     return json.dumps({"type": "FeatureCollection", "features": features}, ensure_ascii=False, indent=1) + "\n"
+
+
+def _tried(events: Sequence[Event]) -> list[Acted | InDoubt]:
+    """The captures, and those in doubt: nobody knows whether they were made."""
+    return [e for e in events if isinstance(e, Acted | InDoubt)]
 
 
 def as_text(cell: str) -> str:
@@ -75,7 +79,7 @@ def as_text(cell: str) -> str:
     return f"'{cell}" if cell.startswith(_FORMULA) else cell
 
 
-def _feature(event: Acted) -> dict[str, Any]:
+def _feature(event: Acted | InDoubt) -> dict[str, Any]:
     properties: dict[str, Any] = {
         "t_s": round(event.t, 3),
         "node": event.node,

@@ -17,6 +17,7 @@ class Tally:
     Attributes:
         wanted: Captures to be made on the branch that was taken, as far as that is known.
         done: Captures that succeeded.
+        in_doubt: Captures that the power cut off and that were not made again.
         seen: Those of them that the replay has come to.
         reached: The robot came to this action at least once.
         open: More may be wanted: a loop or a step that holds the action was not reached, or not to its end.
@@ -31,6 +32,7 @@ class Tally:
 
     wanted: int = 0
     done: int = 0
+    in_doubt: int = 0
     seen: int = 0
     reached: bool = False
     open: bool = False

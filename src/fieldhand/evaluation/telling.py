@@ -11,12 +11,16 @@ from fieldhand.task.results import (
     Acted,
     Arrived,
     ClockSet,
+    Continued,
     Decided,
     Ended,
     Event,
     Exited,
     Faulted,
+    InDoubt,
     Obstructed,
+    Paused,
+    Resumed,
     Shed,
     Started,
     Visiting,
@@ -56,6 +60,15 @@ class Teller:
                 return f"   {noun(self._robot, event.action)}{': ' + readings if readings else ''}"
             case Acted():
                 return f"   {noun(self._robot, event.action)} failed (attempt {event.attempt}): {event.what}"
+            case InDoubt():
+                then = "it is made again" if event.then == "repeat" else "it is not made again"
+                return f"   {noun(self._robot, event.action)} in doubt: {event.what}; {then}"
+            case Resumed():
+                return f"goes on after a power cut, battery at {event.charge_percent:.0f} %"
+            case Paused():
+                return f"paused ({event.reason})"
+            case Continued():
+                return "continued"
             case Decided():
                 return f"   {capitalised(event.why)}."
             case Shed(optional=True):

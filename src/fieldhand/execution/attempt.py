@@ -318,6 +318,11 @@ class Attempt:
         """Whether a goal is in hand whose end is not recorded yet."""
         return self._open is not None
 
+    @property
+    def doing(self) -> OpenDrive | OpenCapture | None:
+        """The goal in hand."""
+        return self._open
+
     def _context(self, here: Place) -> Context:
         return Context(here=here, visited=tuple(self.visited), bound=dict(self.bound))
 

@@ -90,7 +90,7 @@ def capture(attempt: Attempt, node: Act) -> Generator[None, None, Mapping[str, f
     A robot that does not know where it is makes none: it waits first.
 
     Returns:
-        What it measured, by quantity.
+        What it measured, by quantity; nothing where the power was cut and it is not to be made again.
 
     Raises:
         ActionFault: Every try failed.
@@ -113,6 +113,8 @@ def capture(attempt: Attempt, node: Act) -> Generator[None, None, Mapping[str, f
             yield
         if progress.state == "succeeded":
             return progress.readings
+        if progress.state == "cut_off":
+            return {}  # in doubt, and not to be made again: what it read is unknown
         what = progress.what
         if progress.state == "cancelled":
             raise ActionFault(what or "cancelled", where=_named(attempt.here))

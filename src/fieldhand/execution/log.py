@@ -18,24 +18,31 @@ class EventLog:
     """Writes events as they happen: each line is on its way to the disk before the next thing is done.
 
     Args:
-        path: File to write; it is replaced, its folder is made.
+        path: File to write; its folder is made.
+        begun: Bytes of it that stay; what is behind them is replaced.
 
     Raises:
         OutputError: It cannot be written, now or later (a full disk).
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, *, begun: int = 0) -> None:
         self._path = path
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
-            self._file: TextIO = path.open("w", encoding="utf-8", newline="\n")
+            self._file: TextIO = path.open("a" if begun else "w", encoding="utf-8", newline="\n")
+            if begun:
+                self._file.truncate(begun)
         except (OSError, ValueError) as error:
             raise self._unwritable(error) from None
 
     def __call__(self, event: Event) -> None:
         """Write one event."""
+        self.line(to_json(event))
+
+    def line(self, line: str) -> None:
+        """Write the line of an event."""
         try:
-            self._file.write(to_json(event) + "\n")
+            self._file.write(line + "\n")
             self._file.flush()
         except (OSError, ValueError) as error:
             raise self._unwritable(error) from None

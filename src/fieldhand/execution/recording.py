@@ -64,8 +64,8 @@ def end_capture(attempt: Attempt, open_: OpenCapture, progress: Progress) -> Pro
     """
     action = attempt.robot.action[open_.action]
     attempt.action_j += action.energy_j * min(1.0, progress.seconds / action.duration_s)
-    if progress.state == "cancelled":
-        return progress  # nothing was done, so nothing happened
+    if progress.state in ("cancelled", "cut_off"):
+        return progress  # nothing was done, so nothing happened; or it is in doubt, and that was said
     measures = action.measures
     if progress.state == "succeeded":
         what = next(filter(None, (unusable(attempt.robot, q, progress.readings.get(q)) for q in measures)), "")

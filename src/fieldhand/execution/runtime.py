@@ -2,32 +2,28 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from fieldhand.clock import Clock, ScaledClock, WallClock
+from fieldhand.clock import Clock, WallClock
 from fieldhand.errors import DriveFault, FieldhandError, NotApprovedError, OutputError
 from fieldhand.execution.attempt import Attempt, Ending
+from fieldhand.execution.bridge import Bridge
 from fieldhand.execution.drivers.protocol import Driver
 from fieldhand.execution.goals import drive
 from fieldhand.execution.guard import Guard
 from fieldhand.execution.interrupts import ctrl_c_as_request
+from fieldhand.execution.journal.records import Tape
+from fieldhand.execution.mission_clock import MissionClock
+from fieldhand.execution.orders import Order
 from fieldhand.execution.waiting import Steps
-from fieldhand.forecast.routes import drives_for
+from fieldhand.execution.witness import CANCEL_WITHIN_S
 from fieldhand.forecast.state import Spent
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.authorization import AuthorizedTask
+from fieldhand.task.frames import Then
 from fieldhand.task.results import Ended, Event, Exited, MissionStatus, Started
-
-#: Seconds of the wall clock between two looks at the robot, and at whether someone wants to stop.
-LOOK_EVERY_S = 0.1
-
-#: Seconds that a robot is given to stand still after a goal was cancelled.
-CANCEL_WITHIN_S = 10.0
-
-Asked = Callable[[], str | None]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,8 +43,8 @@ class Result:
     events: tuple[Event, ...]
 
 
-def never() -> None:
-    """Nobody wants to stop the mission."""
+def nobody() -> None:
+    """Nobody wants anything of the mission."""
 
 
 def run(
@@ -60,8 +56,11 @@ def run(
     guard: Guard,
     clock: Clock,
     emit: Callable[[Event], None],
-    interrupted: Asked = never,
+    interrupted: Callable[[], str | None] = nobody,
     wall: WallClock | None = None,
+    orders: Callable[[], Order | None] = nobody,
+    tape: Tape | None = None,
+    simulated: bool = False,
 ) -> Result:
     """Carry out a mission, whatever comes: it always ends with one ``Ended`` event, the last.
 
@@ -75,29 +74,46 @@ def run(
             robot stands.
         interrupted: Asked at every tick; a reason ends the mission as ``aborted``. So does Ctrl-C.
         wall: The time of day, to be written down.
+        orders: Asked at every tick: what a person wants now.
+        tape: Keeps what is needed to go on after a power cut. What it holds already is not done again: the mission
+            goes on from there. Its events come from the tape, not from ``emit``.
+        simulated: The driver is a simulation; for a mission that goes on it is a new one, brought to where it was.
 
     Raises:
         NotApprovedError: The site or the profile is not the one that was approved; nothing was done.
+        JournalError: The tape cannot be written, or the mission does not go as it says.
     """
     _require_approved(authorized, site, robot)
-    attempt = Attempt(
-        task=authorized.task,
-        site=site,
-        robot=robot,
-        driver=driver,
-        guard=guard,
-        clock=clock,
-        drives=drives_for(site, robot),
-        emit=emit,
-        wall=wall,
-    )
     with ctrl_c_as_request() as pressed:
+
+        def asked() -> Order | None:
+            reason = pressed() or interrupted()
+            return Order(wanted="end", reason=reason) if reason else orders()
+
+        bridge = Bridge(
+            authorized.task,
+            site=site,
+            robot=robot,
+            driver=driver,
+            guard=guard,
+            clock=clock if isinstance(clock, MissionClock) else MissionClock(clock),
+            emit=emit,
+            asked=asked,
+            wall=wall,
+            tape=tape,
+            simulated=simulated,
+        )
         try:
-            ending = _attempt_plan(attempt, lambda: pressed() or interrupted())
+            ending = _attempt_plan(bridge)
+        except BaseException:
+            bridge.witness.abandon()
+            raise
         finally:
             # Whatever came, an error of this program too: no wheel turns when nobody looks.
-            _come_to_rest(attempt)
-        return _end(attempt, ending)
+            _come_to_rest(bridge.attempt)
+        result = _end(bridge.attempt, ending)
+        bridge.witness.finish()
+        return result
 
 
 def _come_to_rest(attempt: Attempt) -> None:
@@ -122,15 +138,17 @@ def _require_approved(authorized: AuthorizedTask, site: Site, robot: RobotProfil
             )
 
 
-def _attempt_plan(attempt: Attempt, asked: Asked) -> Ending:
+def _attempt_plan(bridge: Bridge) -> Ending:
     """The plan, then the exit that follows from how it went."""
+    attempt = bridge.attempt
     try:
         _start(attempt)
-        ending = _carry_out_plan(attempt, asked)
+        ending = _carry_out_plan(bridge)
         ending = _settled(attempt, ending)
-        return _take_exit(attempt, ending, asked)
+        return _take_exit(bridge, ending)
     except KeyboardInterrupt:
-        ending = _aborted(attempt, "stopped by the operator", then_stay=True)
+        bridge.witness.interrupted()
+        ending = _aborted(attempt, Order(wanted="abort", reason="stopped by the operator"))
         try:
             return _settled(attempt, ending)
         except KeyboardInterrupt:
@@ -154,7 +172,7 @@ def _start(attempt: Attempt) -> None:
     )
 
 
-def _carry_out_plan(attempt: Attempt, asked: Asked) -> Ending:
+def _carry_out_plan(bridge: Bridge) -> Ending:
     """Tick the tree until it is done, has failed, or was cut short.
 
     Whether to stop is asked before anything new begins, and again before time passes.
@@ -163,16 +181,17 @@ def _carry_out_plan(attempt: Attempt, asked: Asked) -> Ending:
 
     from fieldhand.execution.tree import compile_tree
 
+    attempt = bridge.attempt
     tree = compile_tree(attempt.task, attempt)
     try:
         while True:
-            reason = asked() or attempt.driver.stopped()
-            if reason:
-                return _aborted(attempt, reason)
+            order = bridge.order() or _stopped(attempt)
+            if order:
+                return _aborted(attempt, order)
             tree.tick_once()
             if attempt.ending is not None:
                 return attempt.ending
-            stopped = attempt.driver.stopped()
+            stopped = _stopped(attempt)
             if stopped and tree.status == Status.FAILURE:
                 return _aborted(attempt, stopped)
             if tree.status == Status.SUCCESS:
@@ -180,27 +199,30 @@ def _carry_out_plan(attempt: Attempt, asked: Asked) -> Ending:
             if tree.status == Status.FAILURE:
                 then = attempt.exit_for(attempt.fault)
                 return Ending(status="faulted", exit="faulted", then=then, reason=attempt.what)
-            reason = asked()
-            if reason:
-                return _aborted(attempt, reason)
+            order = bridge.order()
+            if order:
+                return _aborted(attempt, order)
             _let_time_pass(attempt)
     finally:
         tree.stop(Status.INVALID)
 
 
-def _take_exit(attempt: Attempt, ending: Ending, asked: Asked) -> Ending:
+def _take_exit(bridge: Bridge, ending: Ending) -> Ending:
     """Drive where the exit leads. What goes wrong on the way ends the mission where the robot then is."""
+    attempt = bridge.attempt
     attempt.emit(Exited(t=attempt.t, node=ending.node, exit=ending.exit, then=ending.then, reason=ending.reason))
     home = attempt.site.home(ending.then, attempt.standing)
-    heard = asked() if ending.status == "aborted" else None
+    heard = bridge.order() if ending.status == "aborted" else None
     way = drive(attempt, "", home) if ending.then != "stay" else None
     try:
         while way is not None and _advance(way):
             # Who stopped the mission, and let the Task bring the robot home, must say something new to stop that.
-            reason = asked()
-            reason = attempt.driver.stopped() or (reason if reason != heard else None)
-            if reason:
-                return _settled(attempt, _aborted(attempt, reason, then_stay=True))
+            order = bridge.order()
+            if order is not None and (order == heard or order.wanted == "return"):
+                order = None
+            order = _stopped(attempt) or order
+            if order:
+                return _settled(attempt, _aborted(attempt, Order(wanted="abort", reason=order.reason)))
             _let_time_pass(attempt)
     except OutputError:
         raise
@@ -217,11 +239,21 @@ def _advance(steps: Steps) -> bool:
     return next(steps, True) is None
 
 
-def _aborted(attempt: Attempt, reason: str, *, then_stay: bool = False) -> Ending:
+def _stopped(attempt: Attempt) -> Order | None:
+    """The robot's own stop, as an order."""
+    reason = attempt.driver.stopped()
+    return Order(wanted="abort", reason=reason) if reason else None
+
+
+def _aborted(attempt: Attempt, order: Order) -> Ending:
     """A person or the robot's own stop ended it. A robot that cannot move any more stays."""
-    stuck = then_stay or attempt.driver.stopped() is not None
-    then = "stay" if stuck else attempt.exit_for("aborted")
-    return Ending(status="aborted", exit="faulted", then=then, reason=reason)
+    then: Then = "stay"
+    if attempt.driver.stopped() is None and order.wanted == "end":
+        then = attempt.exit_for("aborted")
+    elif attempt.driver.stopped() is None and order.wanted == "return":
+        home = attempt.exit_for("low_budget")
+        then = "return_to_start" if home == "stay" else home
+    return Ending(status="aborted", exit="faulted", then=then, reason=order.reason)
 
 
 def _settled(attempt: Attempt, ending: Ending) -> Ending:
@@ -240,10 +272,7 @@ def _settled(attempt: Attempt, ending: Ending) -> Ending:
 def _let_time_pass(attempt: Attempt) -> None:
     """Until the driver has something to say; in small slices where that takes real time."""
     seconds = attempt.next_event_in()
-    if seconds is None:
-        return
-    longest = LOOK_EVERY_S * attempt.clock.speed if isinstance(attempt.clock, ScaledClock) else math.inf
-    attempt.clock.advance(min(seconds, longest))
+    attempt.clock.advance(0.0 if seconds is None else seconds)
 
 
 def _end(attempt: Attempt, ending: Ending) -> Result:

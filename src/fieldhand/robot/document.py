@@ -13,6 +13,7 @@ from typing import Annotated
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
+from fieldhand.robot.model import InDoubtPolicy
 from fieldhand.task.capabilities import RESERVED_ACTIONS
 
 
@@ -183,6 +184,7 @@ class ActionDocument(Keyed):
     energy_j: NotNegative
     retries: Retries | None = None
     retry_wait_s: Wait | None = None
+    in_doubt: InDoubtPolicy = "repeat"
 
 
 class PatienceDocument(Keyed):

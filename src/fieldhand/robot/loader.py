@@ -248,6 +248,7 @@ def _action(name: str, document: ActionDocument) -> Action:
         labels=document.labels,
         retries=document.retries,
         retry_wait_s=document.retry_wait_s,
+        in_doubt=document.in_doubt,
     )
 
 

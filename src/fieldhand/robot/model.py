@@ -9,6 +9,9 @@ from typing import Literal
 
 Direction = Literal["below", "above"]
 
+#: What is done about a capture that was in the air when the power was cut: nobody knows whether it was made.
+InDoubtPolicy = Literal["repeat", "skip"]
+
 
 @dataclass(frozen=True, kw_only=True)
 class Level:
@@ -68,6 +71,7 @@ class Action:
         retries: How often it is tried again when it fails; None for as often as the robot's ``retries`` say.
         retry_wait_s: Seconds between two tries; None for the robot's.
         labels: What is done, once, in other languages, by their codes ("tomar una fotografía").
+        in_doubt: Whether a capture that the power cut off is made again: not where twice does harm, as a cut leaf.
     """
 
     name: str
@@ -81,6 +85,7 @@ class Action:
     labels: Mapping[str, str] = field(default_factory=dict)
     retries: int | None = None
     retry_wait_s: float | None = None
+    in_doubt: InDoubtPolicy = "repeat"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -111,6 +111,61 @@ class Acted:
 
 
 @dataclass(frozen=True, kw_only=True)
+class InDoubt:
+    """A capture was in the air when the power was cut: nobody knows whether it was made.
+
+    ``then`` says what follows: it is made again (``repeat``), or taken as it is, without readings (``skip``).
+    """
+
+    event: ClassVar[str] = "in_doubt"
+    status: ClassVar[str] = "in_doubt"
+    readings: ClassVar[Mapping[str, float]] = {}
+    units: ClassVar[Mapping[str, str]] = {}
+    t: float
+    node: str
+    action: str
+    then: Literal["repeat", "skip"]
+    kind: str
+    place: str
+    lat: float
+    lon: float
+    attempt: int = 1
+    what: str = ""
+    charge_percent: float = 100.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Resumed:
+    """The mission goes on after a power cut, where the robot is now. The time without power does not count."""
+
+    event: ClassVar[str] = "resumed"
+    t: float
+    node: str = ""
+    lat: float
+    lon: float
+    charge_percent: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Paused:
+    """A person told the robot to wait; it stands still as soon as the capture in hand is made."""
+
+    event: ClassVar[str] = "paused"
+    t: float
+    node: str = ""
+    reason: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Continued:
+    """The pause is over."""
+
+    event: ClassVar[str] = "continued"
+    t: float
+    node: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
 class Decided:
     """A condition was tested; ``why`` says it in words ("canopy_temperature 31.2 degC is below 33 degC")."""
 
@@ -232,6 +287,10 @@ Event = (
     | Driving
     | Arrived
     | Acted
+    | InDoubt
+    | Resumed
+    | Paused
+    | Continued
     | Decided
     | Shed
     | Obstructed

@@ -17,6 +17,7 @@ from fieldhand.errors import BundleError, NotTrustedError
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import parse_profile
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.formats.files import SiteFiles
 from fieldhand.site.geojson import site_of
 from fieldhand.site.model import Site
 from fieldhand.task.authorization import Authorization, AuthorizedTask
@@ -53,6 +54,8 @@ class Content:
     site: Site
     robot: RobotProfile
     manifest: Manifest
+    files: SiteFiles
+    profile: bytes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,6 +65,7 @@ class Bundle:
     Attributes:
         authorized: The Task with its authorization, as it was signed.
         site, robot: For which it was approved.
+        files, profile: What these were read from, byte for byte.
         signer: The trusted key that signed it.
         hashes: SHA-256 of the whole (``bundle``) and of each file: what was verified, for whoever sent it.
     """
@@ -70,6 +74,8 @@ class Bundle:
     site: Site
     robot: RobotProfile
     manifest: Manifest
+    files: SiteFiles
+    profile: bytes
     signer: KnownKey
     hashes: Mapping[str, str]
 
@@ -96,6 +102,8 @@ def open_bundle(data: bytes, *, source: str, known: Mapping[str, KnownKey], now:
         site=content.site,
         robot=content.robot,
         manifest=content.manifest,
+        files=content.files,
+        profile=content.profile,
         signer=signer,
         hashes=sealed.hashes,
     )
@@ -148,7 +156,8 @@ def content_of(sealed: Sealed, *, now: datetime) -> Content:
     _require_files(manifest, sealed)
     _require_past(manifest, now, source)
     robot = parse_profile(members[ROBOT], source=f"{source}, {ROBOT}")
-    site = site_of(site_files_of(members, manifest.site.file, source=source), lenient=manifest.site.lenient)
+    files = site_files_of(members, manifest.site.file, source=source)
+    site = site_of(files, lenient=manifest.site.lenient)
     require_valid(members[TASK], capabilities_of(robot), source=f"{source}, {TASK}")
     task = decode(members[TASK], source=f"{source}, {TASK}")
     _require_the_same(
@@ -160,7 +169,7 @@ def content_of(sealed: Sealed, *, now: datetime) -> Content:
         ("site file", (manifest.site.sha256, manifest.site.name), (site.sha256, site.name)),
         ("site", manifest.site.content_sha256, site.content_sha256),
     )
-    return Content(task=task, site=site, robot=robot, manifest=manifest)
+    return Content(task=task, site=site, robot=robot, manifest=manifest, files=files, profile=members[ROBOT])
 
 
 def authorization_of(manifest: Manifest) -> Authorization:

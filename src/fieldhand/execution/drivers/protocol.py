@@ -22,7 +22,8 @@ from typing import Literal, Protocol
 
 from fieldhand.site.model import Place
 
-GoalState = Literal["idle", "running", "succeeded", "failed", "cancelled"]
+#: ``cut_off`` is no driver's answer: the journal's, for a goal that was under way when the power was cut.
+GoalState = Literal["idle", "running", "succeeded", "failed", "cancelled", "cut_off"]
 
 #: Why a goal failed; ``none`` of one that did not.
 #:

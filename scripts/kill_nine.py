@@ -1,0 +1,315 @@
+"""Kill missions with ``kill -9`` at random instants, resume each to its end, and hold its log against what was done.
+
+    python scripts/kill_nine.py --kills 300 [--seed 1] [--json]
+
+The robot is simulated in this process; the mission is carried out in another, which is killed at any moment: inside a
+commit, between two, while a goal is under way. The robot outlives it, as a real one does, and keeps its own account of
+what it made. Missions are drawn as ``fieldhand bench guard`` draws them (conditions, loops, optional visits, budgets
+that bind), with faults of actions, sensors and aisles.
+
+Judged of each mission, from journal, event log and the robot's account:
+
+* lost: captures that the robot made and that are neither in the log nor in doubt;
+* repeated: captures beyond what the plan asks for on the branch that was taken, or more often in the log than made;
+* incomplete: the log does not end with one end, differs from the journal, or runs back in time.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import itertools
+import json
+import multiprocessing
+import os
+import random
+import signal
+import sys
+import tempfile
+import time
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fieldhand import mission
+from fieldhand.approval.authorize import EveryWarning, approve
+from fieldhand.bench.draw import Draft, draw
+from fieldhand.clock import Clock, SimulatedClock
+from fieldhand.errors import NotApprovedError
+from fieldhand.evaluation.guard import BudgetGuard
+from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, Progress
+from fieldhand.execution.drivers.simulation import SimulatedDriver
+from fieldhand.execution.journal.store import Journal, create
+from fieldhand.execution.runtime import run
+from fieldhand.execution.world import ActionFails, Blocked, SensorSilent, Spot, World, WorldFault
+from fieldhand.forecast.routes import drives_for
+from fieldhand.task.authorization import AuthorizedTask
+from fieldhand.task.results import Acted, Ended, InDoubt, Started, from_json
+
+#: What a driver and a clock are asked over the line.
+ASKED = (
+    "start_drive",
+    "start_action",
+    "poll",
+    "cancel",
+    "next_event_in",
+    "position",
+    "charge_percent",
+    "stopped",
+    "lost",
+)
+LONGEST_S = 120.0
+
+
+@dataclass
+class Robot:
+    """The simulated robot, which outlives every process that sends it anywhere, and what it made."""
+
+    driver: Driver
+    clock: Clock
+    made: list[tuple[str, str]] = field(default_factory=list)
+    open: ActionGoal | None = None
+
+    def answer(self, name: str, *words: Any) -> Any:
+        """Do or say what is asked."""
+        if name in ("now", "advance"):
+            return getattr(self.clock, name)(*words)
+        if name == "seed":
+            return self.driver.seed
+        if name in ("start_drive", "start_action"):
+            self.note()
+        said = getattr(self.driver, name)(*words)
+        if name == "start_action":
+            self.open = words[0]
+        self.note()
+        return said
+
+    def note(self) -> None:
+        """Note a capture that is made."""
+        progress: Progress = self.driver.poll()
+        if self.open is not None and progress.over:
+            if progress.state == "succeeded":
+                self.made.append((self.open.action, self.open.place.id))
+            self.open = None
+
+
+class Line:
+    """A driver and a clock at the other end of a line."""
+
+    def __init__(self, line: Connection) -> None:
+        self._line = line
+        self.seed: int | None = self._ask("seed")
+
+    def _ask(self, name: str, *words: Any) -> Any:
+        self._line.send((name, *words))
+        return self._line.recv()
+
+    def start_drive(self, goal: DriveGoal) -> None:
+        self._ask("start_drive", goal)
+
+    def start_action(self, goal: ActionGoal) -> None:
+        self._ask("start_action", goal)
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in (*ASKED, "now", "advance"):
+            raise AttributeError(name)
+        return lambda *words: self._ask(name, *words)
+
+
+@dataclass
+class Verdict:
+    """What came of the missions."""
+
+    missions: int = 0
+    kills: int = 0
+    lives: int = 0
+    made: int = 0
+    in_doubt: int = 0
+    lost: int = 0
+    repeated: int = 0
+    incomplete: int = 0
+    ends: Counter[str] = field(default_factory=Counter)
+    outcomes: Counter[str] = field(default_factory=Counter)
+    troubles: list[str] = field(default_factory=list)
+
+
+def world_of(draft: Draft, rng: random.Random) -> World:
+    """The world of a mission: now and then something fails."""
+    spots = [Spot(id=tree.place.id) for tree in draft.site.trees]
+    faults: list[WorldFault] = []
+    if rng.random() < 0.4:
+        faults.append(ActionFails(action=rng.choice([a.name for a in draft.robot.actions]), times=rng.randint(1, 3)))
+    if rng.random() < 0.3:
+        names = [q.name for q in draft.robot.quantities]
+        faults.append(SensorSilent(quantity=rng.choice(names), times=rng.randint(1, 3)))
+    if rng.random() < 0.3:
+        faults.append(Blocked(at=rng.choice(spots), within_m=1.0, times=rng.randint(1, 2)))
+    return World(faults=tuple(faults), charge_percent=draft.charge_percent)
+
+
+def nobody_hears(told: object) -> None:
+    """Takes an event, and does nothing."""
+
+
+def live(folder: Path, approved: AuthorizedTask, draft: Draft, line: Connection) -> None:
+    """Carry the mission out, or go on with it: this is what is killed."""
+    robot: Any = Line(line)
+    task, site, profile = draft.task, draft.site, draft.robot
+    guard = BudgetGuard(
+        task, site, profile, drives_for(site, profile), draft.flight_seed, charge_percent=draft.charge_percent
+    )
+    with Journal(folder / "journal.sqlite", "kill -9", folder / "events.jsonl", nobody_hears) as journal:
+        run(
+            approved,
+            site=site,
+            robot=profile,
+            driver=robot,
+            guard=guard,
+            clock=robot,
+            emit=nobody_hears,
+            tape=journal,
+        )
+
+
+def one_life(
+    folder: Path, approved: AuthorizedTask, draft: Draft, robot: Robot, until_s: float | None
+) -> tuple[bool, float]:
+    """One process, killed after so many seconds.
+
+    Returns:
+        Whether it was killed, and how long it lived.
+    """
+    here, there = multiprocessing.Pipe()
+    sys.stdout.flush()
+    child = os.fork()
+    if child == 0:
+        status = 70
+        try:
+            here.close()
+            live(folder, approved, draft, there)
+            status = 0
+        except BaseException as error:  # noqa: BLE001  whatever it is, the parent has to see it
+            print(f"{type(error).__name__}: {error}", file=sys.stderr)  # noqa: T201
+        finally:
+            os._exit(status)
+    there.close()
+    began = time.perf_counter()
+    deadline = began + (LONGEST_S if until_s is None else until_s)
+    with contextlib.suppress(EOFError, OSError):
+        while (left := deadline - time.perf_counter()) > 0:
+            if here.poll(left):
+                name, *words = here.recv()
+                here.send(robot.answer(name, *words))
+    lived = time.perf_counter() - began
+    with contextlib.suppress(ProcessLookupError):
+        os.kill(child, signal.SIGKILL)
+    _, status = os.waitpid(child, 0)
+    here.close()
+    if os.WIFEXITED(status) and os.WEXITSTATUS(status) != 0:
+        raise SystemExit(f"the mission of seed {draft.seed} ended with an error")
+    return os.WIFSIGNALED(status), lived
+
+
+def approved_draft(seed: int) -> tuple[Draft, AuthorizedTask] | None:
+    """The mission of a seed, if it is approved."""
+    draft = draw(seed, 0, 60)
+    if draft is None:
+        return None
+    try:
+        at = "2026-01-01T00:00:00+00:00"
+        return draft, approve(draft.task, draft.site, draft.robot, by="the test", at=at, confirmed=EveryWarning())
+    except NotApprovedError:
+        return None
+
+
+def judge(folder: Path, draft: Draft, robot: Robot, verdict: Verdict) -> None:
+    """Hold journal and log against what the robot made."""
+    robot.note()
+    lines = (folder / "events.jsonl").read_text().splitlines()
+    with Journal(folder / "journal.sqlite", "kill -9", folder / "events.jsonl", nobody_hears) as journal:
+        kept = list(journal.before)
+    events = [event for event in map(from_json, lines) if event is not None]
+    told = Counter((e.action, e.place) for e in events if isinstance(e, Acted) and e.status == "success")
+    failed = Counter((e.action, e.place) for e in events if isinstance(e, Acted) and e.status == "failed")
+    doubt = Counter((e.action, e.place) for e in events if isinstance(e, InDoubt))
+    made = Counter(robot.made)
+    # A capture whose reading was not believed was made as well.
+    verdict.lost += (made - told - failed - doubt).total()
+    verdict.repeated += (told - made).total()
+    ends = [e for e in events if isinstance(e, Ended)]
+    whole = lines == kept and len(ends) == 1 and events[-1] is ends[0] and isinstance(events[0], Started)
+    whole = whole and all(a.t <= b.t + 1e-9 for a, b in itertools.pairwise(events))
+    outcomes = mission.assess(draft.task, events).outcomes
+    for goal in outcomes:
+        if goal.wanted is not None and goal.done > goal.wanted:
+            verdict.repeated += goal.done - goal.wanted
+            verdict.troubles.append(f"seed {draft.seed}: goal {goal.goal}: {goal.why}")
+        verdict.outcomes[goal.outcome] += 1
+    if not whole:
+        verdict.incomplete += 1
+        verdict.troubles.append(f"seed {draft.seed}: the log is not whole")
+    verdict.missions += 1
+    verdict.made += made.total()
+    verdict.in_doubt += doubt.total()
+    verdict.ends[ends[0].status if ends else "none"] += 1
+
+
+def measure(kills: int, seed: int) -> Verdict:
+    """Kill so many times, missions of one seed after the other."""
+    rng, verdict, number = random.Random(seed), Verdict(), seed * 100_000  # noqa: S311  no secret
+    while verdict.kills < kills:
+        number += 1
+        drawn = approved_draft(number)
+        if drawn is None:
+            continue
+        draft, approved = drawn
+        world = world_of(draft, rng)
+
+        def new_robot(draft: Draft = draft, world: World = world) -> Robot:
+            clock = SimulatedClock()
+            chance = np.random.default_rng(draft.flight_seed)
+            return Robot(driver=SimulatedDriver(draft.site, draft.robot, world, clock, chance), clock=clock)
+
+        with tempfile.TemporaryDirectory() as name:
+            whole, folder = Path(name) / "whole", Path(name) / "killed"
+            for one in (whole, folder):
+                one.mkdir()
+                create(one / "journal.sqlite", "kill -9")
+            _, lasts_s = one_life(whole, approved, draft, new_robot(), None)
+            robot = new_robot()
+            for _ in range(rng.choice((1, 1, 2, 3, 5))):
+                killed, _ = one_life(folder, approved, draft, robot, rng.uniform(0.0, lasts_s))
+                verdict.kills += killed
+                verdict.lives += 1
+                if not killed:
+                    break
+            else:
+                one_life(folder, approved, draft, robot, None)
+                verdict.lives += 1
+            judge(folder, draft, robot, verdict)
+    return verdict
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """The command line; status 1 if anything was lost, repeated or incomplete."""
+    parser = argparse.ArgumentParser(description="Kill missions with kill -9 at random instants and resume them.")
+    parser.add_argument("--kills", type=int, default=300)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--json", action="store_true")
+    given = parser.parse_args(words)
+    found = measure(given.kills, given.seed)
+    if given.json:
+        print(json.dumps(vars(found)))  # noqa: T201
+    else:
+        for name, value in vars(found).items():
+            print(f"{name:<12}{dict(value) if isinstance(value, Counter) else value}")  # noqa: T201
+    return 1 if found.lost or found.repeated or found.incomplete else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,74 @@
+"""``fieldhand pause``, ``abort`` and ``return``: tell a mission something from another process."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from fieldhand.cli.options import JsonOption, MissionArgument, MissionsOption
+
+if TYPE_CHECKING:
+    from fieldhand.execution.journal.desk import Said
+
+#: Seconds to wait for the answer; a mission looks ten times a second.
+ANSWER_WITHIN_S = 5.0
+
+BecauseOption = Annotated[str, typer.Option("--because", help="Why, in words; the event log keeps it.")]
+
+
+def pause(
+    mission: MissionArgument = None,
+    because: BecauseOption = "paused by the operator",
+    kept: MissionsOption = None,
+    json: JsonOption = False,
+) -> None:
+    """Let the robot stand still, as soon as the capture in hand is made; `fieldhand resume` lets it go on."""
+    tell(mission, kept, "pause", because, "paused", json=json)
+
+
+def abort(
+    mission: MissionArgument = None,
+    because: BecauseOption = "stopped by the operator",
+    kept: MissionsOption = None,
+    json: JsonOption = False,
+) -> None:
+    """Stop here, at once; the mission is over."""
+    tell(mission, kept, "abort", because, "stopped", json=json)
+
+
+def come_home(
+    mission: MissionArgument = None,
+    because: BecauseOption = "called home by the operator",
+    kept: MissionsOption = None,
+    json: JsonOption = False,
+) -> None:
+    """Leave the rest and come home; the mission is over when the robot is there."""
+    tell(mission, kept, "return", because, "coming home", json=json)
+
+
+def tell(name: str | None, under: Path | None, said: Said, because: str, done: str, *, json: bool) -> None:
+    """Tell a mission something, and say whether it has heard it."""
+    import time
+
+    from fieldhand import missions
+    from fieldhand.cli import show
+
+    folder = missions.find(under or missions.missions_folder(os.environ), name)
+    until = time.monotonic() + ANSWER_WITHIN_S
+
+    def wait() -> bool:
+        time.sleep(0.02)
+        return time.monotonic() < until
+
+    heard = missions.order(folder, said, because, wait=wait)
+    if json:
+        show.print_json({"mission": folder.name, "order": said, "heard": heard})
+    elif heard:
+        show.out.print(f"mission {folder.name}: {done}")
+    elif missions.is_running(folder):
+        show.out.print(f"mission {folder.name} has not answered yet; the order stands")
+    else:
+        show.out.print(f"mission {folder.name} is cut off; the order stands, and holds when it is resumed")

@@ -1,0 +1,117 @@
+"""How a mission stands, from the events that are safe so far: where it is, what is done, what is left."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from fieldhand.evaluation.outcome import judge
+from fieldhand.evaluation.telling import Teller, noun
+from fieldhand.robot.model import RobotProfile
+from fieldhand.task.frames import Task
+from fieldhand.task.results import (
+    Acted,
+    Arrived,
+    Continued,
+    Driving,
+    Ended,
+    Event,
+    Exited,
+    GoalOutcome,
+    InDoubt,
+    Paused,
+    Resumed,
+    Started,
+)
+
+State = Literal["running", "paused", "interrupted", "ended"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Standing:
+    """How a mission stands.
+
+    Attributes:
+        doing: What it does, or did last, in words.
+        place: The place that it is at or drives to; empty before the first.
+        lat, lon: Where it was when that was written; None before it began.
+        captures: That succeeded.
+        in_doubt: Captures that a power cut left in doubt.
+        goals: Each goal, as far as it is known.
+        limits: By kind of budget, what the Task allows.
+        status, reason: How it ended.
+    """
+
+    state: State
+    doing: str
+    node: str
+    place: str
+    lat: float | None
+    lon: float | None
+    seconds: float
+    travelled_m: float
+    charge_percent: float | None
+    captures: int
+    in_doubt: int
+    goals: tuple[GoalOutcome, ...]
+    limits: dict[str, float]
+    events: int
+    status: str = ""
+    reason: str = ""
+
+
+def standing(task: Task, robot: RobotProfile, events: Sequence[Event], *, running: bool) -> Standing:
+    """How a mission stands.
+
+    Args:
+        task, robot: Of the mission.
+        events: Those that are safe.
+        running: Whether a process carries it out.
+    """
+    last = events[-1] if events else None
+    ended = last if isinstance(last, Ended) else None
+    turn = next((e for e in reversed(events) if isinstance(e, Paused | Continued | Exited)), None)
+    state: State = "interrupted"
+    if ended is not None:
+        state = "ended"
+    elif running:
+        state = "paused" if isinstance(turn, Paused) else "running"
+    at = next((e for e in reversed(events) if isinstance(e, Started | Arrived | Resumed | Ended)), None)
+    to = next((e for e in reversed(events) if isinstance(e, Arrived | Driving)), None)
+    charged = [e.charge_percent for e in events if isinstance(e, Started | Arrived | Acted | InDoubt | Resumed | Ended)]
+    driven = [e.travelled_m for e in events if isinstance(e, Arrived | Ended)]
+    return Standing(
+        state=state,
+        doing=_doing(robot, last, task),
+        node=next((e.node for e in reversed(events) if e.node), ""),
+        place=to.place if to is not None else "",
+        lat=at.lat if at is not None else None,
+        lon=at.lon if at is not None else None,
+        seconds=last.t if last is not None else 0.0,
+        travelled_m=driven[-1] if driven else 0.0,
+        charge_percent=charged[-1] if charged else None,
+        captures=sum(isinstance(e, Acted) and e.status == "success" for e in events),
+        in_doubt=sum(isinstance(e, InDoubt) for e in events),
+        goals=judge(task, events),
+        limits={b.kind: b.limit for b in task.constraints.budgets},
+        events=len(events),
+        status="" if ended is None else ended.status,
+        reason="" if ended is None else ended.reason,
+    )
+
+
+def _doing(robot: RobotProfile, last: Event | None, task: Task) -> str:
+    match last:
+        case None:
+            return "nothing yet"
+        case Driving():
+            place = f"tree {last.place}" if last.kind == "tree" else f"the {last.place}"
+            return f"drives to {place}"
+        case Arrived():
+            action = next((g.action for g in task.command.goals if g.node == last.node), None)
+            place = f"tree {last.place}" if last.kind == "tree" else f"the {last.place}"
+            return f"{noun(robot, action)} at {place}" if action else f"at {place}"
+        case _:
+            told = Teller(robot).tell(last)
+            return " ".join(told.split()[1:]) if told else last.event

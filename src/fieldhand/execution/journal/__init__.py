@@ -1,0 +1,1 @@
+"""Durable execution: what a mission needs to go on after a power cut at any instant (docs/execution.md, "Journal")."""

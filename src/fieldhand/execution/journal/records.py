@@ -1,0 +1,205 @@
+"""Records of the tape: each an answer that the robot, the guard or a person gave, as JSON."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, Protocol
+
+from fieldhand import errors
+from fieldhand.errors import FieldhandError, JournalError
+from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Position, Progress
+from fieldhand.execution.orders import Order
+from fieldhand.forecast.state import Choice, Verdict
+
+#: ``sight``: what was seen at one instant. ``begun``: a goal is about to begin. ``cancel``: its end is asked for.
+#: ``admit``, ``choose``: an answer of the guard. ``cut``: here the power was cut. ``interrupt``: Ctrl-C a second time.
+Kind = Literal["sight", "begun", "cancel", "admit", "choose", "cut", "interrupt"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Record:
+    """One answer; ``body`` is its JSON."""
+
+    kind: str
+    body: str
+
+
+class Tape(Protocol):
+    """Where answers and events are kept, in their order."""
+
+    def next(self) -> Record | None:
+        """The next answer that was recorded before; None once they are used up."""
+        ...
+
+    def append(self, record: Record) -> None:
+        """Keep an answer; it is safe after :meth:`commit`."""
+        ...
+
+    def event(self, line: str) -> None:
+        """Keep an event. One that was kept before has to be the same.
+
+        Raises:
+            JournalError: It is another.
+        """
+        ...
+
+    def commit(self, *, order: int = 0) -> None:
+        """Bring all that was kept to the disk, and wait until it is there.
+
+        Args:
+            order: Number of the last order that was heard.
+
+        Raises:
+            JournalError: It cannot be written (a full disk).
+        """
+        ...
+
+    @property
+    def unsaid(self) -> bool:
+        """Whether there are events that nobody was told yet."""
+        ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sight:
+    """What the mission knows of robot, time and orders at one instant.
+
+    Attributes:
+        lost: Why the robot does not know where it is; None while it does.
+        wall: The time of day, in seconds since 1970; None where there is none.
+        next_in: Seconds until the driver has something to say; None where no goal is running.
+    """
+
+    t: float
+    position: Position
+    charge_percent: float
+    progress: Progress
+    stopped: str | None
+    lost: str | None
+    next_in: float | None
+    order: Order | None
+    wall: float | None = None
+
+    def record(self) -> Record:
+        """As it is kept."""
+        p, g, o = self.position, self.progress, self.order
+        body = {
+            "t": self.t,
+            "at": [p.x, p.y, p.lat, p.lon],
+            "charge": self.charge_percent,
+            "goal": [g.state, g.metres, g.seconds, dict(g.readings), g.what, g.fault],
+            "stopped": self.stopped,
+            "lost": self.lost,
+            "wall": self.wall,
+            "next_in": self.next_in,
+            "order": None if o is None else [o.number, o.wanted, o.reason],
+        }
+        return Record(kind="sight", body=json.dumps(body))
+
+
+def sight_of(record: Record) -> Sight:
+    """A sight from its record.
+
+    Raises:
+        JournalError: It is none.
+    """
+    try:
+        body = json.loads(record.body)
+        x, y, lat, lon = body["at"]
+        state, metres, seconds, readings, what, fault = body["goal"]
+        order = body["order"]
+        return Sight(
+            t=float(body["t"]),
+            position=Position(x=x, y=y, lat=lat, lon=lon),
+            charge_percent=float(body["charge"]),
+            progress=Progress(state=state, metres=metres, seconds=seconds, readings=readings, what=what, fault=fault),
+            stopped=body["stopped"],
+            lost=body["lost"],
+            wall=body["wall"],
+            next_in=body["next_in"],
+            order=None if order is None else Order(number=order[0], wanted=order[1], reason=order[2]),
+        )
+    except (ValueError, KeyError, TypeError) as error:
+        raise garbled(error) from None
+
+
+def goal_record(goal: DriveGoal | ActionGoal) -> Record:
+    """What is begun, in so many words as tell it from any other goal."""
+    place = [goal.place.kind, goal.place.id]
+    if isinstance(goal, DriveGoal):
+        body: dict[str, Any] = {"drive": place, "from": goal.path_m[0], "to": goal.path_m[-1], "m": goal.length_m}
+    else:
+        body = {"action": goal.action, "place": place, "parameters": dict(goal.parameters)}
+    return Record(kind="begun", body=json.dumps(body))
+
+
+def answer_record(kind: Kind, node: str, answer: Verdict | Choice | FieldhandError) -> Record:
+    """An answer of the guard about a node, or the error that it gave instead."""
+    said: dict[str, Any]
+    if isinstance(answer, FieldhandError):
+        said = {"error": [type(answer).__name__, answer.what, answer.where, answer.advice]}
+    else:
+        said = {"answer": dataclasses.asdict(answer)}
+    return Record(kind=kind, body=json.dumps({"node": node, **said}))
+
+
+def verdict_of(record: Record, node: str) -> Verdict:
+    """The verdict of a record about this node; the error that was given instead is raised.
+
+    Raises:
+        JournalError: It is none, or about another node.
+    """
+    answer = _answer(record, node)
+    try:
+        return Verdict(**answer)
+    except TypeError as error:
+        raise garbled(error) from None
+
+
+def choice_of(record: Record, node: str) -> Choice:
+    """The choice of a record about this node; as :func:`verdict_of`."""
+    answer = _answer(record, node)
+    try:
+        return Choice(**{**answer, "shed": tuple(answer["shed"])})
+    except (TypeError, KeyError) as error:
+        raise garbled(error) from None
+
+
+def _answer(record: Record, node: str) -> Mapping[str, Any]:
+    try:
+        body = json.loads(record.body)
+        about, error, answer = body["node"], body.get("error"), body.get("answer")
+    except (ValueError, KeyError, TypeError, AttributeError) as fault:
+        raise garbled(fault) from None
+    if about != node:
+        raise diverged(f"the guard was asked about {about}, now it is asked about {node}")
+    if error is not None:
+        raise _error(error)
+    if not isinstance(answer, dict):
+        raise garbled("an answer of the guard is missing")
+    return answer
+
+
+def _error(said: Sequence[str]) -> FieldhandError:
+    name, what, where, advice = said
+    kind = getattr(errors, name, FieldhandError) if name in errors.__all__ else FieldhandError
+    made: FieldhandError = kind(what, where=where, advice=advice)
+    return made
+
+
+def garbled(why: object) -> JournalError:
+    """A record that this program did not write."""
+    return JournalError(
+        f"the journal holds something that no mission wrote ({why})", advice="carry the Task out as a new mission"
+    )
+
+
+def diverged(why: str) -> JournalError:
+    """The mission does not go as it went."""
+    return JournalError(
+        f"the mission does not go as the journal says: {why}",
+        advice="resume it with the version of Fieldhand that began it, or carry the Task out as a new mission",
+    )

@@ -1,0 +1,39 @@
+"""Missions that outlast a power cut: each has a folder with all that it needs, and the journal of what it did.
+
+begin ──▶ folder ──carry_out──▶ events          status and order: from any other process, at any moment
+                     ▲    │ power cut
+                     └────┘
+
+    task.xml, site/…, robot.yaml, world.yaml, mission.json    what the mission is
+    journal.sqlite, events.jsonl                              what was done
+    orders.sqlite, lock                                       what people want; who carries it out
+"""
+
+from fieldhand.missions.folder import (
+    Inputs,
+    Mission,
+    all_missions,
+    begin,
+    find,
+    missions_folder,
+    new_id,
+    open_mission,
+)
+from fieldhand.missions.kept import Status, carry_out, events_of, is_running, order, status
+
+__all__ = [
+    "Inputs",
+    "Mission",
+    "Status",
+    "all_missions",
+    "begin",
+    "carry_out",
+    "events_of",
+    "find",
+    "is_running",
+    "missions_folder",
+    "new_id",
+    "open_mission",
+    "order",
+    "status",
+]

@@ -1,0 +1,264 @@
+"""The folder of a mission: every byte that it needs, so that it depends on no other file from then on."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import secrets
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from fieldhand import mission
+from fieldhand.errors import JournalError
+from fieldhand.task.authorization import Authorization, AuthorizedTask
+
+if TYPE_CHECKING:
+    from fieldhand.execution.world import World
+    from fieldhand.robot.model import RobotProfile
+    from fieldhand.site.model import Site
+
+#: Of mission.json.
+FORMAT = 1
+
+LOCK, JOURNAL, ORDERS, LOG, _ABOUT = "lock", "journal.sqlite", "orders.sqlite", "events.jsonl", "mission.json"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Inputs:
+    """What a mission is: every byte that it needs, so that it depends on no other file from then on.
+
+    Attributes:
+        task: The Task document that was approved.
+        site: The site's files by name, the one that is opened first.
+        lenient: Whether the site was read leniently.
+        robot: The profile.
+        world: A world file; None for a world without surprises.
+        seed: Of every random thing in the simulation, and of the guard.
+        planner: Who planned it.
+    """
+
+    task: bytes
+    site: Mapping[str, bytes]
+    robot: bytes
+    authorization: Authorization
+    world: bytes | None = None
+    lenient: bool = False
+    seed: int = 0
+    planner: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mission:
+    """A mission as its folder holds it."""
+
+    folder: Path
+    authorized: AuthorizedTask
+    site: Site
+    robot: RobotProfile
+    world: World
+    seed: int
+    planner: str
+    sha256: str
+
+    @property
+    def id(self) -> str:
+        """Its name: that of the folder."""
+        return self.folder.name
+
+
+def missions_folder(environ: Mapping[str, str]) -> Path:
+    """Where missions lie unless the user says otherwise: ``FIELDHAND_MISSIONS``, else in the user's state folder."""
+    own = environ.get("FIELDHAND_MISSIONS")
+    if own:
+        return Path(own)
+    return mission.state_folder(environ) / "missions"
+
+
+def new_id(at: datetime) -> str:
+    """A name for a mission that begins now."""
+    return f"{at:%Y%m%d-%H%M%S}-{secrets.token_hex(3)}"
+
+
+def begin(under: Path, name: str, inputs: Inputs) -> Path:
+    """Make the folder of a mission. Nothing is done yet; a folder that was not finished is no mission.
+
+    Returns:
+        The folder.
+
+    Raises:
+        JournalError: There is a mission of that name, or the folder cannot be written.
+    """
+    from fieldhand.execution.journal.desk import Desk
+    from fieldhand.execution.journal.store import create
+
+    folder = under / name
+    files = {"task.xml": inputs.task, "robot.yaml": inputs.robot}
+    files.update({f"site/{Path(file).name}": data for file, data in inputs.site.items()})
+    if inputs.world is not None:
+        files["world.yaml"] = inputs.world
+    about = {
+        "format": FORMAT,
+        "site": f"site/{Path(next(iter(inputs.site))).name}",
+        "lenient": inputs.lenient,
+        "seed": inputs.seed,
+        "planner": inputs.planner,
+        "authorization": asdict(inputs.authorization),
+        "files": {file: hashlib.sha256(data).hexdigest() for file, data in files.items()},
+    }
+    whole = json.dumps(about, ensure_ascii=False, indent=1).encode()
+    if (folder / _ABOUT).exists():
+        raise JournalError("there is a mission of that name already", where=str(folder), advice="fieldhand resume it")
+    try:
+        (folder / "site").mkdir(parents=True, exist_ok=True)
+        for file in (JOURNAL, f"{JOURNAL}-wal", f"{JOURNAL}-shm", ORDERS, f"{ORDERS}-wal", f"{ORDERS}-shm"):
+            (folder / file).unlink(missing_ok=True)
+        for file, data in files.items():
+            _write(folder / file, data)
+        create(folder / JOURNAL, hashlib.sha256(whole).hexdigest())
+        Desk(folder / ORDERS).create()
+        _write(folder / f"{_ABOUT}.part", whole)
+        (folder / f"{_ABOUT}.part").rename(folder / _ABOUT)
+        _sync(folder)
+    except OSError as error:
+        raise JournalError(
+            f"the mission's folder cannot be written: {error.strerror or error}",
+            where=str(folder),
+            advice="free some space, or give another folder with --missions",
+        ) from None
+    return folder
+
+
+def open_mission(folder: Path) -> Mission:
+    """Read a mission from its folder; every byte has to be the one that it began with.
+
+    Raises:
+        JournalError: This is no mission, or not the one that was begun.
+        NotApprovedError: It is not what was approved.
+    """
+    from fieldhand.approval.authorize import approved_before
+    from fieldhand.execution.world import World, load_world
+    from fieldhand.robot.loader import parse_profile
+    from fieldhand.site.geojson import load_site
+
+    about, whole = read_about(folder)
+    try:
+        sums, site_file = dict(about["files"]), str(about["site"])
+        authorization = Authorization(
+            **{**about["authorization"], "confirmed": tuple(about["authorization"]["confirmed"])}
+        )
+        lenient, seed, planner = bool(about["lenient"]), int(about["seed"]), str(about["planner"])
+    except (KeyError, TypeError, ValueError) as error:
+        raise _no_mission(folder, f"{_ABOUT} lacks {error}") from None
+    files = {file: read_file(folder, file, sha256) for file, sha256 in sums.items()}
+    if site_file not in files or not {"task.xml", "robot.yaml"} <= files.keys():
+        raise _no_mission(folder, f"{_ABOUT} names no Task, robot or site")
+    robot = parse_profile(files["robot.yaml"], source=str(folder / "robot.yaml"))
+    site = load_site(folder / site_file, lenient=lenient)
+    task = mission.decode_task(files["task.xml"], robot, source=str(folder / "task.xml"))
+    return Mission(
+        folder=folder,
+        authorized=approved_before(files["task.xml"], task, authorization, site, robot),
+        site=site,
+        robot=robot,
+        world=load_world(folder / "world.yaml") if "world.yaml" in files else World(),
+        seed=seed,
+        planner=planner,
+        sha256=hashlib.sha256(whole).hexdigest(),
+    )
+
+
+def find(under: Path, name: str | None) -> Path:
+    """The folder of a mission: by its name, by its path, or without either the one begun last.
+
+    Raises:
+        JournalError: There is none.
+    """
+    if name is not None:
+        for folder in (under / name, Path(name)):
+            if (folder / _ABOUT).is_file():
+                return folder
+        raise JournalError(f"no mission '{name}'", where=str(under), advice=_known(under))
+    folders = all_missions(under)
+    if not folders:
+        raise JournalError("no mission was begun", where=str(under), advice="fieldhand run begins one")
+    return folders[-1]
+
+
+def all_missions(under: Path) -> tuple[Path, ...]:
+    """Every mission that was begun there, the one begun last at the end."""
+    found = [about for about in under.glob(f"*/{_ABOUT}") if about.is_file()]
+    return tuple(about.parent for about in sorted(found, key=lambda a: (a.stat().st_mtime_ns, a.parent.name)))
+
+
+def _known(under: Path) -> str:
+    names = [folder.name for folder in all_missions(under)]
+    return f"there are {', '.join(names[-5:])}" if names else "none was begun there"
+
+
+def read_about(folder: Path) -> tuple[dict[str, Any], bytes]:
+    """What mission.json says, and its bytes.
+
+    Raises:
+        JournalError: It is missing, or is none.
+    """
+    try:
+        whole = (folder / _ABOUT).read_bytes()
+        about = json.loads(whole)
+    except OSError as error:
+        raise _no_mission(folder, f"{_ABOUT}: {error.strerror}") from None
+    except ValueError as error:
+        raise _no_mission(folder, f"{_ABOUT} is not JSON: {error}") from None
+    if not isinstance(about, dict) or about.get("format") != FORMAT:
+        raise _no_mission(folder, f"{_ABOUT} has not the format {FORMAT} that this version reads")
+    return about, whole
+
+
+def read_file(folder: Path, file: str, sha256: str) -> bytes:
+    """The bytes of a file of the folder, which have to be those that the mission began with.
+
+    Raises:
+        JournalError: They are others, or cannot be read.
+    """
+    path = folder / file
+    if path.resolve() != folder.resolve() / file:
+        raise _no_mission(folder, f"{file} leads elsewhere")
+    try:
+        data = path.read_bytes()
+    except (OSError, ValueError) as error:
+        raise _no_mission(folder, f"{file} cannot be read: {error}") from None
+    if hashlib.sha256(data).hexdigest() != sha256:
+        raise JournalError(
+            f"{file} is not the one that the mission began with",
+            where=str(folder),
+            advice="bring the file back, or carry the Task out as a new mission",
+        )
+    return data
+
+
+def _no_mission(folder: Path, why: str) -> JournalError:
+    return JournalError(f"this is no mission: {why}", where=str(folder), advice="give the folder that run has made")
+
+
+def _write(path: Path, data: bytes) -> None:
+    """Write a file and wait until it is on the disk."""
+    with path.open("wb") as file:
+        file.write(data)
+        file.flush()
+        os.fsync(file.fileno())
+
+
+def _sync(folder: Path) -> None:
+    """Wait until the names in a folder are on the disk, where the system knows how."""
+    for one in (folder / "site", folder, folder.parent):
+        try:
+            handle = os.open(one, os.O_RDONLY)
+        except OSError:
+            continue  # a folder cannot be opened everywhere
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)

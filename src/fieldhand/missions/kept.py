@@ -1,0 +1,178 @@
+"""Missions that are kept in a folder: carried out, gone on with, asked how they stand, told something."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import closing
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from fieldhand import mission
+from fieldhand.errors import ExecutionError
+from fieldhand.missions.folder import JOURNAL, LOCK, LOG, ORDERS, Mission, read_about, read_file
+from fieldhand.task.results import Event, from_json
+
+if TYPE_CHECKING:
+    from fieldhand.evaluation.standing import Standing
+    from fieldhand.execution.guard import Guard
+    from fieldhand.execution.journal.desk import Said
+    from fieldhand.execution.runtime import Result
+
+
+@dataclass(frozen=True, kw_only=True)
+class Status:
+    """How a mission stands.
+
+    Attributes:
+        request: What was asked.
+        last_event_at: When its last event was written, ISO 8601; empty before the first.
+        order: An order that it has not heard yet.
+    """
+
+    mission: str
+    request: str
+    now: Standing
+    last_event_at: str
+    order: str = ""
+
+
+def carry_out(
+    given: Mission,
+    *,
+    speed: float | None,
+    emit: Callable[[Event], None],
+    interrupted: Callable[[], str | None] = lambda: None,
+    watched: Callable[[Guard], Guard] = lambda guard: guard,
+) -> Result:
+    """Carry a mission out in simulation, or go on with one that was cut off; one that has ended gives its result again.
+
+    Args:
+        given: From :func:`open_mission`.
+        emit: Takes each event that is new, once it is safe on the disk; :func:`events_of` gives those before.
+        speed, interrupted, watched: As :func:`fieldhand.mission.carry_out`.
+
+    Raises:
+        JournalError: Another process carries it out; its journal is damaged, of another mission or does not fit; the
+            disk is full.
+    """
+    from fieldhand.execution.drivers.surroundings import writing_in
+    from fieldhand.execution.journal.desk import Desk, alone
+    from fieldhand.execution.journal.store import Journal
+
+    write = writing_in(given.world, emit)
+
+    def tell(line: str) -> None:
+        event = from_json(line)
+        if event is not None:
+            write(event)
+
+    folder = given.folder
+    with (
+        alone(folder / LOCK),
+        Journal(folder / JOURNAL, given.sha256, folder / LOG, tell) as journal,
+        closing(Desk(folder / ORDERS)) as desk,
+    ):
+        return mission.carry_out(
+            given.authorized,
+            given.site,
+            given.robot,
+            world=given.world,
+            seed=given.seed,
+            speed=speed,
+            emit=emit,
+            interrupted=interrupted,
+            watched=watched,
+            orders=desk.standing,
+            tape=journal,
+        )
+
+
+def status(folder: Path) -> Status:
+    """How a mission stands, from what is safe on the disk; asks nothing of who carries it out.
+
+    Raises:
+        JournalError: This is no mission, or its journal cannot be read.
+    """
+    from fieldhand.evaluation.standing import standing
+    from fieldhand.execution.journal.desk import Desk, taken
+    from fieldhand.execution.journal.records import sight_of
+    from fieldhand.execution.journal.store import heard
+    from fieldhand.robot.loader import parse_profile
+    from fieldhand.task.codec import decode
+
+    about, _ = read_about(folder)
+    running = taken(folder / LOCK)
+    number, lines, sight, _ = heard(folder / JOURNAL)
+    events = tuple(e for e in (from_json(line, where=str(folder)) for _, line in lines) if e is not None)
+    task = decode(read_file(folder, "task.xml", about["files"]["task.xml"]), source=str(folder / "task.xml"))
+    robot = parse_profile(read_file(folder, "robot.yaml", about["files"]["robot.yaml"]), source=f"{folder}/robot.yaml")
+    now = standing(task, robot, events, running=running)
+    if sight is not None and now.state != "ended":
+        seen = sight_of(sight)
+        now = replace(
+            now,
+            lat=seen.position.lat,
+            lon=seen.position.lon,
+            seconds=max(now.seconds, seen.t),
+            charge_percent=seen.charge_percent,
+        )
+    waiting, said = Desk(folder / ORDERS).last()
+    return Status(
+        mission=folder.name,
+        request=task.command.request,
+        now=now,
+        last_event_at=lines[-1][0] if lines else "",
+        order=said if waiting > number and now.state != "ended" else "",
+    )
+
+
+def events_of(folder: Path) -> tuple[Event, ...]:
+    """The events of a mission that are safe on the disk.
+
+    Raises:
+        JournalError: The journal cannot be read.
+    """
+    from fieldhand.execution.journal.store import heard
+
+    read_about(folder)
+    events = (from_json(line, where=str(folder)) for _, line in heard(folder / JOURNAL)[1])
+    return tuple(event for event in events if event is not None)
+
+
+def order(
+    folder: Path, said: Said, reason: str, *, wait: Callable[[], bool] = lambda: False
+) -> bool:  # fmt: skip
+    """Tell a mission something: to pause, to continue, to come home (``return``) or to stop here (``abort``).
+
+    Args:
+        reason: Who wants it, or why.
+        wait: Waits a moment, and says whether to wait longer for the answer.
+
+    Returns:
+        Whether the mission has heard it. One that is cut off hears it when it is resumed.
+
+    Raises:
+        ExecutionError: It has ended, or was told to stop before.
+        JournalError: This is no mission.
+    """
+    from fieldhand.execution.journal.desk import Desk, taken
+    from fieldhand.execution.journal.store import heard
+    from fieldhand.task.results import Ended
+
+    if any(isinstance(event, Ended) for event in events_of(folder)):
+        raise ExecutionError("the mission has ended", where=folder.name)
+    number = Desk(folder / ORDERS).say(said, reason)
+    while taken(folder / LOCK):
+        if heard(folder / JOURNAL)[0] >= number:
+            return True
+        if not wait():
+            break
+    return heard(folder / JOURNAL)[0] >= number
+
+
+def is_running(folder: Path) -> bool:
+    """Whether a process is carrying the mission out."""
+    from fieldhand.execution.journal.desk import taken
+
+    return taken(folder / LOCK)

@@ -1,0 +1,391 @@
+"""A mission that is cut off at any instant goes on from there: no capture is lost, none made twice but one in doubt."""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import count
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fieldhand.clock import SimulatedClock
+from fieldhand.errors import JournalError
+from fieldhand.evaluation.outcome import judge
+from fieldhand.evaluation.report_data import observations_csv
+from fieldhand.execution import mission_clock
+from fieldhand.execution.drivers.simulation import SimulatedDriver
+from fieldhand.execution.guard import Guard, NoGuard
+from fieldhand.execution.journal import store
+from fieldhand.execution.journal.desk import Desk, alone, taken
+from fieldhand.execution.journal.store import Journal, create
+from fieldhand.execution.orders import Order
+from fieldhand.execution.runtime import Result, run
+from fieldhand.execution.world import World
+from fieldhand.robot.model import RobotProfile
+from fieldhand.task.conditions import Compare
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Sequence, Try
+from fieldhand.task.results import (
+    Acted,
+    Continued,
+    Ended,
+    Exited,
+    InDoubt,
+    Paused,
+    Resumed,
+    Shed,
+    from_json,
+    to_json,
+)
+from fieldhand.task.selectors import Half, Take, TreeIs
+from rig import BudgetOf, authorized, captured, husky, of_type, orchard, task_for
+
+PICTURE = "take_thermal_picture"
+PLAN = Sequence(
+    id="",
+    steps=(
+        Act(id="", action=PICTURE, at=TreeIs(tree="r0c0"), count=2, reading="r"),
+        If(
+            id="",
+            condition=Compare(reading="r", quantity="canopy_temperature", test="gt", value=0, unit="degC"),
+            then=AnyOrder(
+                id="",
+                steps=(GoTo(id="", place=TreeIs(tree="r3c3")), Act(id="", action=PICTURE, at=TreeIs(tree="r2c2"))),
+            ),
+        ),
+        ForEach(
+            id="",
+            select=Take(count=2, of=Half(side="north")),
+            optional=True,
+            body=Try(
+                id="",
+                body=Act(id="", action="read_co2"),
+                otherwise=Repeat(id="", times=2, body=Act(id="", action="read_ambient_temperature")),
+            ),
+        ),
+    ),
+)
+
+
+class PowerCut(BaseException):
+    """Nothing catches it, as nothing catches kill -9."""
+
+
+class Cut(Journal):
+    """A journal at whose n-th commit the power is cut, before it or behind it."""
+
+    commits = 0
+    at = 0
+    behind = False
+
+    def commit(self, *, order: int = 0) -> None:
+        self.commits += 1
+        if self.commits == self.at and not self.behind:
+            raise PowerCut
+        super().commit(order=order)
+        if self.commits == self.at:
+            raise PowerCut
+
+
+@pytest.fixture(autouse=True)
+def _no_waiting(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(store, "SYNCHRONOUS", "OFF")
+    monkeypatch.setattr(mission_clock.time, "sleep", lambda seconds: None)
+
+
+class Field:
+    """A mission in a folder, and a robot that is made anew each time or outlives the program."""
+
+    def __init__(self, folder: Path, *, robot: RobotProfile | None = None, outlives: bool = False) -> None:
+        self.folder, self.robot, self.outlives = folder, robot or husky(alpha=0.5), outlives
+        folder.mkdir(exist_ok=True)
+        create(folder / "journal.sqlite", "mission")
+        self.clock, self.driver = self._new()
+
+    def _new(self) -> tuple[SimulatedClock | mission_clock.MissionClock, SimulatedDriver]:
+        clock = SimulatedClock() if self.outlives else mission_clock.MissionClock(SimulatedClock())
+        rng = np.random.default_rng(2)
+        return clock, SimulatedDriver(orchard(), self.robot, World(), clock, rng)
+
+    def fly(
+        self,
+        plan: Node = PLAN,
+        *,
+        cut: int = 0,
+        behind: bool = False,
+        guard: Guard | None = None,
+        orders: Callable[[], Order | None] = lambda: None,
+    ) -> Result:
+        """Carry the mission out, or what is left of it."""
+        if not self.outlives:
+            self.clock, self.driver = self._new()
+        with Cut(self.folder / "journal.sqlite", "mission", self.folder / "log", lambda line: None) as journal:
+            journal.at, journal.behind = cut, behind
+            return run(
+                authorized(task_for(plan), orchard(), self.robot),
+                site=orchard(),
+                robot=self.robot,
+                driver=self.driver,
+                guard=guard or NoGuard(),
+                clock=self.clock,
+                emit=lambda event: None,
+                orders=orders,
+                tape=journal,
+                simulated=not self.outlives,
+            )
+
+    @property
+    def lines(self) -> list[str]:
+        return (self.folder / "log").read_text().splitlines()
+
+
+@pytest.mark.parametrize("outlives", [False, True])
+def test_cut_at_every_commit(tmp_path: Path, outlives: bool) -> None:
+    whole = Field(tmp_path / "whole").fly()
+    assert whole.status == "completed"
+    doubts = 0
+    for n in count(1):
+        done = False
+        for behind in (False, True):
+            field = Field(tmp_path / f"{n}{behind}", outlives=outlives)
+            try:
+                field.fly(cut=n, behind=behind)
+                done = True
+            except PowerCut:
+                pass
+            result = field.fly()
+            assert field.lines == [to_json(e) for e in result.events]
+            assert [e for e in result.events if isinstance(e, Ended)] == [result.events[-1]]
+            assert captured(result.events) == captured(whole.events)
+            assert len(of_type(result.events, Resumed)) <= 1
+            doubts += len(of_type(result.events, InDoubt))
+        if done:
+            break
+    assert n > 10
+    # Between the commit before a capture and the one behind it, each was in the air.
+    assert doubts >= len(captured(whole.events))
+
+
+def test_cut_again_and_again(tmp_path: Path) -> None:
+    """A mission that gets ahead by one commit each time is done all the same, and each event stands once."""
+    field = Field(tmp_path)
+    result = None
+    while result is None:
+        try:
+            result = field.fly(cut=4)
+        except PowerCut:
+            assert len(of_type([from_json(line) for line in field.lines], Resumed)) < 50
+    assert result.status == "completed"
+    assert len(of_type(result.events, Resumed)) > 3
+    made = [(e.node, e.place, e.t) for e in of_type(result.events, Acted)]
+    assert len(made) == len(set(made)) == len(captured(Field(tmp_path / "whole").fly().events))
+
+
+def test_what_the_profile_says_is_done_about_a_capture_in_doubt(tmp_path: Path) -> None:
+    leaf = husky()
+    actions = tuple(replace(a, in_doubt="skip", measures=()) if a.name == PICTURE else a for a in leaf.actions)
+    field = Field(tmp_path, robot=replace(leaf, actions=actions))
+    plan = Act(id="", action=PICTURE, at=TreeIs(tree="r1c1"), count=3)
+    with pytest.raises(PowerCut):
+        field.fly(plan, cut=2, behind=True)
+    result = field.fly(plan)
+    (doubt,) = of_type(result.events, InDoubt)
+    assert (doubt.then, doubt.place, result.status) == ("skip", "r1c1", "completed")
+    assert len(captured(result.events)) == 2
+    (outcome,) = judge(task_for(plan), result.events)
+    assert outcome.outcome == "indeterminate"
+    assert "in doubt" in outcome.why
+    assert ",in_doubt," in observations_csv(result.events)
+    assert from_json(to_json(doubt)) == doubt
+
+
+def test_what_the_guard_said_holds(tmp_path: Path) -> None:
+    """On another machine the guard may decide otherwise: what it decided before the cut stands."""
+    field = Field(tmp_path)
+    with pytest.raises(PowerCut):
+        field.fly(cut=9, guard=BudgetOf(100))
+    before = field.lines
+    result = field.fly(guard=BudgetOf(0))
+    assert [to_json(e) for e in result.events][: len(before)] == before
+    assert not any('"shed"' in line for line in before)
+    assert of_type(result.events, Shed)
+
+
+def test_another_task_or_journal_is_refused(tmp_path: Path) -> None:
+    field = Field(tmp_path)
+    with pytest.raises(PowerCut):
+        field.fly(cut=6)
+    with pytest.raises(JournalError, match="does not go as the journal says"):
+        field.fly(Act(id="", action="read_co2", at=TreeIs(tree="r3c3")))
+    with pytest.raises(JournalError, match="another mission"):
+        Journal(tmp_path / "journal.sqlite", "other", tmp_path / "log", print)
+
+
+@pytest.mark.parametrize("harm", [lambda b: b"garbage" * 999, lambda b: b[:5000], lambda b: b""])
+def test_a_damaged_journal_is_refused(tmp_path: Path, harm: Callable[[bytes], bytes]) -> None:
+    field, path = Field(tmp_path), tmp_path / "journal.sqlite"
+    field.fly()
+    path.write_bytes(harm(path.read_bytes()))
+    with pytest.raises(JournalError):
+        field.fly()
+    path.unlink()
+    with pytest.raises(JournalError, match="no journal"):
+        field.fly()
+
+
+def test_a_journal_cut_in_mid_write_is_gone_on_with(tmp_path: Path) -> None:
+    """Half a transaction at the end of the write-ahead log never happened."""
+    field = Field(tmp_path)
+    held = sqlite3.connect(tmp_path / "journal.sqlite")
+    held.execute("SELECT * FROM tape").fetchall()  # keeps the write-ahead log from being folded in
+    with pytest.raises(PowerCut):
+        field.fly(cut=8)
+    wal = tmp_path / "journal.sqlite-wal"
+    left, base = wal.read_bytes(), (tmp_path / "journal.sqlite").read_bytes()
+    held.close()
+    for name in ("journal.sqlite-wal", "journal.sqlite-shm"):
+        (tmp_path / name).unlink(missing_ok=True)
+    (tmp_path / "journal.sqlite").write_bytes(base)
+    wal.write_bytes(left + left[32:1000])
+    assert field.fly().status == "completed"
+
+
+@pytest.mark.parametrize("tail", ["", '{"event": "acti', "\0\0\0\0\0\n\0", "noise\n"])
+def test_the_log_is_completed_from_the_journal(tmp_path: Path, tail: str) -> None:
+    field = Field(tmp_path)
+    whole = [to_json(e) for e in field.fly().events]
+    for kept in (0, 3, len(whole)):
+        (tmp_path / "log").write_text("".join(f"{line}\n" for line in whole[:kept]) + tail)
+        field.fly()
+        assert field.lines == whole
+
+
+def test_a_journal_older_than_the_log_is_refused(tmp_path: Path) -> None:
+    """What it lacks was done: it would be done again."""
+    field = Field(tmp_path)
+    with pytest.raises(PowerCut):
+        field.fly(cut=9)
+    with (tmp_path / "log").open("a") as log:
+        log.write('{"event": "action", "node": "n1"}\n')
+    with pytest.raises(JournalError, match="older than the mission"):
+        field.fly()
+
+
+def test_a_full_disk_stops_the_robot_and_the_mission_goes_on_later(tmp_path: Path) -> None:
+    field = Field(tmp_path, outlives=True)
+
+    class Full(Journal):
+        def commit(self, *, order: int = 0) -> None:
+            self._db.execute("PRAGMA max_page_count = 1")
+            super().commit(order=order)
+
+    with Full(tmp_path / "journal.sqlite", "mission", tmp_path / "log", print) as journal:
+        for _ in range(40):
+            journal.event("x" * 4000)
+        with pytest.raises(JournalError, match=r"full.*free some space"):
+            journal.commit()
+    assert field.fly().status == "completed"
+
+
+def test_one_at_a_time(tmp_path: Path) -> None:
+    lock = tmp_path / "lock"
+    assert not taken(lock)
+    with alone(lock):
+        assert taken(lock)
+        with pytest.raises(JournalError, match="another process"), alone(lock):
+            pass
+    assert not taken(lock)
+    with alone(lock):
+        pass
+
+
+def test_the_disk_is_waited_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(store, "SYNCHRONOUS", "FULL")
+    Field(tmp_path)
+    with Journal(tmp_path / "journal.sqlite", "mission", tmp_path / "log", print) as journal:
+        assert journal._db.execute("PRAGMA synchronous").fetchone() == (2,)
+        assert journal._db.execute("PRAGMA journal_mode").fetchone() == ("wal",)
+
+
+def test_a_clock_that_is_set_back() -> None:
+    class Jumpy(SimulatedClock):
+        def now(self) -> float:
+            return -1000.0 if 50 < super().now() < 90 else super().now()
+
+    clock = mission_clock.MissionClock(Jumpy())
+    seen = []
+    for _ in range(30):
+        clock.advance(7.0)
+        seen.append(clock.look())
+    assert seen == sorted(seen)
+    assert seen[-1] == pytest.approx(210.0)
+
+
+def says(*orders: tuple[int, Order | None]) -> Callable[[], Order | None]:
+    """Orders from the n-th look on."""
+    looks = count()
+
+    def standing() -> Order | None:
+        look = next(looks)
+        return next((order for n, order in reversed(orders) if look >= n), None)
+
+    return standing
+
+
+def test_a_pause_at_any_look_changes_nothing_but_the_time(tmp_path: Path) -> None:
+    whole = Field(tmp_path / "whole").fly()
+    for n in range(0, 40, 5):
+        field = Field(tmp_path / str(n))
+        result = field.fly(orders=says((n, Order(wanted="pause", reason="lunch", number=1)), (n + 9, None)))
+        assert captured(result.events) == captured(whole.events)
+        assert len(of_type(result.events, Paused)) == len(of_type(result.events, Continued)) <= 1
+        again = field.fly()
+        assert again.events == result.events
+    assert result.status == "completed"
+
+
+@pytest.mark.parametrize(("wanted", "then"), [("abort", "stay"), ("return", "return_to_end")])
+def test_stop_here_and_come_home(tmp_path: Path, wanted: str, then: str) -> None:
+    for n in range(1, 40, 4):
+        field = Field(tmp_path / str(n))
+        result = field.fly(orders=says((n, Order(wanted=wanted, reason="rain", number=1))))  # type: ignore[arg-type]
+        (way,) = of_type(result.events, Exited)
+        if result.status == "completed":
+            break
+        assert (result.status, result.reason, way.then) == ("aborted", "rain", then)
+        end = result.events[-1]
+        assert isinstance(end, Ended)
+        if wanted == "return":
+            home = orchard().markers["end"]
+            assert (end.lat, end.lon) == pytest.approx((home.lat, home.lon))
+        assert field.fly().events == result.events
+    assert n > 12
+
+
+def test_a_paused_mission_that_is_cut_off_is_paused_again(tmp_path: Path) -> None:
+    field, pause = Field(tmp_path), Order(wanted="pause", reason="lunch", number=1)
+    with pytest.raises(PowerCut):
+        field.fly(cut=4, orders=says((8, pause)))
+    result = field.fly(orders=says((0, pause), (5, None)))
+    assert result.status == "completed"
+    assert captured(result.events) == captured(Field(tmp_path / "whole").fly().events)
+
+
+def test_orders_lie_where_another_process_finds_them(tmp_path: Path) -> None:
+    desk = Desk(tmp_path / "orders.sqlite")
+    desk.create()
+    assert desk.standing() is None
+    assert desk.say("pause", "lunch") == 1
+    assert desk.standing() == Order(wanted="pause", reason="lunch", number=1)
+    desk.say("abort", "rain")
+    with pytest.raises(Exception, match="told to abort already"):
+        desk.say("continue", "")
+    desk.close()
+    (tmp_path / "orders.sqlite").write_bytes(b"garbage" * 99)
+    for name in ("orders.sqlite-wal", "orders.sqlite-shm"):
+        (tmp_path / name).unlink(missing_ok=True)
+    stop = Desk(tmp_path / "orders.sqlite").standing()
+    assert stop is not None
+    assert stop.wanted == "abort"

@@ -1,0 +1,127 @@
+"""The folder of a mission holds every byte that it needs, and no other byte will do."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from datetime import UTC, datetime
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from fieldhand import mission, missions
+from fieldhand.approval.authorize import EveryWarning
+from fieldhand.errors import ExecutionError, FieldhandError, JournalError
+from fieldhand.execution.journal import store
+from fieldhand.execution.world import World
+from fieldhand.robot.loader import load_robot, profile_bytes
+from fieldhand.site.geojson import open_site, site_files
+from fieldhand.task.build import make_task
+from fieldhand.task.codec import encode
+from fieldhand.task.plan import Act
+from fieldhand.task.results import Event
+from fieldhand.task.selectors import TreeIs
+
+WORLD = b"readings:\n  co2: 380\n"
+
+
+@pytest.fixture(autouse=True)
+def _no_waiting(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(store, "SYNCHRONOUS", "OFF")
+
+
+@cache
+def inputs() -> missions.Inputs:
+    site, robot = open_site("demo"), load_robot("husky")
+    plan = Act(id="", action="read_co2", at=TreeIs(tree="5"))
+    task = make_task(request="Measure CO2 at tree 5.", plan=plan, measures={"read_co2": ("co2",)})
+    at = datetime(2026, 1, 1, tzinfo=UTC)
+    approved = mission.authorize(task, site, robot, by="tester", at=at, confirmed=EveryWarning())
+    return missions.Inputs(
+        task=encode(approved.task),
+        site=site_files("demo").parts,
+        robot=profile_bytes("husky")[0],
+        authorization=approved.authorization,
+        world=WORLD,
+        seed=3,
+    )
+
+
+def test_a_mission_from_its_folder_alone(tmp_path: Path) -> None:
+    folder = missions.begin(tmp_path, "m1", inputs())
+    assert missions.status(folder).now.state == "interrupted"
+    given, events = missions.open_mission(folder), list[Event]()
+    result = missions.carry_out(given, speed=None, emit=events.append)
+    assert tuple(events) == result.events == missions.events_of(folder)
+    plain: list[Event] = []
+    assert given.world != World()
+    mission.carry_out(
+        given.authorized, given.site, given.robot, world=given.world, seed=3, speed=None, emit=plain.append
+    )
+    assert plain == events
+    again = missions.carry_out(given, speed=None, emit=lambda event: pytest.fail(f"told twice: {event}"))
+    assert again == result
+    assert missions.status(folder).now.state == "ended"
+    assert missions.find(tmp_path, None) == missions.find(tmp_path, "m1") == missions.find(tmp_path, str(folder))
+    with pytest.raises(ExecutionError, match="has ended"):
+        missions.order(folder, "pause", "")
+    with pytest.raises(JournalError, match="of that name already"):
+        missions.begin(tmp_path, "m1", inputs())
+
+
+@pytest.mark.parametrize("file", ["task.xml", "robot.yaml", "world.yaml", "site/demo.geojson", "mission.json"])
+def test_another_byte_is_refused(tmp_path: Path, file: str) -> None:
+    folder = missions.begin(tmp_path, "m1", inputs())
+    (folder / file).write_bytes((folder / file).read_bytes() + b"\n")
+    with pytest.raises(JournalError, match=r"not the one that the mission began with|another mission"):
+        missions.carry_out(missions.open_mission(folder), speed=None, emit=print)
+
+
+def test_the_journal_of_another_mission_is_refused(tmp_path: Path) -> None:
+    one = missions.begin(tmp_path, "m1", inputs())
+    other = missions.begin(tmp_path, "m2", replace(inputs(), seed=4))
+    (one / "journal.sqlite").write_bytes((other / "journal.sqlite").read_bytes())
+    with pytest.raises(JournalError, match="another mission"):
+        missions.carry_out(missions.open_mission(one), speed=None, emit=print)
+
+
+def test_what_was_not_approved_is_refused(tmp_path: Path) -> None:
+    """A folder that was made by hand, around another Task than the one that was approved."""
+    task = inputs().task.replace(b"Measure CO2 at tree 5.", b"Measure CO2 at tree 6.")
+    folder = missions.begin(tmp_path, "m1", replace(inputs(), task=task))
+    with pytest.raises(FieldhandError, match="not the one that was approved"):
+        missions.open_mission(folder)
+
+
+@pytest.mark.parametrize("about", [b"", b"garbage", b"[]", b'{"format": 99}', b'{"format": 1}'])
+def test_a_folder_that_is_no_mission_is_refused(tmp_path: Path, about: bytes) -> None:
+    folder = missions.begin(tmp_path, "m1", inputs())
+    (folder / "mission.json").write_bytes(about)
+    with pytest.raises(JournalError, match="no mission"):
+        missions.open_mission(folder)
+
+
+def test_a_file_that_leads_elsewhere_is_refused(tmp_path: Path) -> None:
+    folder = missions.begin(tmp_path, "m1", inputs())
+    about = json.loads((folder / "mission.json").read_bytes())
+    about["files"]["../secret"] = about["files"]["task.xml"]
+    (folder / "mission.json").write_text(json.dumps(about))
+    (tmp_path / "secret").write_bytes(inputs().task)
+    with pytest.raises(JournalError, match="leads elsewhere"):
+        missions.open_mission(folder)
+
+
+def test_a_folder_that_cannot_be_written_is_said(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(JournalError, match="cannot be written"):
+        missions.begin(tmp_path / "file", "m1", inputs())
+
+
+def test_an_order_to_a_mission_that_is_cut_off_holds_when_it_goes_on(tmp_path: Path) -> None:
+    folder = missions.begin(tmp_path, "m1", inputs())
+    assert not missions.order(folder, "return", "rain is coming")
+    assert missions.status(folder).order == "return"
+    result = missions.carry_out(missions.open_mission(folder), speed=None, emit=list[Event]().append)
+    assert (result.status, result.reason) == ("aborted", "rain is coming")
+    assert missions.status(folder).order == ""
