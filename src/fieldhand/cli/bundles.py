@@ -37,13 +37,10 @@ def open_mission(file: str, site: str | None, robot: str | None, *, lenient: boo
         NotTrustedError: Nobody who is trusted here has signed it.
     """
     from fieldhand.approval.bundle.container import read_bundle_file
-    from fieldhand.approval.keys.folder import config_folder
-    from fieldhand.approval.keys.trust import TrustStore
     from fieldhand.robot.loader import load_robot
     from fieldhand.site.geojson import open_site
 
-    trusted = TrustStore(config_folder(os.environ))
-    bundle = mission.open_bundle(read_bundle_file(Path(file)), source=file, trusted=trusted, now=datetime.now(UTC))
+    bundle = verify(read_bundle_file(Path(file)), file)
     if robot is not None and load_robot(robot).sha256 != bundle.robot.sha256:
         raise _another("--robot", robot, bundle.robot.name)
     if site is not None:
@@ -51,6 +48,20 @@ def open_mission(file: str, site: str | None, robot: str | None, *, lenient: boo
         if (given.sha256, given.content_sha256) != (bundle.site.sha256, bundle.site.content_sha256):
             raise _another("--site", site, bundle.site.name)
     return bundle
+
+
+def verify(data: bytes, source: str) -> Bundle:
+    """The mission of a bundle, held against the keys that are trusted on this machine now.
+
+    Raises:
+        BundleError: It cannot be used.
+        NotTrustedError: Nobody who is trusted here has signed it.
+    """
+    from fieldhand.approval.keys.folder import config_folder
+    from fieldhand.approval.keys.trust import TrustStore
+
+    trusted = TrustStore(config_folder(os.environ))
+    return mission.open_bundle(data, source=source, trusted=trusted, now=datetime.now(UTC))
 
 
 def require_ending(path: Path) -> None:
@@ -75,6 +86,15 @@ def signed_record(path: Path, data: bytes, authorization: Authorization, public:
         "bytes": len(data),
         "authorization": asdict(authorization),
         "key": {"name": public.name, "fingerprint": public.fingerprint},
+    }
+
+
+def signer_record(bundle: Bundle) -> dict[str, Any]:
+    """Who approved and signed a mission, and what was verified of it, as JSON."""
+    return {
+        "authorization": asdict(bundle.authorized.authorization),
+        "key": {"name": bundle.signer.name, "fingerprint": bundle.signer.fingerprint},
+        "hashes": dict(bundle.hashes),
     }
 
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from fieldhand import mission, missions, past
 from fieldhand.cli import show
 from fieldhand.cli.approving import approve_plan, review_plan
+from fieldhand.cli.bundles import signer_record
 from fieldhand.cli.inputs import Ground, write_file
 from fieldhand.cli.show import note
 from fieldhand.errors import InputError, OutputError
@@ -21,6 +22,7 @@ from fieldhand.task.frames import Task
 from fieldhand.task.results import Ended, Event
 
 if TYPE_CHECKING:
+    from fieldhand.approval.bundle.opening import Bundle
     from fieldhand.execution.world import World
     from fieldhand.task.authorization import AuthorizedTask
 
@@ -35,6 +37,7 @@ class Kept:
         robot: The profile.
         world: The world file, if there is one.
         lenient: Whether the site was read leniently.
+        signed: The signed bundle, if the mission came in one.
     """
 
     under: Path
@@ -42,6 +45,7 @@ class Kept:
     robot: bytes
     world: bytes | None
     lenient: bool
+    signed: bytes | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,6 +65,7 @@ class Orders:
         quiet: Print one JSON object at the end and nothing else.
         language: In which the plan is read back.
         kept: Where the mission is kept, so that it outlasts a power cut; None for one that does not.
+        bundle: The signed mission, if it is one.
     """
 
     ask: bool
@@ -76,6 +81,7 @@ class Orders:
     quiet: bool = False
     language: Language = ENGLISH
     kept: Kept | None = None
+    bundle: Bundle | None = None
 
 
 def fly(
@@ -162,6 +168,7 @@ def _begin(authorized: AuthorizedTask, orders: Orders, kept: Kept, planner: str)
         authorization=authorized.authorization,
         seed=orders.seed,
         planner=planner,
+        signed=kept.signed,
     )
     given = missions.open_mission(missions.begin(kept.under, missions.new_id(datetime.now(UTC)), inputs))
     if not orders.quiet:
@@ -238,7 +245,9 @@ def conclude(
         _keep_history(orders.history, ground, events)
     status = 0 if ended is not None and ended.status == "completed" and assessment.success else 1
     if orders.quiet:
-        show.print_json(show.mission_record(review.task, planner, ended, assessment.outcomes, written))
+        record = show.mission_record(review.task, planner, ended, assessment.outcomes, written)
+        signed = None if orders.bundle is None else signer_record(orders.bundle)
+        show.print_json(record | {"signed": signed})
         return status
     show.show_outcomes(assessment.outcomes, goal_names(review.task, ground.robot))
     if ended is not None:

@@ -55,6 +55,9 @@ MissionsOption = Annotated[
 MissionArgument = Annotated[
     str | None, typer.Argument(help="Name of the mission, or its folder; else the one begun last.")
 ]
+ProductionOption = Annotated[
+    bool, typer.Option("--production", help="Run nothing but a mission that a trusted key has signed.")
+]
 PictureOption = Annotated[Path | None, typer.Option("--picture", help="Draw a map to this PNG file.")]
 SeedOption = Annotated[int, typer.Option("--seed", min=0, help="Same seed, same mission.")]
 CpuTimeOption = Annotated[

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from fieldhand.cli.options import JsonOption, LangOption, MissionArgument, MissionsOption
+from fieldhand.cli.options import JsonOption, LangOption, MissionArgument, MissionsOption, ProductionOption
 
 
 def resume(
@@ -18,6 +18,10 @@ def resume(
     speed: Annotated[
         str, typer.Option("--speed", help="max, or simulated seconds in a second (1 is real time).")
     ] = "max",
+    mcap: Annotated[
+        Path | None, typer.Option("--mcap", help="Write the log as MCAP here, for Foxglove and Lichtblick.")
+    ] = None,
+    production: ProductionOption = False,
     lang: LangOption = None,
     kept: MissionsOption = None,
     json: JsonOption = False,
@@ -25,6 +29,9 @@ def resume(
     """Go on with a mission that a power cut has cut off, from where it was; or end the pause of one under way."""
     from fieldhand import mission as steps
     from fieldhand import missions, past
+    from fieldhand.approval.production import require_unsigned_allowed
+    from fieldhand.cli import show
+    from fieldhand.cli.bundles import tell_signer, verify
     from fieldhand.cli.flight import Orders, conclude, go_on, leave_plan, parse_speed
     from fieldhand.cli.inputs import Ground
     from fieldhand.cli.tell import tell
@@ -36,7 +43,11 @@ def resume(
     if missions.is_running(folder):
         tell(str(folder), folder.parent, "continue", "the operator", "goes on", json=json)
         return
-    given = missions.open_mission(folder)
+    if not missions.is_signed(folder):
+        require_unsigned_allowed(os.environ, asked=production)
+    given = missions.open_mission(folder, verify)
+    if given.bundle is not None and not json:
+        show.out.print(tell_signer(given.bundle))
     if Desk(folder / "orders.sqlite").last()[1] == "pause":
         missions.order(folder, "continue", "resumed by the operator")
     orders = Orders(
@@ -46,10 +57,12 @@ def resume(
         seed=given.seed,
         speed=pace,
         log=events,
+        mcap=mcap,
         folder=output,
         history=past.history_folder(os.environ),
         quiet=json,
         language=spoken(lang, os.environ),
+        bundle=given.bundle,
     )
     ground = Ground(site=given.site, robot=given.robot)
     review = steps.review(given.authorized.task, given.site, given.robot)

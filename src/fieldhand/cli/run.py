@@ -19,6 +19,7 @@ from fieldhand.cli.options import (
     MissionSiteOption,
     MissionsOption,
     PlannerOption,
+    ProductionOption,
     TranscriptOption,
 )
 
@@ -46,9 +47,7 @@ def run(
     yes: Annotated[bool, typer.Option("--yes", "-y", help="Approve without asking.")] = False,
     confirm: ConfirmOption = False,
     by: ByOption = None,
-    production: Annotated[
-        bool, typer.Option("--production", help="Run nothing but a mission that a trusted key has signed.")
-    ] = False,
+    production: ProductionOption = False,
     no_history: Annotated[
         bool, typer.Option("--no-history", help="Do not keep what the mission cost, for fieldhand robot calibrate.")
     ] = False,
@@ -112,6 +111,8 @@ def run(
             robot=profile_bytes(robot or "husky")[0] if bundle is None else bundle.profile,
             world=None if world is None else world.read_bytes(),
             lenient=lenient if bundle is None else bundle.manifest.site.lenient,
+            signed=None if bundle is None else bundle.data,
         ),
+        bundle=bundle,
     )
     raise SystemExit(fly(ground, task, document, orders, planner=planned_by, authorized=authorized))

@@ -6,17 +6,18 @@ import hashlib
 import json
 import os
 import secrets
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fieldhand import mission
-from fieldhand.errors import JournalError
+from fieldhand.errors import JournalError, NotApprovedError
 from fieldhand.task.authorization import Authorization, AuthorizedTask
 
 if TYPE_CHECKING:
+    from fieldhand.approval.bundle.opening import Bundle
     from fieldhand.execution.world import World
     from fieldhand.robot.model import RobotProfile
     from fieldhand.site.model import Site
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 FORMAT = 1
 
 LOCK, JOURNAL, ORDERS, LOG, _ABOUT = "lock", "journal.sqlite", "orders.sqlite", "events.jsonl", "mission.json"
+_SIGNED = "signed.mission"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,6 +41,7 @@ class Inputs:
         world: A world file; None for a world without surprises.
         seed: Of every random thing in the simulation, and of the guard.
         planner: Who planned it.
+        signed: The signed bundle that all but the world and the seed came from; None where nobody has signed.
     """
 
     task: bytes
@@ -49,11 +52,16 @@ class Inputs:
     lenient: bool = False
     seed: int = 0
     planner: str = ""
+    signed: bytes | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
 class Mission:
-    """A mission as its folder holds it."""
+    """A mission as its folder holds it.
+
+    Attributes:
+        bundle: The signed mission that it is, where it is one and that was verified.
+    """
 
     folder: Path
     authorized: AuthorizedTask
@@ -63,6 +71,7 @@ class Mission:
     seed: int
     planner: str
     sha256: str
+    bundle: Bundle | None = None
 
     @property
     def id(self) -> str:
@@ -100,6 +109,8 @@ def begin(under: Path, name: str, inputs: Inputs) -> Path:
     files.update({f"site/{Path(file).name}": data for file, data in inputs.site.items()})
     if inputs.world is not None:
         files["world.yaml"] = inputs.world
+    if inputs.signed is not None:
+        files[_SIGNED] = inputs.signed
     about = {
         "format": FORMAT,
         "site": f"site/{Path(next(iter(inputs.site))).name}",
@@ -132,12 +143,29 @@ def begin(under: Path, name: str, inputs: Inputs) -> Path:
     return folder
 
 
-def open_mission(folder: Path) -> Mission:
+def is_signed(folder: Path) -> bool:
+    """Whether the mission came from a signed bundle, which then lies in its folder.
+
+    Raises:
+        JournalError: This is no mission.
+    """
+    files = read_about(folder)[0].get("files")
+    return isinstance(files, dict) and _SIGNED in files
+
+
+def open_mission(folder: Path, verify: Callable[[bytes, str], Bundle] | None = None) -> Mission:
     """Read a mission from its folder; every byte has to be the one that it began with.
+
+    Args:
+        folder: The mission's.
+        verify: Opens a signed bundle, given with what to call it, once it was found to be good
+            (:func:`fieldhand.mission.open_bundle`): a signed mission is then what that bundle says, whatever else
+            lies in the folder. None takes the folder's word; nothing may run from that in production.
 
     Raises:
         JournalError: This is no mission, or not the one that was begun.
-        NotApprovedError: It is not what was approved.
+        NotApprovedError: It is not what was approved, or not what was signed.
+        BundleError, NotTrustedError: The bundle is broken, or nobody who is trusted here has signed it.
     """
     from fieldhand.approval.authorize import approved_before
     from fieldhand.execution.world import World, load_world
@@ -156,18 +184,27 @@ def open_mission(folder: Path) -> Mission:
     files = {file: read_file(folder, file, sha256) for file, sha256 in sums.items()}
     if site_file not in files or not {"task.xml", "robot.yaml"} <= files.keys():
         raise _no_mission(folder, f"{_ABOUT} names no Task, robot or site")
-    robot = parse_profile(files["robot.yaml"], source=str(folder / "robot.yaml"))
-    site = load_site(folder / site_file, lenient=lenient)
-    task = mission.decode_task(files["task.xml"], robot, source=str(folder / "task.xml"))
+    bundle = None
+    if verify is not None and _SIGNED in files:
+        # Before anything else of the folder is read.
+        bundle = verify(files[_SIGNED], str(folder / _SIGNED))
+        _require_signed(bundle, files, authorization, lenient=lenient, planner=planner, folder=folder)
+        authorized, site, robot = bundle.authorized, bundle.site, bundle.robot
+    else:
+        robot = parse_profile(files["robot.yaml"], source=str(folder / "robot.yaml"))
+        site = load_site(folder / site_file, lenient=lenient)
+        task = mission.decode_task(files["task.xml"], robot, source=str(folder / "task.xml"))
+        authorized = approved_before(files["task.xml"], task, authorization, site, robot)
     return Mission(
         folder=folder,
-        authorized=approved_before(files["task.xml"], task, authorization, site, robot),
+        authorized=authorized,
         site=site,
         robot=robot,
         world=load_world(folder / "world.yaml") if "world.yaml" in files else World(),
         seed=seed,
         planner=planner,
         sha256=hashlib.sha256(whole).hexdigest(),
+        bundle=bundle,
     )
 
 
@@ -237,6 +274,35 @@ def read_file(folder: Path, file: str, sha256: str) -> bytes:
             advice="bring the file back, or carry the Task out as a new mission",
         )
     return data
+
+
+def _require_signed(
+    bundle: Bundle,
+    files: Mapping[str, bytes],
+    authorization: Authorization,
+    *,
+    lenient: bool,
+    planner: str,
+    folder: Path,
+) -> None:
+    """What lies beside the bundle must be what it holds: somebody reads it, and takes it for what was signed."""
+    from fieldhand.task.codec import encode
+
+    signed, manifest = bundle.authorized, bundle.manifest
+    site = {file: data for file, data in files.items() if file.startswith("site/")}
+    for what, here, wanted in (
+        ("Task", files["task.xml"], encode(signed.task)),
+        ("robot profile", files["robot.yaml"], bundle.profile),
+        ("site", site, {f"site/{Path(name).name}": data for name, data in bundle.files.parts.items()}),
+        ("approval", authorization, signed.authorization),
+        ("rest", (lenient, planner), (manifest.site.lenient, manifest.task.planner)),
+    ):
+        if here != wanted:
+            raise NotApprovedError(
+                f"the {what} in the mission's folder is not what was signed",
+                where=str(folder),
+                advice="carry the signed mission out as a new one",
+            )
 
 
 def _no_mission(folder: Path, why: str) -> JournalError:

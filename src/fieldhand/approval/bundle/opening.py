@@ -68,6 +68,7 @@ class Bundle:
         files, profile: What these were read from, byte for byte.
         signer: The trusted key that signed it.
         hashes: SHA-256 of the whole (``bundle``) and of each file: what was verified, for whoever sent it.
+        data: The bundle itself, for whoever keeps it to check it again.
     """
 
     authorized: AuthorizedTask
@@ -78,6 +79,7 @@ class Bundle:
     profile: bytes
     signer: KnownKey
     hashes: Mapping[str, str]
+    data: bytes
 
 
 def open_bundle(data: bytes, *, source: str, known: Mapping[str, KnownKey], now: datetime) -> Bundle:
@@ -106,6 +108,7 @@ def open_bundle(data: bytes, *, source: str, known: Mapping[str, KnownKey], now:
         profile=content.profile,
         signer=signer,
         hashes=sealed.hashes,
+        data=data,
     )
 
 
