@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import hashlib
 import io
 import json
+import sqlite3
 import sys
 from collections.abc import Callable
+from contextlib import closing
 from datetime import UTC, datetime
 from functools import cache
 from pathlib import Path
@@ -16,10 +19,13 @@ from typer.main import get_command
 
 from browser import browser, corner_warnings, corner_xml
 from command import Run
+from fieldhand import missions
 from fieldhand.approval.keys.signing import SigningKeys
 from fieldhand.approval.keys.trust import TrustStore
-from fieldhand.cli import app, approving, inputs, main
+from fieldhand.cli import app, approving, flight, inputs, main
 from fieldhand.errors import OutputError
+from fieldhand.exchange.mcap import read_mcap
+from fieldhand.execution.journal import store
 from fieldhand.task.codec import encode
 from signed import good, pack_mission, signing_key
 
@@ -221,6 +227,120 @@ def test_a_passphrase_comes_from_the_environment(fieldhand: Command, monkeypatch
         run = fieldhand("approve", REQUEST, "--site", "demo", "-o", "other.mission", "--yes")
         refuses(run, 2, "ada.key", "passphrase")
     assert not Path("other.mission").exists()
+
+
+class _PowerCut(BaseException):
+    """No handler of the program's own stops it."""
+
+
+@pytest.fixture
+def cut_off(trusting: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder of a signed mission that was cut off while it was driving, on a machine in production."""
+    monkeypatch.setenv("FIELDHAND_MISSIONS", str(tmp_path / "missions"))
+    monkeypatch.setenv("FIELDHAND_PRODUCTION", "1")
+    monkeypatch.setattr(store, "SYNCHRONOUS", "OFF")
+    approved(trusting)
+    with monkeypatch.context() as patch:
+        told = flight.show.out.print
+
+        def cut(line: object = "", *more: object) -> None:
+            if "at tree 4 (" in str(line):
+                raise _PowerCut
+            told(line, *more)
+
+        patch.setattr(flight.show.out, "print", cut)
+        with pytest.raises(_PowerCut):
+            trusting("run", "m.mission")
+    Path("m.mission").unlink()
+    (folder,) = (tmp_path / "missions").iterdir()
+    assert missions.status(folder).now.state == "interrupted"
+    return folder
+
+
+def _events(folder: Path) -> int:
+    return len(missions.events_of(folder))
+
+
+def test_a_signed_mission_is_resumed_in_production_from_its_folder_alone(trusting: Command, cut_off: Path) -> None:
+    text = trusting("resume", "--mcap", "m.mcap")
+    assert (text.status, missions.status(cut_off).now.status) == (0, "completed"), text.err
+    assert "signed with the key of Ada" in text.out
+    assert read_mcap(Path("m.mcap")) == missions.events_of(cut_off)
+    record = json.loads(trusting("resume", "--json", "--production").out)
+    data = (cut_off / "signed.mission").read_bytes()
+    assert record["signed"]["hashes"]["bundle"] == hashlib.sha256(data).hexdigest()
+    assert record["signed"]["key"]["name"] == record["signed"]["authorization"]["by"] == "Ada"
+    assert record["mission"] == cut_off.name
+
+
+def test_a_key_that_was_revoked_since_ends_a_mission(trusting: Command, cut_off: Path) -> None:
+    before = _events(cut_off)
+    (key,) = json.loads(trusting("keys", "list", "--json").out)["known"]
+    assert trusting("keys", "revoke", key["fingerprint"]).status == 0
+    refuses(trusting("resume"), 1, "revoked on", "signed.mission")
+    assert _events(cut_off) == before
+
+
+def _declare(folder: Path, **changed: bytes | None) -> None:
+    """Change files of a mission, and everything in its folder that would show it."""
+    about = json.loads((folder / "mission.json").read_bytes())
+    for name, data in changed.items():
+        file = next(file for file in about["files"] if file.replace("/", "_").startswith(name))
+        if data is None:
+            del about["files"][file]
+            (folder / file).unlink()
+        else:
+            about["files"][file] = hashlib.sha256(data).hexdigest()
+            (folder / file).write_bytes(data)
+            if name == "site":
+                about["authorization"]["site_sha256"] = hashlib.sha256(data).hexdigest()
+    (folder / "mission.json").write_text(json.dumps(about))
+    with closing(sqlite3.connect(folder / "journal.sqlite", isolation_level=None)) as db:
+        whole = (folder / "mission.json").read_bytes()
+        db.execute("UPDATE about SET value = ? WHERE key = 'mission'", [hashlib.sha256(whole).hexdigest()])
+
+
+@pytest.mark.parametrize(("at", "declared"), [(-300, False), (-300, True), (40, True), (-1, True)])
+def test_a_changed_byte_of_the_bundle_in_the_folder_ends_a_mission(
+    trusting: Command, cut_off: Path, at: int, declared: bool
+) -> None:
+    data = bytearray((cut_off / "signed.mission").read_bytes())
+    data[at] ^= 4
+    before = _events(cut_off)
+    if declared:
+        _declare(cut_off, signed=bytes(data))
+    else:
+        (cut_off / "signed.mission").write_bytes(data)
+    refuses(trusting("resume"), 2, "signed.mission" if declared else "not the one that the mission began with")
+    assert _events(cut_off) == before
+
+
+@pytest.mark.parametrize("declared", [False, True])
+def test_a_site_that_was_replaced_in_the_folder_ends_a_mission(
+    trusting: Command, cut_off: Path, declared: bool
+) -> None:
+    (file,) = (cut_off / "site").iterdir()
+    other = file.read_bytes().replace(b"Carmel", b"Caramel")
+    before = _events(cut_off)
+    if declared:
+        _declare(cut_off, site=other)
+        refuses(trusting("resume"), 1, "the site in the mission's folder is not what was signed")
+    else:
+        file.write_bytes(other)
+        refuses(trusting("resume"), 2, "not the one that the mission began with")
+    assert _events(cut_off) == before
+
+
+def test_a_folder_without_its_bundle_is_not_resumed_in_production(
+    trusting: Command, cut_off: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = _events(cut_off)
+    _declare(cut_off, signed=None)
+    refuses(trusting("resume"), 1, "only signed missions")
+    monkeypatch.delenv("FIELDHAND_PRODUCTION")
+    refuses(trusting("resume", "--production"), 1, "only signed missions")
+    assert _events(cut_off) == before
+    assert trusting("resume").status == 0
 
 
 def test_a_mission_is_written_as_a_whole_or_not_at_all(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -19,7 +19,7 @@ from fieldhand.cli.show import note
 from fieldhand.errors import InputError, OutputError
 from fieldhand.language import ENGLISH, Language, message
 from fieldhand.task.frames import Task
-from fieldhand.task.results import Ended, Event
+from fieldhand.task.results import Ended, Event, Started
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
@@ -107,8 +107,8 @@ def fly(
     if authorized is None:
         authorized = approve_plan(ground, review, orders, message("Approve and carry out?"))
     leave_plan(ground, review, document, orders)
-    events = _carry_out(ground, authorized, orders, planner)
-    return conclude(ground, review, authorized, events, orders, planner)
+    events, name = _carry_out(ground, authorized, orders, planner)
+    return conclude(ground, review, authorized, events, orders, planner, name)
 
 
 def parse_speed(text: str) -> float | None:
@@ -141,9 +141,13 @@ def leave_plan(ground: Ground, review: mission.Review, document: bytes | None, o
     draw_plan(orders.folder / "map.png", review, ground, orders.language)
 
 
-def _carry_out(ground: Ground, authorized: AuthorizedTask, orders: Orders, planner: str) -> tuple[Event, ...]:
+def _carry_out(
+    ground: Ground, authorized: AuthorizedTask, orders: Orders, planner: str
+) -> tuple[tuple[Event, ...], str]:
+    """The events of a mission, and the name under which it is kept."""
     if orders.kept is not None:
-        return go_on(_begin(authorized, orders, orders.kept, planner), orders)
+        given = _begin(authorized, orders, orders.kept, planner)
+        return go_on(given, orders), given.id
     with _taking(ground, orders, ()) as take:
         return mission.carry_out(
             authorized,
@@ -153,7 +157,7 @@ def _carry_out(ground: Ground, authorized: AuthorizedTask, orders: Orders, plann
             seed=orders.seed,
             speed=orders.speed,
             emit=take,
-        ).events
+        ).events, ""
 
 
 def _begin(authorized: AuthorizedTask, orders: Orders, kept: Kept, planner: str) -> missions.Mission:
@@ -202,7 +206,7 @@ def _taking(ground: Ground, orders: Orders, before: Sequence[Event]) -> Iterator
         if orders.mcap is not None:
             from fieldhand.exchange.mcap import McapLog
 
-            began = datetime.now(UTC).timestamp()
+            began = _began(before).timestamp()
             logs.append(stack.enter_context(McapLog(orders.mcap, began_s=began, tell=teller.tell, site=ground.site)))
 
         def take(event: Event) -> None:
@@ -218,6 +222,12 @@ def _taking(ground: Ground, orders: Orders, before: Sequence[Event]) -> Iterator
         yield take
 
 
+def _began(before: Sequence[Event]) -> datetime:
+    """When the mission began: now, unless it goes on and its log says when."""
+    at = next((event.at for event in before if isinstance(event, Started)), "")
+    return datetime.fromisoformat(at) if at else datetime.now(UTC)
+
+
 def conclude(
     ground: Ground,
     review: mission.Review,
@@ -225,6 +235,7 @@ def conclude(
     events: Sequence[Event],
     orders: Orders,
     planner: str,
+    name: str = "",
 ) -> int:
     """Judge and report a mission that was carried out.
 
@@ -240,14 +251,14 @@ def conclude(
         files = mission.report(
             orders.folder, authorized, ground.site, ground.robot, events, assessment, review.estimate
         )
-        written = [*(orders.folder / name for name in ("task.xml", "map.png", "events.jsonl")), *files.paths]
+        written = [*(orders.folder / file for file in ("task.xml", "map.png", "events.jsonl")), *files.paths]
     if orders.history is not None:
         _keep_history(orders.history, ground, events)
     status = 0 if ended is not None and ended.status == "completed" and assessment.success else 1
     if orders.quiet:
         record = show.mission_record(review.task, planner, ended, assessment.outcomes, written)
         signed = None if orders.bundle is None else signer_record(orders.bundle)
-        show.print_json(record | {"signed": signed})
+        show.print_json({"mission": name} | record | {"signed": signed})
         return status
     show.show_outcomes(assessment.outcomes, goal_names(review.task, ground.robot))
     if ended is not None:

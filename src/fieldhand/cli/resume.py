@@ -68,4 +68,4 @@ def resume(
     review = steps.review(given.authorized.task, given.site, given.robot)
     leave_plan(ground, review, None, orders)
     done = go_on(given, orders)
-    raise SystemExit(conclude(ground, review, given.authorized, done, orders, given.planner))
+    raise SystemExit(conclude(ground, review, given.authorized, done, orders, given.planner, given.id))
