@@ -37,7 +37,8 @@ def log():
 
 def reported(folder, text):
     (folder / "log").write_text(text)
-    return past.report_log(folder / "out", folder / "log", TASK, encode(TASK), SITE, ROBOT)
+    log = past.read_log(folder / "log")
+    return *past.report_log(folder / "out", log, TASK, encode(TASK), SITE, ROBOT), log.events
 
 
 def test_a_log_is_judged_and_reported(log, tmp_path):
@@ -71,8 +72,8 @@ BAD = [
     ("started", {"site": "\u001b[31m"}, "is of the site"),
     ("started", {"task": "<b>"}, "is of the Task"),
     ("started", {"event": "unheard of"}, "has no line that says of which mission"),
-    ("arrive", {"leg_m": float("nan")}, "leg_m of event"),
-    ("arrive", {"t": float("inf")}, "t of event"),
+    ("arrive", {"leg_m": float("nan")}, "leg_m cannot be nan"),
+    ("arrive", {"t": float("inf")}, "t cannot be inf"),
     ("arrive", {"travelled_m": 1e300}, "travelled_m of event"),
     ("arrive", {"leg_m": "far"}, "not an event"),
     ("drive", {"path": [["north", 1]]}, "not an event"),
@@ -94,5 +95,5 @@ def test_a_log_that_cannot_be_reported_is_one_clear_line(log, tmp_path, event, f
 
 @pytest.mark.parametrize("text", ["", "\x00\x01\n", "[" * 100_000 + "\n", "{}\n", "null\n"])
 def test_what_is_no_log_at_all_is_one_clear_line(tmp_path, text):
-    with pytest.raises(InputError, match=r"not an event|has no line"):
+    with pytest.raises(InputError, match=r"not an event|has no line|holds no event"):
         reported(tmp_path, text)

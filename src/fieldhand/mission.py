@@ -344,8 +344,20 @@ def report(
     events: Sequence[Event],
     assessment: Assessment,
     forecast: Estimate | None,
+    *,
+    signed: str = "",
+    hashes: Sequence[tuple[str, str]] = (),
 ) -> ReportFiles:
     """Write the report of a mission: one page, and the observations as CSV and GeoJSON.
+
+    Args:
+        folder: Where to.
+        authorized, site, robot: What was carried out, where and with what.
+        events: What happened.
+        assessment: What came of it.
+        forecast: What it was expected to take.
+        signed: Whose signature it has, in words; empty where there is none.
+        hashes: SHA-256 of what else it rests on, each with its name.
 
     Raises:
         OutputError: The folder cannot be written.
@@ -361,4 +373,6 @@ def report(
         outcomes=assessment.outcomes,
         authorization=authorized.authorization,
         estimate=forecast,
+        signed=signed,
+        hashes=hashes,
     )

@@ -6,6 +6,7 @@ log ──report_log──▶ report      events ──keep_history──▶ his
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from fieldhand.evaluation.calibration.fit import Calibration
     from fieldhand.evaluation.calibration.steps import Driven
     from fieldhand.evaluation.report import ReportFiles
+    from fieldhand.task.authorization import Authorization
 
 
 def history_folder(environ: Mapping[str, str]) -> Path:
@@ -28,48 +30,89 @@ def history_folder(environ: Mapping[str, str]) -> Path:
     return mission.state_folder(environ) / "history"
 
 
+@dataclass(frozen=True, kw_only=True)
+class Log:
+    """An event log, whole or cut off.
+
+    Attributes:
+        where: What to call it in messages.
+        sha256: Of its file; empty where it is none.
+    """
+
+    events: tuple[Event, ...]
+    where: str
+    sha256: str = ""
+
+
+def read_log(path: Path) -> Log:
+    """A log from a file, JSON lines or MCAP; a last line that was cut off in mid-write is left out.
+
+    Raises:
+        InputError: The file cannot be read, is damaged, or holds no event.
+        TaskError: A line or a message is no event.
+    """
+    import hashlib
+
+    from fieldhand.exchange.mcap import is_mcap, read_mcap
+    from fieldhand.execution.log import read_events
+
+    events = read_mcap(path) if is_mcap(path) else read_events(path, whole=False)
+    if not events:
+        raise InputError("holds no event", where=str(path), advice="give a log that fieldhand run wrote")
+    return Log(events=events, where=str(path), sha256=hashlib.sha256(path.read_bytes()).hexdigest())
+
+
 def report_log(
-    folder: Path, log: Path, task: Task, document: bytes, site: Site, robot: RobotProfile
-) -> tuple[ReportFiles, mission.Assessment, tuple[Event, ...]]:
-    """Judge and report a mission from its event log; who approved it is not known then.
+    folder: Path,
+    log: Log,
+    task: Task,
+    document: bytes,
+    site: Site,
+    robot: RobotProfile,
+    *,
+    authorization: Authorization | None = None,
+    signed: str = "",
+    hashes: Sequence[tuple[str, str]] = (),
+) -> tuple[ReportFiles, mission.Assessment]:
+    """Judge and report a mission from its event log.
 
     Args:
         folder: Where to write the report.
-        log: The event log.
+        log: What happened.
         task, document: What was carried out.
         site, robot: Where and with what.
+        authorization: Who approved it; None where that is not known.
+        signed: Whose signature it has, in words; empty where there is none.
+        hashes: SHA-256 of what else it rests on, each with its name.
 
     Raises:
         InputError: The log is of another Task, robot or site, or its figures are no numbers.
-        TaskError: A line of it is no event.
         OutputError: The folder cannot be written.
     """
     import hashlib
 
     from fieldhand.evaluation.report import write_report
     from fieldhand.evaluation.report_facts import require_fitting
-    from fieldhand.execution.log import read_events
 
-    events = read_events(log, whole=False)
-    require_fitting(events, task, site, robot, where=str(log))
-    assessment = mission.assess(task, events)
-    hashes = [("Task document", document), ("event log", log.read_bytes())]
+    require_fitting(log.events, task, site, robot, where=log.where)
+    assessment = mission.assess(task, log.events)
+    rests = [*hashes, *([("event log", log.sha256)] if log.sha256 else [])]
+    if authorization is None:
+        rests = [("Task document", hashlib.sha256(document).hexdigest()), *rests]
+        rests += [("site", site.sha256), ("robot", robot.sha256)]
     files = write_report(
         folder,
         task=task,
         site=site,
         robot=robot,
-        events=events,
+        events=log.events,
         outcomes=assessment.outcomes,
-        authorization=None,
+        authorization=authorization,
         estimate=mission.review(task, site, robot, document=document).estimate,
-        hashes=(
-            *((name, hashlib.sha256(data).hexdigest()) for name, data in hashes),
-            ("site", site.sha256),
-            ("robot", robot.sha256),
-        ),
+        signed=signed,
+        hashes=rests,
     )
-    return files, assessment, events
+    return files, assessment
 
 
 def keep_history(folder: Path, robot: RobotProfile, events: Sequence[Event], at: datetime) -> bool:

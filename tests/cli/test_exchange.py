@@ -50,13 +50,14 @@ def files(tmp_path: Path) -> Path:
         (export, {"given": "empty.jsonl", "to": "csv"}, "holds no event"),
         (export, {"given": "binary.jsonl", "to": "csv"}, "cannot be read"),
         (export, {"given": "text.mcap", "to": "csv"}, "no event|damaged"),
-        (replay, {"events": "events.jsonl", "site": "demo", "output": Path("m.avi")}, ".avi is no kind of animation"),
+        (replay, {"given": "events.jsonl", "site": "demo", "output": Path("m.avi")}, ".avi is no kind of animation"),
         (import_tree, {"tree": "none.xml"}, "cannot be read"),
         (import_tree, {"tree": "task.xml"}, "is no tree of BehaviorTree.CPP"),
     ],
 )
 def test_bad_input_gets_one_line(files: Path, command: Command, given: dict[str, object], said: str) -> None:
-    paths = {key: files / str(given[key]) for key in ("given", "events", "tree") if key in given}
+    paths: dict[str, object] = {"given": str(files / str(given["given"]))} if "given" in given else {}
+    paths |= {"tree": files / str(given["tree"])} if "tree" in given else {}
     with pytest.raises(InputError, match=said) as caught:
         call(command, **({"output": files / "out"} | given | paths))
     assert caught.value.exit_status == 2
@@ -65,23 +66,23 @@ def test_bad_input_gets_one_line(files: Path, command: Command, given: dict[str,
 
 
 def test_a_task_goes_out_and_comes_back(files: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    call(export, given=files / "task.xml", to="btcpp", output=files / "tree.xml", json=True)
+    call(export, given=str(files / "task.xml"), to="btcpp", output=files / "tree.xml", json=True)
     call(import_tree, tree=files / "tree.xml", output=files / "again.xml", site="demo")
     assert (files / "again.xml").read_bytes() == (files / "task.xml").read_bytes()
     assert json.loads(capsys.readouterr().out.split("\n}")[0] + "\n}")["task"] == task_of(STRAIGHT).id
 
 
 def test_a_log_goes_out_as_mcap_and_comes_back(files: Path) -> None:
-    call(export, given=files / "events.jsonl", to="mcap", output=files / "log.mcap", site="demo")
-    call(export, given=files / "log.mcap", to="events", output=files / "back.jsonl")
+    call(export, given=str(files / "events.jsonl"), to="mcap", output=files / "log.mcap", site="demo")
+    call(export, given=str(files / "log.mcap"), to="events", output=files / "back.jsonl")
     assert (files / "back.jsonl").read_bytes() == (files / "events.jsonl").read_bytes()
 
 
 def test_facts_come_as_json(files: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    call(export, given=files / "task.xml", to="qgc", output=files / "m.plan", site="demo", json=True)
+    call(export, given=str(files / "task.xml"), to="qgc", output=files / "m.plan", site="demo", json=True)
     facts = json.loads(capsys.readouterr().out)
     assert (facts["stops"], facts["left_out"], facts["driven"]) == (5, 0, False)
-    call(replay, events=files / "events.jsonl", site="demo", output=files / "m.html", json=True)
+    call(replay, given=str(files / "events.jsonl"), site="demo", output=files / "m.html", json=True)
     facts = json.loads(capsys.readouterr().out)
     assert (facts["events"], facts["captures"]) == (len(flight().events), 8)
 

@@ -355,3 +355,41 @@ def test_a_mission_is_written_as_a_whole_or_not_at_all(tmp_path: Path, monkeypat
             inputs.write_whole(path, good())
     assert path.read_bytes() == b"the first"
     assert list(tmp_path.iterdir()) == [path]
+
+
+def _page(folder: str) -> str:
+    return Path(folder, "report.html").read_text()
+
+
+def test_a_signed_mission_and_its_folder_are_reported_exported_and_replayed_without_more(
+    trusting: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("FIELDHAND_MISSIONS", str(tmp_path / "missions"))
+    monkeypatch.setattr(store, "SYNCHRONOUS", "OFF")
+    approved(trusting)
+    done = json.loads(
+        trusting("run", "m.mission", "--mcap", "m.mcap", "--events", "m.jsonl", "-o", "out", "--json").out
+    )
+    name, (key,) = done["mission"], json.loads(trusting("keys", "list", "--json").out)["known"]
+    log = missions.events_of(tmp_path / "missions" / name)
+    assert read_mcap(Path("m.mcap")) == log
+    assert done["signed"]["hashes"]["bundle"] == hashlib.sha256(Path("m.mission").read_bytes()).hexdigest()
+    for words in ((), ("m.mcap", "--task", "m.mission")):
+        assert trusting("report", *words, "-o", "again").status == 0
+        assert f"the key of Ada ({key['fingerprint']})" in _page("again")
+        assert Path("again/observations.csv").read_bytes() == Path("out/observations.csv").read_bytes()
+    assert f"the key of Ada ({key['fingerprint']})" in _page("out")
+    for given, to in (("m.mission", "btcpp"), (name, "btcpp"), ("m.mission", "kml"), (name, "geojson"), (name, "mcap")):
+        assert trusting("export", given, "--to", to, "-o", f"{given}.{to}").status == 0
+    assert Path("m.mission.btcpp").read_bytes() == Path(f"{name}.btcpp").read_bytes()
+    assert read_mcap(Path(f"{name}.mcap")) == log
+    for words in ((str(tmp_path / "missions" / name),), ("m.jsonl", "--site", "m.mission")):
+        facts = json.loads(trusting("replay", *words, "-o", "m.html", "--json").out)
+        assert (facts["events"], facts["captures"]) == (len(log), 1)
+    refuses(trusting("report", name, "--site", "demo"), 2, "--site", "brings its own")
+    refuses(trusting("report", "m.jsonl", "--task", "m.mission", "--robot", "husky"), 2, "--robot", "brings its own")
+    refuses(trusting("report", "m.jsonl"), 2, "--task", "not given")
+    refuses(trusting("replay", "nowhere", "-o", "x.html"), 2, "no mission 'nowhere'")
+    assert trusting("keys", "revoke", key["fingerprint"]).status == 0
+    assert trusting("report", name, "-o", "again").status == 0
+    assert "revoked on" in _page("again")

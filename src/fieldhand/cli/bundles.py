@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,8 +12,9 @@ from fieldhand import mission
 from fieldhand.errors import BundleError, InputError
 
 if TYPE_CHECKING:
-    from fieldhand.approval.bundle.opening import Bundle
+    from fieldhand.approval.bundle.opening import Bundle, Content
     from fieldhand.approval.keys.public import PublicKey
+    from fieldhand.approval.keys.trust import KnownKey
     from fieldhand.task.authorization import Authorization
 
 ENDING = ".mission"
@@ -64,6 +65,53 @@ def verify(data: bytes, source: str) -> Bundle:
     return mission.open_bundle(data, source=source, trusted=trusted, now=datetime.now(UTC))
 
 
+@dataclass(frozen=True, kw_only=True)
+class Unverified:
+    """A bundle that is whole, whoever signed it: to be looked at, never to be run.
+
+    Attributes:
+        document: Of its Task.
+        sha256: Of the whole.
+        signed: Whose signature it has, in words.
+    """
+
+    content: Content
+    document: bytes
+    sha256: str
+    signed: str
+
+
+def read_unverified(data: bytes, source: str) -> Unverified:
+    """What a bundle says, and whose signature it has as far as this machine knows.
+
+    Raises:
+        BundleError: It is broken.
+    """
+    from fieldhand.approval.bundle.container import TASK
+    from fieldhand.approval.bundle.opening import content_of, unseal
+    from fieldhand.approval.keys.folder import config_folder
+    from fieldhand.approval.keys.trust import TrustStore
+
+    sealed = unseal(data, source=source)
+    fingerprint = sealed.signature.public.fingerprint
+    key = TrustStore(config_folder(os.environ)).known().get(fingerprint)
+    if key is None:
+        signed = f"a key that is not trusted here ({fingerprint})"
+    else:
+        signed = _whose(key) + ("" if key.revoked is None else f", revoked on {key.revoked}")
+    content = content_of(sealed, now=datetime.now(UTC))
+    return Unverified(content=content, document=sealed.members[TASK], sha256=sealed.hashes["bundle"], signed=signed)
+
+
+def say_signature(bundle: Bundle | None) -> str:
+    """Whose signature a mission has, in words; empty where it has none."""
+    return "" if bundle is None else _whose(bundle.signer)
+
+
+def _whose(key: KnownKey) -> str:
+    return f"the key of {key.name} ({key.fingerprint})"
+
+
 def require_ending(path: Path) -> None:
     """Refuse another ending than that by which a bundle is known.
 
@@ -100,8 +148,8 @@ def signer_record(bundle: Bundle) -> dict[str, Any]:
 
 def tell_signer(bundle: Bundle) -> str:
     """Who approved a mission, and with which key, in a line."""
-    approved, signer = bundle.manifest.approved, bundle.signer
-    return f"Approved by {approved.by} at {approved.at}, signed with the key of {signer.name} ({signer.fingerprint})"
+    approved = bundle.manifest.approved
+    return f"Approved by {approved.by} at {approved.at}, signed with {_whose(bundle.signer)}"
 
 
 def require_site(site: str | None) -> str:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fieldhand.cli.options import JsonOption, LenientOption, RobotOption
+from fieldhand.cli.options import JsonOption, LenientOption, MissionsOption
+from fieldhand.cli.recorded import RecordedSiteOption
 from fieldhand.errors import InputError
 
 if TYPE_CHECKING:
@@ -24,26 +25,37 @@ _OF_TASKS, _OF_LOGS = ("btcpp", "geojson", "kml", "csv", "qgc"), ("geojson", "km
 
 def export(
     given: Annotated[
-        Path, typer.Argument(metavar="TASK|EVENTS", help="A Task (.xml), or an event log (JSON or MCAP).")
+        str,
+        typer.Argument(
+            metavar="TASK|EVENTS|MISSION",
+            help="A Task (.xml), signed mission (.mission), event log (JSON or MCAP), or mission (name or folder).",
+        ),
     ],
     to: Annotated[str, typer.Option("--to", help=f"Format: {', '.join(FORMATS)}.")],
     output: Annotated[Path, typer.Option("-o", "--output", help="Where to write.")],
-    site: Annotated[str | None, typer.Option("--site", help="Site; needed for the route of a Task.")] = None,
-    robot: RobotOption = "husky",
+    site: RecordedSiteOption = None,
+    robot: Annotated[str | None, typer.Option("--robot", help="The robot; husky if none is given.")] = None,
     lenient: LenientOption = False,
+    kept: MissionsOption = None,
     json: JsonOption = False,
 ) -> None:
     """Write a Task or an event log for another program."""
     from fieldhand.cli import show
     from fieldhand.cli.inputs import write_file
+    from fieldhand.cli.recorded import folder_of, require_nothing_beside
 
     if to not in FORMATS:
         raise InputError(f"there is no format '{to}'", where="--to", advice=f"choose one of {', '.join(FORMATS)}")
-    is_task = given.suffix.lower() == ".xml"
+    folder = folder_of(given, kept)
+    if folder is not None:
+        require_nothing_beside(folder, site=site, robot=robot)
+    # A mission's folder holds both; what was driven says more than what was planned.
+    is_task = to not in _OF_LOGS if folder else given.lower().endswith((".xml", ".mission"))
     if to not in (_OF_TASKS if is_task else _OF_LOGS):
         what, fits = ("a Task", _OF_TASKS) if is_task else ("an event log", _OF_LOGS)
         raise InputError(f"{what} cannot be written as {to}", where="--to", advice=f"choose one of {', '.join(fits)}")
-    made = _of_task(given, to, site, robot, lenient) if is_task else _of_log(given, to, site, robot, lenient, output)
+    source = _Source(given=given, folder=folder, site=site, robot=robot, lenient=lenient)
+    made = _of_task(source, to) if is_task else _of_log(source, to, output)
     if made.data is not None:
         write_file(output, made.data)
     if json:
@@ -69,23 +81,41 @@ class _Made:
     notes: tuple[str, ...] = ()
 
 
-def _of_task(path: Path, to: str, site: str | None, robot: str, lenient: bool) -> _Made:
+@dataclass(frozen=True, kw_only=True)
+class _Source:
+    """What is exported; ``folder`` is that of a mission, where one was given."""
+
+    given: str
+    folder: Path | None
+    site: str | None
+    robot: str | None
+    lenient: bool
+
+
+def _of_task(source: _Source, to: str) -> _Made:
     from fieldhand import mission
-    from fieldhand.cli.inputs import open_ground
+    from fieldhand.cli.bundles import is_bundle
+    from fieldhand.cli.recorded import plan_of_files, plan_of_folder
     from fieldhand.exchange.btcpp import write_tree
     from fieldhand.exchange.routes.ground_station import write_plan
     from fieldhand.exchange.routes.route import planned
     from fieldhand.robot.capabilities import capabilities_of
     from fieldhand.robot.loader import load_robot
 
-    if to == "btcpp":
-        profile = load_robot(robot)
+    path = Path(source.given)
+    if to == "btcpp" and source.folder is None and not is_bundle(source.given):
+        profile = load_robot(source.robot or "husky")
         task, _ = mission.read_task(path, profile)
         return _Made(data=write_tree(task, capabilities_of(profile)), facts={"task": task.id})
-    if site is None:
+    if source.folder is not None:
+        plan = plan_of_folder(source.folder)
+    elif source.site is None and not is_bundle(source.given):
         raise InputError("the route of a Task needs its site", where="--site", advice="give the site's file, or demo")
-    ground = open_ground(site, robot, lenient=lenient)
-    task, _ = mission.read_task(path, ground.robot)
+    else:
+        plan = plan_of_files(path, source.site, source.robot, lenient=source.lenient)
+    task, ground = plan.task, plan.ground
+    if to == "btcpp":
+        return _Made(data=write_tree(task, capabilities_of(ground.robot)), facts={"task": task.id})
     route = planned(task, ground.site, ground.robot)
     facts = _facts(route) | {"task": task.id}
     open_ = [stop for stop in route.stops if not stop.certain]
@@ -94,7 +124,7 @@ def _of_task(path: Path, to: str, site: str | None, robot: str, lenient: bool) -
         if not made.stops:
             raise InputError(
                 "no part of this mission is straight: its first stop hangs on a reading or on the budget",
-                where=str(path),
+                where=source.given,
                 advice="choose another format",
             )
         left = f"left out: {made.left_out} stops that hang on a reading or on the budget"
@@ -108,38 +138,28 @@ def _of_task(path: Path, to: str, site: str | None, robot: str, lenient: bool) -
     return _Made(data=_WRITERS[to](route), facts=facts, notes=(note,) if open_ else ())
 
 
-def _of_log(path: Path, to: str, site: str | None, robot: str, lenient: bool, output: Path) -> _Made:
-    from fieldhand.cli.inputs import open_ground
+def _of_log(source: _Source, to: str, output: Path) -> _Made:
+    from fieldhand.cli.recorded import ground_of, log_of_folder, plan_of_folder
     from fieldhand.exchange.routes.route import driven
+    from fieldhand.past import read_log
     from fieldhand.task.results import to_json
 
-    events = read_log(path)
+    folder, site = source.folder, source.site
+    events = (read_log(Path(source.given)) if folder is None else log_of_folder(folder)).events
     facts: dict[str, Any] = {"events": len(events)}
     if to == "events":
         return _Made(data="".join(to_json(event) + "\n" for event in events).encode(), facts=facts)
     if to == "mcap":
-        ground = None if site is None else open_ground(site, robot, lenient=lenient)
-        _write_mcap(events, output, ground, robot)
-        notes = () if site else ("without --site the map shows no trees",)
+        ground: Ground | None = None
+        if folder is not None:
+            ground = plan_of_folder(folder).ground
+        elif site is not None:
+            ground = ground_of(site, source.robot, lenient=source.lenient)
+        _write_mcap(events, output, ground, source.robot or "husky")
+        notes = () if ground else ("without --site the map shows no trees",)
         return _Made(data=None, facts=facts, notes=notes)
     route = driven(events)
     return _Made(data=_WRITERS[to](route), facts=facts | _facts(route))
-
-
-def read_log(path: Path) -> tuple[Event, ...]:
-    """The events of a log, whether JSON lines or MCAP.
-
-    Raises:
-        InputError: The file cannot be read, is damaged, or holds no event.
-        TaskError: A line or a message is no event.
-    """
-    from fieldhand.exchange.mcap import is_mcap, read_mcap
-    from fieldhand.execution.log import read_events
-
-    events = read_mcap(path) if is_mcap(path) else read_events(path)
-    if not events:
-        raise InputError("holds no event", where=str(path), advice="give a log that fieldhand run wrote")
-    return events
 
 
 def _write_mcap(events: tuple[Event, ...], output: Path, ground: Ground | None, robot: str) -> None:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from fieldhand import mission, missions, past
 from fieldhand.cli import show
 from fieldhand.cli.approving import approve_plan, review_plan
-from fieldhand.cli.bundles import signer_record
+from fieldhand.cli.bundles import say_signature, signer_record
 from fieldhand.cli.inputs import Ground, write_file
 from fieldhand.cli.show import note
 from fieldhand.errors import InputError, OutputError
@@ -249,7 +249,15 @@ def conclude(
     written: list[Path] = []
     if orders.folder is not None and review.estimate is not None:
         files = mission.report(
-            orders.folder, authorized, ground.site, ground.robot, events, assessment, review.estimate
+            orders.folder,
+            authorized,
+            ground.site,
+            ground.robot,
+            events,
+            assessment,
+            review.estimate,
+            signed=say_signature(orders.bundle),
+            hashes=() if orders.bundle is None else (("signed mission", orders.bundle.hashes["bundle"]),),
         )
         written = [*(orders.folder / file for file in ("task.xml", "map.png", "events.jsonl")), *files.paths]
     if orders.history is not None:

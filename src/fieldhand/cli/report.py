@@ -2,39 +2,73 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from fieldhand.cli.options import JsonOption, LenientOption, RobotOption, SiteOption
+from fieldhand.cli.options import JsonOption, LenientOption, MissionsOption
+from fieldhand.cli.recorded import RecordedSiteOption
 
 
 def report(
-    events: Annotated[Path, typer.Argument(help="An event log (JSON lines), whole or cut off.")],
-    task: Annotated[Path, typer.Option("--task", help="The Task document that was carried out.")],
-    site: SiteOption,
-    robot: RobotOption = "husky",
+    given: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="[MISSION|EVENTS]",
+            help="Name or folder of a mission, else the one begun last; or an event log (JSON lines or MCAP).",
+        ),
+    ] = None,
+    task: Annotated[
+        Path | None, typer.Option("--task", help="Of a log: the Task document or signed mission that was carried out.")
+    ] = None,
+    site: RecordedSiteOption = None,
+    robot: Annotated[str | None, typer.Option("--robot", help="Of a log: the robot; husky if none is given.")] = None,
     output: Annotated[Path, typer.Option("-o", "--out", help="Folder for the report.")] = Path("report"),
     lenient: LenientOption = False,
+    kept: MissionsOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Judge a mission from its event log and report it; exit status 1 unless it completed with every goal met."""
-    from fieldhand import mission, past
+    """Judge a mission and report it; exit status 1 unless it completed with every goal met."""
+    from fieldhand import past
     from fieldhand.cli import show
-    from fieldhand.cli.inputs import open_ground
+    from fieldhand.cli.recorded import folder_of, log_of_folder, plan_of_files, plan_of_folder, require_nothing_beside
+    from fieldhand.errors import InputError
     from fieldhand.evaluation.report_facts import end_of
     from fieldhand.evaluation.telling import goal_names
 
-    ground = open_ground(site, robot, lenient=lenient)
-    read, document = mission.read_task(task, ground.robot)
-    files, assessment, log = past.report_log(output, events, read, document, ground.site, ground.robot)
-    ended = end_of(log)
+    folder = folder_of(given, kept)
+    if folder is not None:
+        require_nothing_beside(folder, task=task, site=site, robot=robot)
+        plan, log = plan_of_folder(folder), log_of_folder(folder)
+    elif task is None:
+        raise InputError(
+            "what was carried out is not given",
+            where="--task",
+            advice="give the Task document or the signed mission; or the mission by its name",
+        )
+    else:
+        plan, log = plan_of_files(task, site, robot, lenient=lenient), past.read_log(Path(given or ""))
+    files, assessment = past.report_log(
+        output,
+        log,
+        plan.task,
+        plan.document,
+        plan.ground.site,
+        plan.ground.robot,
+        authorization=plan.authorization,
+        signed=plan.signed,
+        hashes=plan.hashes,
+    )
+    ended = end_of(log.events)
     status = 0 if ended is not None and ended.status == "completed" and assessment.success else 1
     if json:
-        show.print_json(show.mission_record(read, "", ended, assessment.outcomes, list(files.paths)))
+        record = show.mission_record(plan.task, "", ended, assessment.outcomes, list(files.paths))
+        approved = None if plan.authorization is None else asdict(plan.authorization)
+        show.print_json(record | {"authorization": approved, "signed": plan.signed})
         raise SystemExit(status)
-    show.show_outcomes(assessment.outcomes, goal_names(read, ground.robot))
+    show.show_outcomes(assessment.outcomes, goal_names(plan.task, plan.ground.robot))
     show.out.print(f"\nMission {ended.status}." if ended else "\nThe log ends before the mission does.")
     show.heading("Where to look")
     for path in files.paths:

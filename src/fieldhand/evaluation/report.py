@@ -42,6 +42,7 @@ def write_report(
     outcomes: Sequence[GoalOutcome],
     authorization: Authorization | None,
     estimate: Estimate | None,
+    signed: str = "",
     hashes: Sequence[tuple[str, str]] = (),
 ) -> ReportFiles:
     """Write the report of a mission into a folder, which is made if needed; files of the same names are replaced.
@@ -53,6 +54,7 @@ def write_report(
         outcomes: What came of each goal, from :func:`fieldhand.evaluation.outcome.judge`.
         authorization: Who approved what; None where that is not known.
         estimate: What it was expected to take; None leaves the comparison out.
+        signed: Whose signature the mission has, in words; empty where there is none.
         hashes: SHA-256 of what the report rests on beside what was approved, each with its name.
 
     Raises:
@@ -73,6 +75,7 @@ def write_report(
         outcomes=outcomes,
         authorization=authorization,
         estimate=estimate,
+        signed=signed,
         hashes=hashes,
     )
     from fieldhand.evaluation.report_maps import report_maps

@@ -118,6 +118,7 @@ def tell(
     outcomes: Sequence[GoalOutcome],
     authorization: Authorization | None,
     estimate: Estimate | None,
+    signed: str = "",
     hashes: Sequence[tuple[str, str]] = (),
 ) -> Report:
     """What there is to say of a mission.
@@ -128,6 +129,7 @@ def tell(
         outcomes: What came of each goal.
         authorization: Who approved what; None where that is not known.
         estimate: What it was expected to take; None leaves the comparison out.
+        signed: Whose signature the mission has, in words; empty where there is none.
         hashes: SHA-256 of what the report rests on, each with its name.
     """
     names = PlaceNames(site)
@@ -151,7 +153,7 @@ def tell(
         rows=rows[:MOST_ROWS],
         more_rows=f"More than {MOST_ROWS:,} readings: all are in observations.csv." if len(rows) > MOST_ROWS else "",
         warnings=() if authorization is None else authorization.confirmed,
-        record=tuple(_record(task, site, robot, events, authorization, hashes)),
+        record=tuple(_record(task, site, robot, events, authorization, signed, hashes)),
     )
 
 
@@ -292,6 +294,7 @@ def _record(
     robot: RobotProfile,
     events: Sequence[Event],
     authorization: Authorization | None,
+    signed: str,
     hashes: Sequence[tuple[str, str]],
 ) -> Iterable[tuple[str, str]]:
     started = start_of(events)
@@ -303,6 +306,8 @@ def _record(
         yield "Approved by", "not known: the report was made from a log and a Task document"
     else:
         yield "Approved by", f"{authorization.by}, {authorization.at}"
+    if signed:
+        yield "Signed with", signed
     budgets = [
         f"{say_number(b.limit)} {_BUDGETS[b.kind]}"
         f" ({say_number(100 * b.failure_probability)} % chance of more accepted)"

@@ -19,6 +19,7 @@ from fieldhand.missions.folder import (
     missions_folder,
     new_id,
     open_mission,
+    signed_bundle,
 )
 from fieldhand.missions.kept import Status, carry_out, events_of, is_running, order, status
 
@@ -37,5 +38,6 @@ __all__ = [
     "new_id",
     "open_mission",
     "order",
+    "signed_bundle",
     "status",
 ]

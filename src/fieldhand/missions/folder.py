@@ -153,6 +153,16 @@ def is_signed(folder: Path) -> bool:
     return isinstance(files, dict) and _SIGNED in files
 
 
+def signed_bundle(folder: Path) -> bytes | None:
+    """The signed bundle that a mission came from, with the bytes that it began with; None where nobody signed it.
+
+    Raises:
+        JournalError: This is no mission, or the bundle is another.
+    """
+    sums = read_about(folder)[0].get("files")
+    return read_file(folder, _SIGNED, sums[_SIGNED]) if isinstance(sums, dict) and _SIGNED in sums else None
+
+
 def open_mission(folder: Path, verify: Callable[[bytes, str], Bundle] | None = None) -> Mission:
     """Read a mission from its folder; every byte has to be the one that it began with.
 

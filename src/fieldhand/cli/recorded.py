@@ -1,0 +1,154 @@
+"""What belongs to a mission that was approved or carried out: its folder, a signed bundle, or single files."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from fieldhand.cli.bundles import is_bundle, read_unverified, require_site
+from fieldhand.cli.inputs import Ground, open_ground
+from fieldhand.cli.options import SITE_HELP
+from fieldhand.errors import InputError
+
+if TYPE_CHECKING:
+    from fieldhand.past import Log
+    from fieldhand.task.authorization import Authorization
+    from fieldhand.task.frames import Task
+
+RecordedSiteOption = Annotated[
+    str | None,
+    typer.Option("--site", help=f"{SITE_HELP} A signed mission (.mission) brings site and robot."),
+]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """What was to be done, where and with what.
+
+    Attributes:
+        document: The bytes of the Task.
+        authorization: Who approved it; None where that is not known.
+        signed: Whose signature it has, in words; empty where there is none.
+        hashes: SHA-256 of what else it rests on, each with its name.
+    """
+
+    task: Task
+    document: bytes
+    ground: Ground
+    authorization: Authorization | None = None
+    signed: str = ""
+    hashes: Sequence[tuple[str, str]] = ()
+
+
+def folder_of(given: str | None, under: Path | None) -> Path | None:
+    """The folder of a mission, where none is given that of the one begun last; None where a file is given.
+
+    Raises:
+        JournalError: There is no mission of that name.
+    """
+    from fieldhand import missions
+
+    path = Path(given or "")
+    if given is not None and (path.is_file() or (path.suffix and not path.is_dir())):
+        return None
+    return missions.find(under or missions.missions_folder(os.environ), given)
+
+
+def plan_of_folder(folder: Path) -> Plan:
+    """What a mission's folder holds; every byte has to be the one that it began with.
+
+    Raises:
+        JournalError, NotApprovedError, BundleError: It does not.
+    """
+    from fieldhand import missions
+
+    given = missions.open_mission(folder)
+    data = missions.signed_bundle(folder)
+    bundle = None if data is None else read_unverified(data, str(folder))
+    return Plan(
+        task=given.authorized.task,
+        document=(folder / "task.xml").read_bytes(),
+        ground=Ground(site=given.site, robot=given.robot),
+        authorization=given.authorized.authorization,
+        signed="" if bundle is None else bundle.signed,
+        hashes=() if bundle is None else (("signed mission", bundle.sha256),),
+    )
+
+
+def log_of_folder(folder: Path) -> Log:
+    """The log of a mission, as far as it is safe on the disk.
+
+    Raises:
+        InputError: It has not begun.
+    """
+    from fieldhand import missions
+    from fieldhand.past import Log
+
+    events = missions.events_of(folder)
+    if not events:
+        raise InputError("the mission has done nothing yet", where=str(folder), advice="give one that has begun")
+    return Log(events=events, where=str(folder))
+
+
+def plan_of_files(task: Path, site: str | None, robot: str | None, *, lenient: bool) -> Plan:
+    """A Task document with site and robot, or a signed mission, which has its own.
+
+    Raises:
+        InputError: One of them is missing, cannot be used, or is given beside a signed mission.
+    """
+    from fieldhand import mission
+
+    if is_bundle(str(task)):
+        require_nothing_beside(task, site=site, robot=robot)
+        return plan_of_bundle(task)
+    ground = ground_of(require_site(site), robot, lenient=lenient)
+    read, document = mission.read_task(task, ground.robot)
+    return Plan(task=read, document=document, ground=ground)
+
+
+def plan_of_bundle(file: Path) -> Plan:
+    """What a signed mission holds, whoever signed it.
+
+    Raises:
+        BundleError: It is broken.
+    """
+    from fieldhand.approval.bundle.container import read_bundle_file
+    from fieldhand.approval.bundle.opening import authorization_of
+
+    found = read_unverified(read_bundle_file(file), str(file))
+    return Plan(
+        task=found.content.task,
+        document=found.document,
+        ground=Ground(site=found.content.site, robot=found.content.robot),
+        authorization=authorization_of(found.content.manifest),
+        signed=found.signed,
+        hashes=(("signed mission", found.sha256),),
+    )
+
+
+def ground_of(site: str, robot: str | None, *, lenient: bool) -> Ground:
+    """Site and robot; those of a signed mission, where one is given for the site.
+
+    Raises:
+        SiteError, ProfileError, BundleError: One of them cannot be used.
+    """
+    if is_bundle(site):
+        require_nothing_beside(Path(site), robot=robot)
+        return plan_of_bundle(Path(site)).ground
+    return open_ground(site, robot or "husky", lenient=lenient)
+
+
+def require_nothing_beside(brings: Path, **given: object) -> None:
+    """Refuse options that say again what a signed mission or a mission's folder says.
+
+    Raises:
+        InputError: One was given.
+    """
+    for option, value in given.items():
+        if value is not None:
+            raise InputError(f"{brings.name} brings its own", where=f"--{option}", advice="leave it out")
