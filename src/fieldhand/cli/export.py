@@ -140,8 +140,10 @@ def _of_task(source: _Source, to: str) -> _Made:
 
 def _of_log(source: _Source, to: str, output: Path) -> _Made:
     from fieldhand.cli.recorded import ground_of, log_of_folder, plan_of_folder
+    from fieldhand.evaluation.telling import Teller
     from fieldhand.exchange.routes.route import driven
     from fieldhand.past import read_log
+    from fieldhand.robot.loader import load_robot
     from fieldhand.task.results import to_json
 
     folder, site = source.folder, source.site
@@ -158,7 +160,8 @@ def _of_log(source: _Source, to: str, output: Path) -> _Made:
         _write_mcap(events, output, ground, source.robot or "husky")
         notes = () if ground else ("without --site the map shows no trees",)
         return _Made(data=None, facts=facts, notes=notes)
-    route = driven(events)
+    named = plan_of_folder(folder).ground.robot if folder is not None else load_robot(source.robot or "husky")
+    route = driven(events, tell=Teller(named).tell)
     return _Made(data=_WRITERS[to](route), facts=facts | _facts(route))
 
 

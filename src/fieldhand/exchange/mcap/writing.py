@@ -5,7 +5,8 @@
 | /mission/EVENT | fieldhand.* | every event, as the event log has it |
 | /location | foxglove.LocationFix | where the robot is: at each place, and along each drive between |
 | /way | foxglove.GeoJSON | the way of the drive that has begun |
-| /captures | foxglove.GeoJSON | all captures so far, with their readings |
+| /captures | foxglove.GeoJSON | all captures so far, with their readings; those in doubt, too |
+| /blocked | foxglove.GeoJSON | what the robot keeps off because something stood there |
 | /site | foxglove.GeoJSON | trees, markers and zones, if the site is given |
 | /log | foxglove.Log | what happened, in words |
 | /state | fieldhand.State | charge, metres and the last reading of each quantity, for plots |
@@ -24,17 +25,23 @@ from typing import IO, TYPE_CHECKING, Any
 import numpy as np
 
 from fieldhand.errors import OutputError
+from fieldhand.exchange.incidents import known, position_of, way_until
 from fieldhand.exchange.mcap.schemas import EVENTS, GEOJSON, LOCATION, LOG, STATE, schema_of
 from fieldhand.task.results import (
     Acted,
     Arrived,
+    ClockSet,
     Driving,
     Ended,
     Event,
     Exited,
     Faulted,
+    InDoubt,
+    Obstructed,
+    Resumed,
     Shed,
     Started,
+    Waited,
     to_json,
 )
 
@@ -45,6 +52,8 @@ if TYPE_CHECKING:
 
 #: Levels of foxglove.Log.
 _INFO, _WARNING, _ERROR = 2, 3, 4
+#: What somebody should look at who reads the log.
+_DOUBTFUL = InDoubt | Resumed | Obstructed | Waited | ClockSet
 #: Seconds between positions along a drive.
 _EVERY_S = 1.0
 #: At most so many positions along one drive.
@@ -90,7 +99,7 @@ class McapLog:
         self._path, self._began, self._tell, self._site = path, began_s, tell, site
         self._channels: dict[str, int] = {}
         self._count = 0
-        self._captures: list[Acted] = []
+        self._captures: list[Acted | InDoubt] = []
         self._next_shown = 1
         self._drive: Driving | None = None
         self._state: dict[str, Any] = {"charge_percent": 100.0, "travelled_m": 0.0, "readings": {}}
@@ -137,8 +146,8 @@ class McapLog:
         """The messages of an event, in the order of their times."""
         if isinstance(event, Started) and self._site is not None:
             yield self._geojson("/site", event.t, _site_features(self._site))
-        if isinstance(event, Arrived | Ended):
-            yield from self._along(event.t, (event.lat, event.lon))
+        if isinstance(event, Arrived | Obstructed | Resumed | Ended):
+            yield from self._along(event, (event.lat, event.lon))
         self._count += 1
         topic, schema = EVENTS + event.event, schema_of(type(event))
         yield _Message(topic=topic, schema=schema, t=event.t, data=to_json(event).encode(), sequence=self._count)
@@ -151,13 +160,16 @@ class McapLog:
                 line = {"type": "LineString", "coordinates": [[lon, lat] for lat, lon in event.path]}
                 if len(event.path) > 1:
                     yield self._geojson("/way", event.t, [_feature(line, {"node": event.node, "to": event.place})])
-            case Acted():
+            case Obstructed():
+                yield self._geojson("/blocked", event.t, _blocked_features(event))
+            case Acted() | InDoubt():
                 self._captures.append(event)
                 yield from self._shown(event.t)
             case Ended():
                 yield from self._shown(event.t, last=True)
-        if isinstance(event, Started | Arrived | Ended):
-            yield self._location(event.t, event.lat, event.lon)
+        at = position_of(event)
+        if at is not None:
+            yield self._location(event.t, *at)
         if self._note(event):
             yield _Message(topic="/state", schema=STATE, t=event.t, data=_json(self._state))
 
@@ -165,26 +177,30 @@ class McapLog:
         """All captures so far: after each of the first, then whenever there is a tenth more, and at the end."""
         if len(self._captures) >= self._next_shown or last:
             self._next_shown = len(self._captures) + max(1, len(self._captures) // 10)
-            yield self._geojson("/captures", t, [_capture(e) for e in self._captures if _known(e.lat, e.lon)])
+            yield self._geojson("/captures", t, [_capture(e) for e in self._captures if known((e.lat, e.lon))])
 
     def _note(self, event: Event) -> bool:
         """Keep what an event says of the robot; whether it says anything."""
-        if isinstance(event, Started | Arrived | Acted | Ended):
+        if isinstance(event, Started | Arrived | Acted | InDoubt | Resumed | Ended):
             self._state["charge_percent"] = event.charge_percent
-        if isinstance(event, Arrived | Ended):
+        if isinstance(event, Arrived | Obstructed | Ended):
             self._state["travelled_m"] = event.travelled_m
         if isinstance(event, Acted):
             self._state["readings"] |= {q: v for q, v in event.readings.items() if math.isfinite(v)}
-        return isinstance(event, Started | Arrived | Acted | Ended)
+        return isinstance(event, Started | Arrived | Acted | InDoubt | Obstructed | Resumed | Ended)
 
-    def _along(self, until: float, at: tuple[float, float]) -> Iterator[_Message]:
-        """Positions between the beginning of a drive and its end, as if it had gone evenly along its way."""
+    def _along(self, event: Event, at: tuple[float, float]) -> Iterator[_Message]:
+        """Positions along a drive to its end or where it was broken off, as if it had gone evenly."""
         drive, self._drive = self._drive, None
-        if drive is None or len(drive.path) < 2 or until - drive.t <= _EVERY_S or not _known(*at):
+        until = event.t
+        if drive is None or len(drive.path) < 2 or until - drive.t <= _EVERY_S or not known(at):
             return
         corners = np.asarray(drive.path, dtype=np.float64)
-        east = np.diff(corners[:, 1]) * math.cos(math.radians(corners[0, 0]))
-        along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(corners[:, 0]), east))])
+        # A degree of longitude is shorter than one of latitude.
+        alike = np.array([1.0, math.cos(math.radians(corners[0, 0]))])
+        if not isinstance(event, Arrived):
+            corners = way_until(corners * alike, np.array(at) * alike) / alike
+        along = np.concatenate([[0.0], np.cumsum(np.hypot(*(np.diff(corners, axis=0) * alike).T))])
         count = min(_MOST, int((until - drive.t) / _EVERY_S))
         for part in np.linspace(0.0, 1.0, count + 1)[1:-1]:
             lat, lon = (float(np.interp(part * along[-1], along, corners[:, k])) for k in (0, 1))
@@ -203,7 +219,7 @@ class McapLog:
         return _Message(topic="/location", schema=LOCATION, t=t, data=_json(fix))
 
     def _log(self, event: Event, words: str) -> _Message:
-        failed = (isinstance(event, Acted) and event.status == "failed") or isinstance(event, Shed)
+        failed = (isinstance(event, Acted) and event.status == "failed") or isinstance(event, Shed | _DOUBTFUL)
         bad = isinstance(event, Faulted) and not event.handled
         bad = bad or (isinstance(event, Exited) and event.exit == "faulted")
         level = _ERROR if bad else _WARNING if failed or isinstance(event, Faulted) else _INFO
@@ -263,9 +279,21 @@ def _site_features(site: Site) -> list[dict[str, Any]]:
     return features
 
 
-def _capture(event: Acted) -> dict[str, Any]:
+def _blocked_features(event: Obstructed) -> list[dict[str, Any]]:
+    """All that the robot keeps off from now on, and where it stands."""
+    style = {"stroke": "#b3261e", "fill": "#b3261e", "fill-opacity": 0.35}
+    rings = [[[lon, lat] for lat, lon in area] for area in event.blocked if len(area) > 2]
+    closed = [ring if ring[0] == ring[-1] else [*ring, ring[0]] for ring in rings]
+    features = [_feature({"type": "Polygon", "coordinates": [ring]}, {"style": style}) for ring in closed]
+    if known((event.lat, event.lon)):
+        said = {"place": event.place, "what": event.what, "unreachable": list(event.unreachable), "free": event.free}
+        features.append(_feature({"type": "Point", "coordinates": [event.lon, event.lat]}, said))
+    return features
+
+
+def _capture(event: Acted | InDoubt) -> dict[str, Any]:
     readings = {q: v for q, v in event.readings.items() if math.isfinite(v)}
-    colour = "#0072b2" if event.status == "success" else "#b3261e"
+    colour = {"success": "#0072b2", "in_doubt": "#8a3b00"}.get(event.status, "#b3261e")
     properties = {"place": event.place, "action": event.action, "status": event.status, "style": {"color": colour}}
     return _feature({"type": "Point", "coordinates": [event.lon, event.lat]}, properties | readings)
 
@@ -276,7 +304,3 @@ def _feature(geometry: dict[str, Any], properties: dict[str, Any]) -> dict[str, 
 
 def _json(value: Any) -> bytes:
     return json.dumps(value, ensure_ascii=False).encode()
-
-
-def _known(lat: float, lon: float) -> bool:
-    return math.isfinite(lat) and math.isfinite(lon)

@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.errors import InputError
+from fieldhand.exchange.incidents import LatLon, incidents, known, position_of, way_until
 from fieldhand.site.model import Site
-from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event, Started
+from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event, InDoubt, Paused, Resumed, Started
 
 Floats = NDArray[np.float64]
 
@@ -32,6 +33,39 @@ class Capture:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Sign:
+    """Something that happened beside drives and captures: when, where (metres), and what.
+
+    Attributes:
+        mark: One letter or sign that stands for its kind, from :data:`SIGNS`.
+        blocked: Areas that the robot keeps off from then on, as corners; None where nothing changed.
+        beside: So many signs of other kinds stand there already.
+    """
+
+    t: float
+    x: float
+    y: float
+    mark: str
+    words: str
+    beside: int = 0
+    blocked: tuple[Floats, ...] | None = None
+
+
+#: Signs nearer than this are drawn side by side.
+_TOGETHER_M = 1.5
+#: What is drawn of an event, and what that means. The end of a pause is a line of the story alone.
+SIGNS = {
+    "obstacle": ("!", "way blocked"),
+    "in_doubt": ("?", "capture in doubt"),
+    "wait": ("W", "waited"),
+    "fault": ("F", "fault"),
+    "paused": ("P", "paused"),
+    "resumed": ("R", "went on after a power cut"),
+    "clock": ("C", "clock set"),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
 class Film:
     """A mission over time. Seconds count from its beginning; metres are the site's.
 
@@ -40,6 +74,7 @@ class Film:
         charge: Columns t and percent of a full battery.
         lines: What happened, in words, with its time.
         quantities: What was read, the most often read first.
+        signs: Faults, doubts, pauses and power cuts.
     """
 
     title: str
@@ -49,6 +84,11 @@ class Film:
     captures: tuple[Capture, ...]
     lines: tuple[tuple[float, str], ...]
     quantities: tuple[str, ...]
+    signs: tuple[Sign, ...] = ()
+
+    def blocked_at(self, t: float) -> tuple[Floats, ...]:
+        """What the robot keeps off by then."""
+        return next((s.blocked for s in reversed(self.signs) if s.t <= t and s.blocked is not None), ())
 
     def at(self, t: float) -> tuple[float, float]:
         """Where the robot is, in metres."""
@@ -81,7 +121,6 @@ def film_of(events: Sequence[Event], site: Site, *, tell: Callable[[Event], str 
     track, charge = _Track(), []
     captures: list[Capture] = []
     lines: list[tuple[float, str]] = []
-    drive: Driving | None = None
     for event in events:
         if not math.isfinite(event.t):
             continue
@@ -90,15 +129,18 @@ def film_of(events: Sequence[Event], site: Site, *, tell: Callable[[Event], str 
             lines.append((event.t, " ".join(words.split())))
         match event:
             case Driving():
-                drive = event
-            case Started() | Arrived() | Ended() if _known(event.lat, event.lon):
-                if isinstance(event, Arrived) and drive is not None:
-                    track.drive(drive, event.t, site)
-                track.add(event.t, site.projection.metres(event.lat, event.lon))
-                drive = None
-            case Acted() if _known(event.lat, event.lon):
+                track.begin(event, site)
+            case Paused():
+                track.stop(event.t)
+            case Acted() if known((event.lat, event.lon)):
                 captures.append(_capture(event, site))
-        if isinstance(event, Started | Arrived | Acted | Ended) and math.isfinite(event.charge_percent):
+            case _:
+                at = position_of(event)
+                if at is not None:
+                    track.come(event.t, site.projection.metres(*at), whole=isinstance(event, Arrived))
+        if isinstance(event, Started | Arrived | Acted | InDoubt | Resumed | Ended) and math.isfinite(
+            event.charge_percent
+        ):
             charge.append((event.t, event.charge_percent))
     if not track.corners:
         what = "the log does not say where the robot was"
@@ -109,6 +151,7 @@ def film_of(events: Sequence[Event], site: Site, *, tell: Callable[[Event], str 
     if far > 100_000:
         raise InputError("the mission was on another site than this one", advice="give the site that it was driven on")
     return Film(
+        signs=_signs(events, site, tell, found),
         title=_title(events),
         seconds=max(float(found[-1, 0]), max((c.t for c in captures), default=0.0), 1.0),
         track=found,
@@ -124,22 +167,63 @@ class _Track:
 
     def __init__(self) -> None:
         self.corners: list[tuple[float, float, float]] = []
+        self._way: Floats | None = None
+        self._since = self._until = 0.0
+
+    def begin(self, drive: Driving, site: Site) -> None:
+        """A drive begins; the one before was broken off where this one starts, if it did not arrive."""
+        degrees = np.asarray(drive.path, dtype=np.float64).reshape(-1, 2)
+        if len(degrees) < 2 or not all(known(corner) for corner in degrees.tolist()):
+            self._way = None
+            return
+        way = site.projection.metres(degrees[:, 0], degrees[:, 1])
+        if self._way is not None and self.corners:
+            self.come(min(self._until, drive.t), way[:1])
+        self._way, self._since, self._until = way, drive.t, math.inf
+
+    def stop(self, t: float) -> None:
+        """The robot stands still from now on."""
+        self._until = min(self._until, t)
+
+    def come(self, t: float, at: Floats, *, whole: bool = False) -> None:
+        """The robot is here, along the drive in hand; ``whole``: at its end."""
+        if self._way is not None:
+            self._along(self._way if whole else way_until(self._way, at[0]), min(t, self._until))
+        self._way = None
+        self.add(t, at)
 
     def add(self, t: float, xy: Floats) -> None:
         for x, y in xy:
             latest = self.corners[-1][0] if self.corners else t
             self.corners.append((max(t, latest), float(x), float(y)))
 
-    def drive(self, drive: Driving, until: float, site: Site) -> None:
+    def _along(self, xy: Floats, until: float) -> None:
         """A drive that went evenly along its way."""
-        degrees = np.asarray(drive.path, dtype=np.float64).reshape(-1, 2)
-        if len(degrees) < 2 or not np.isfinite(degrees).all():
-            return
-        xy = site.projection.metres(degrees[:, 0], degrees[:, 1])
         lengths = np.hypot(*np.diff(xy, axis=0).T)
         parts = np.concatenate([[0.0], np.cumsum(lengths)]) / max(float(lengths.sum()), 1e-9)
         for part, point in zip(parts, xy, strict=True):
-            self.add(drive.t + float(part) * (until - drive.t), point.reshape(1, 2))
+            self.add(self._since + float(part) * (until - self._since), point.reshape(1, 2))
+
+
+def _signs(events: Sequence[Event], site: Site, tell: Callable[[Event], str | None], track: Floats) -> tuple[Sign, ...]:
+    found: list[Sign] = []
+    for one in incidents([e for e in events if math.isfinite(e.t)], tell):
+        if one.event not in SIGNS:
+            continue
+        at = [float(np.interp(one.t, track[:, 0], track[:, k])) for k in (1, 2)]
+        # A capture in doubt is where it was to be made; all else is where the robot is seen.
+        if one.event == "in_doubt" and one.at is not None:
+            at = site.projection.metres(*one.at)[0].tolist()
+        blocked = None if one.blocked is None else tuple(_ring(area, site) for area in one.blocked if len(area) > 2)
+        mark = SIGNS[one.event][0]
+        there = {s.mark for s in found if math.dist((s.x, s.y), at) < _TOGETHER_M} - {mark}
+        found.append(Sign(t=one.t, x=at[0], y=at[1], mark=mark, words=one.words, blocked=blocked, beside=len(there)))
+    return tuple(found)
+
+
+def _ring(area: Sequence[LatLon], site: Site) -> Floats:
+    degrees = np.array([corner for corner in area if known(corner)], dtype=np.float64).reshape(-1, 2)
+    return site.projection.metres(degrees[:, 0], degrees[:, 1])
 
 
 def _capture(event: Acted, site: Site) -> Capture:
@@ -157,7 +241,3 @@ def _title(events: Sequence[Event]) -> str:
     ended = next((e for e in reversed(events) if isinstance(e, Ended)), None)
     who = f"{started.robot} on {started.site}" if started is not None else "Mission"
     return f"{who}: {ended.status if ended is not None else 'cut off'}"
-
-
-def _known(lat: float, lon: float) -> bool:
-    return math.isfinite(lat) and math.isfinite(lon) and abs(lat) <= 90 and abs(lon) <= 180

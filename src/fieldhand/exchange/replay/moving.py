@@ -18,7 +18,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_WAY, _INK, _FAILED, _PLAIN = "#26324f", "#2f2f2f", "#b3261e", "#6a3d9a"
+_WAY, _INK, _FAILED, _PLAIN, _SIGN = "#26324f", "#2f2f2f", "#b3261e", "#6a3d9a", "#8a3b00"
+#: Letters of what happened last that have room below the map.
+_LONGEST = 70
 _FRAMES_A_SECOND = 10
 #: Inches of the picture's height, dots an inch, and seconds for which the last picture stays.
 _HEIGHT_IN, _DPI, _HOLD_S = 6.0, 80, 1.5
@@ -72,6 +74,8 @@ class _Scene:
     """The site, drawn once, and what moves on it."""
 
     def __init__(self, film: Film, site: Site) -> None:
+        from matplotlib.collections import PolyCollection
+
         self._film = film
         figure = site_figure(site)
         width, height = figure.get_size_inches()
@@ -80,10 +84,12 @@ class _Scene:
         self._ax = ax = figure.axes[0]
         draw_site(ax, site)
         layout = figure.get_layout_engine()
+        low = 0.04 if film.signs else 0.0
         if layout is not None:
-            layout.set(rect=(0.0, 0.0, 1.0, 0.91))  # type: ignore[call-arg]  # a constrained one
+            layout.set(rect=(0.0, low, 1.0, 0.91 - low))  # type: ignore[call-arg]  # a constrained one
         figure.text(0.02, 0.985, film.title.replace("$", r"\$"), ha="left", va="top", fontsize=11, color=_INK)
         self._clock = figure.text(0.02, 0.915, "", ha="left", va="bottom", fontsize=10, color=_INK)
+        self._aside = 0.03 * float(np.ptp(ax.get_xlim()))
         quantity = film.quantities[0] if film.quantities else ""
         self._valued = [c for c in film.captures if quantity in c.readings]
         self._values = np.array([c.readings[quantity] for c in self._valued])
@@ -93,8 +99,15 @@ class _Scene:
         (self._plain,) = ax.plot([], [], "D", color=_PLAIN, markersize=6, markeredgecolor="white")
         (self._failed,) = ax.plot([], [], "X", color=_FAILED, markersize=8, markeredgecolor="white")
         self._dots = _valued_dots(figure, ax, self._valued, quantity) if self._valued else None
-        moving = (self._way, self._plain, self._failed, self._dots, self._robot, self._clock)
-        self._moving = [artist for artist in moving if artist is not None]
+        self._closed = PolyCollection([], facecolors="#b3261e55", edgecolors=_FAILED, linewidths=1.2, zorder=9)
+        ax.add_collection(self._closed, autolim=False)
+        self._flags = {
+            mark: ax.plot([], [], marker=f"$\\mathbf{{{mark}}}$", color=_SIGN, linestyle="none", markersize=10)[0]
+            for mark in dict.fromkeys(sign.mark for sign in film.signs)
+        }
+        self._news = figure.text(0.02, 0.015, "", ha="left", va="bottom", fontsize=9, color=_SIGN)
+        moving = (self._closed, self._way, self._plain, self._failed, self._dots, *self._flags.values(), self._robot)
+        self._moving = [artist for artist in (*moving, self._clock, self._news) if artist is not None]
         for artist in self._moving:
             artist.set_animated(True)
         self._canvas = _canvas(figure)
@@ -113,6 +126,14 @@ class _Scene:
             self._dots.set_array(self._values[: len(done)])
         self._plain.set_data(*_xy([c for c in self._others if c.t <= t]).T)
         self._failed.set_data(*_xy([c for c in film.captures if not c.good and c.t <= t]).T)
+        self._closed.set_verts(film.blocked_at(t))
+        signs = [sign for sign in film.signs if sign.t <= t]
+        for mark, flag in self._flags.items():
+            # Beside the robot, not under it.
+            mine = [sign for sign in signs if sign.mark == mark]
+            flag.set_data([s.x + (1 + s.beside) * self._aside for s in mine], [s.y for s in mine])
+        said = signs[-1].words.replace("$", r"\$") if signs else ""
+        self._news.set_text(said if len(said) <= _LONGEST else f"{said[: _LONGEST - 1]}\u2026")
         minutes, rest = divmod(round(t), 60)
         made = sum(c.good and c.t <= t for c in film.captures)
         said = f"{made} capture{'s' * (made != 1)}"

@@ -55,6 +55,18 @@
     if (edge) { pen.strokeStyle = edge; pen.lineWidth = 1.5; pen.stroke(); }
   };
 
+  // A small flag above the place, so that it covers neither the place nor what was read there.
+  const flag = (sign) => {
+    const left = sx(sign.x) + 3 + 17 * sign.beside, top = sy(sign.y) - 22;
+    pen.fillStyle = "#8a3b00";
+    pen.fillRect(left - 3, top, 2, 22);
+    pen.fillRect(left - 3, top, 15, 14);
+    pen.fillStyle = "#fff";
+    pen.font = "bold 12px system-ui, sans-serif";
+    pen.textAlign = "center";
+    pen.fillText(sign.mark, left + 4.5, top + 11);
+  };
+
   const order = { boundary: 0, zone: 1, keep_out: 2 };
   const zones = film.zones.slice().sort((a, b) => order[a.kind] - order[b.kind]);
   const ground = () => {
@@ -91,6 +103,17 @@
   const draw = () => {
     pen.clearRect(0, 0, canvas.width, canvas.height);
     ground();
+    const closed = film.signs.filter((s) => s.t <= now && s.blocked).pop();
+    for (const ring of closed ? closed.blocked : []) {
+      pen.beginPath();
+      ring.forEach(([x, y], k) => (k ? pen.lineTo(sx(x), sy(y)) : pen.moveTo(sx(x), sy(y))));
+      pen.closePath();
+      pen.fillStyle = "rgba(179, 38, 30, 0.35)";
+      pen.strokeStyle = "#b3261e";
+      pen.lineWidth = 1.5;
+      pen.fill();
+      pen.stroke();
+    }
     const x = between(film.track, now, 1), y = between(film.track, now, 2);
     pen.beginPath();
     pen.moveTo(sx(film.track[0][1]), sy(film.track[0][2]));
@@ -114,6 +137,7 @@
     for (const capture of done.filter((c) => c.readings[key] !== undefined)) {
       dot(capture.x, capture.y, 7, colour(high > low ? (capture.readings[key] - low) / (high - low) : 0.5), "#fff");
     }
+    for (const sign of film.signs.filter((s) => s.t <= now)) flag(sign);
     dot(x, y, 6, "#26324f", "#fff");
     const whole = Math.round(now);
     const clock = `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
@@ -179,6 +203,14 @@
     if (now >= film.seconds) play(false); else requestAnimationFrame(step);
   };
 
+  find("meanings").hidden = !film.meanings.length;
+  for (const [mark, words] of film.meanings) {
+    const sign = document.createElement("b");
+    sign.textContent = mark;
+    const meaning = document.createElement("span");
+    meaning.append(sign, words);
+    find("meanings").append(meaning);
+  }
   for (const quantity of film.quantities) find("quantity").append(new Option(quantity.name, quantity.key));
   for (const length of [10, 20, 60]) find("speed").append(new Option(`${length} s in all`, String(length)));
   find("speed").append(new Option("as it was", "0"));

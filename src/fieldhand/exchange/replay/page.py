@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from fieldhand.exchange.replay.film import Film
+from fieldhand.exchange.replay.film import SIGNS, Film
 from fieldhand.site.model import Site
 from fieldhand.task.words import capitalised, say_action, say_name, say_unit
 
@@ -60,6 +60,18 @@ def _data(film: Film, site: Site) -> dict[str, Any]:
         ],
         "quantities": [{"key": q, "name": capitalised(say_name(q)), "unit": _unit(film, q)} for q in film.quantities],
         "lines": [[round(t, 2), text] for t, text in film.lines],
+        "signs": [
+            {
+                "t": round(s.t, 2),
+                "x": round(s.x, 2),
+                "y": round(s.y, 2),
+                "mark": s.mark,
+                "beside": s.beside,
+                "blocked": None if s.blocked is None else [_rounded(area) for area in s.blocked],
+            }
+            for s in film.signs
+        ],
+        "meanings": [[mark, words] for mark, words in SIGNS.values() if any(s.mark == mark for s in film.signs)],
         "spacing": round(site.spacing_m, 2),
     }
 

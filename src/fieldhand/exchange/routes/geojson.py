@@ -5,11 +5,15 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from fieldhand.exchange.routes.route import LatLon, Route, Stop
+from fieldhand.exchange.incidents import Incident, LatLon
+from fieldhand.exchange.routes.route import Route, Stop
 
 
 def write_geojson(route: Route) -> bytes:
-    """A FeatureCollection; positions are longitude, latitude in degrees, WGS 84, to a hundredth of a millimetre."""
+    """A FeatureCollection; what happened beside the stops comes last.
+
+    Positions are longitude, latitude in degrees, WGS 84, to a hundredth of a millimetre.
+    """
     features: list[dict[str, Any]] = []
     for number, stop in enumerate(route.stops, start=1):
         if len(stop.way) > 1:
@@ -17,6 +21,13 @@ def write_geojson(route: Route) -> bytes:
             properties: dict[str, Any] = {"what": "way", "to_stop": number, "length_m": round(stop.length_m, 3)}
             features.append(_feature(line, properties | _certainty(route, stop)))
         features.append(_feature({"type": "Point", "coordinates": _position(stop.at)}, _of_stop(route, stop, number)))
+    features += [_of_incident(one, behind) for behind, one in route.incidents]
+    closed = next((one.blocked for _, one in reversed(route.incidents) if one.blocked is not None), ())
+    for area in closed:
+        ring = [_position(corner) for corner in area]
+        if len(ring) > 2:
+            ring = ring if ring[0] == ring[-1] else [*ring, ring[0]]
+            features.append(_feature({"type": "Polygon", "coordinates": [ring]}, {"what": "blocked"}))
     collection = {"type": "FeatureCollection", "name": route.name, "features": features}
     return (json.dumps(collection, ensure_ascii=False, indent=1) + "\n").encode()
 
@@ -45,11 +56,20 @@ def _of_stop(route: Route, stop: Stop, number: int) -> dict[str, Any]:
     return found | _certainty(route, stop)
 
 
+def _of_incident(one: Incident, behind: int) -> dict[str, Any]:
+    """A point, without a geometry where the log does not say where it was."""
+    geometry = None if one.at is None else {"type": "Point", "coordinates": _position(one.at)}
+    properties = {"what": one.event, "after_stop": behind, "node": one.node, "place": one.place, "t_s": round(one.t, 3)}
+    if one.unreachable:
+        properties["unreachable"] = list(one.unreachable)
+    return _feature(geometry, properties | {"said": one.words})
+
+
 def _certainty(route: Route, stop: Stop) -> dict[str, Any]:
     return {} if route.driven else {"certain": stop.certain}
 
 
-def _feature(geometry: dict[str, Any], properties: dict[str, Any]) -> dict[str, Any]:
+def _feature(geometry: dict[str, Any] | None, properties: dict[str, Any]) -> dict[str, Any]:
     return {"type": "Feature", "geometry": geometry, "properties": properties}
 
 

@@ -13,7 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from fieldhand.exchange.routes.route import LatLon, Route
+from fieldhand.exchange.incidents import LatLon
+from fieldhand.exchange.routes.route import Route
 from fieldhand.site.model import Site
 
 #: Of MAVLink: MAV_CMD_NAV_WAYPOINT, MAV_FRAME_GLOBAL_RELATIVE_ALT, MAV_TYPE_GROUND_ROVER, MAV_AUTOPILOT_ARDUPILOTMEGA.

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldhand.exchange.routes.route import LatLon, Route, Stop
+from fieldhand.exchange.incidents import LatLon
+from fieldhand.exchange.routes.route import Route, Stop
 from fieldhand.task.words import capitalised, say_action, say_name, say_number, say_unit
 
 if TYPE_CHECKING:
@@ -12,7 +13,7 @@ if TYPE_CHECKING:
 
 NAMESPACE = "http://www.opengis.net/kml/2.2"
 #: Colours as KML writes them: alpha, blue, green, red.
-_STYLES = (("certain", "ff4f3226"), ("uncertain", "ff008bd4"))
+_STYLES = (("certain", "ff4f3226"), ("uncertain", "ff008bd4"), ("incident", "ff003b8a"))
 
 
 def write_kml(route: Route) -> bytes:
@@ -33,28 +34,44 @@ def write_kml(route: Route) -> bytes:
     _sub(stops, "name", "Stops")
     for number, stop in enumerate(route.stops, start=1):
         if len(stop.way) > 1:
-            mark = _placemark(ways, f"To stop {number}", f"{stop.length_m:.1f} m", stop)
+            mark = _placemark(ways, f"To stop {number}", f"{stop.length_m:.1f} m", _style(stop))
             line = _sub(mark, "LineString")
             _sub(line, "tessellate", "1")
             _sub(line, "coordinates", " ".join(_position(p) for p in stop.way))
-        mark = _placemark(stops, f"{number}: {_named(stop)}", _described(stop), stop)
+        mark = _placemark(stops, f"{number}: {_named(stop)}", _described(stop), _style(stop))
         data = _sub(mark, "ExtendedData")
         for key, text in _data(route, stop, number).items():
             entry = _sub(data, "Data")
             entry.set("name", key)
             _sub(entry, "value", text)
         _sub(_sub(mark, "Point"), "coordinates", _position(stop.at))
+    if route.incidents:
+        happened = _sub(document, "Folder")
+        _sub(happened, "name", "Incidents")
+        for _, one in route.incidents:
+            if one.at is not None:
+                mark = _placemark(happened, one.event.replace("_", " "), one.words, "incident")
+                data = _sub(mark, "ExtendedData")
+                for key, text in {"t_s": f"{one.t:.3f}", "place": one.place, "node": one.node}.items():
+                    entry = _sub(data, "Data")
+                    entry.set("name", key)
+                    _sub(entry, "value", text)
+                _sub(_sub(mark, "Point"), "coordinates", _position(one.at))
     etree.indent(root)
     return etree.tostring(root, xml_declaration=True, encoding="UTF-8") + b"\n"
 
 
-def _placemark(folder: _Element, name: str, about: str, stop: Stop) -> _Element:
+def _placemark(folder: _Element, name: str, about: str, style: str) -> _Element:
     mark = _sub(folder, "Placemark")
     _sub(mark, "name", name)
     if about:
         _sub(mark, "description", about)
-    _sub(mark, "styleUrl", "#certain" if stop.certain else "#uncertain")
+    _sub(mark, "styleUrl", f"#{style}")
     return mark
+
+
+def _style(stop: Stop) -> str:
+    return "certain" if stop.certain else "uncertain"
 
 
 def _named(stop: Stop) -> str:

@@ -7,11 +7,13 @@ the same ways, and no step has come that the budget may leave out.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import takewhile
 from typing import TYPE_CHECKING
 
+from fieldhand.exchange.incidents import Incident, LatLon, incidents
+from fieldhand.exchange.incidents import known as _known
 from fieldhand.forecast.branches import branches
 from fieldhand.forecast.limits import speed_of
 from fieldhand.forecast.steps import Step, Walk
@@ -23,8 +25,6 @@ from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event, Starte
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
-
-LatLon = tuple[float, float]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,6 +87,7 @@ class Route:
         start: Where the robot begins.
         speed_m_s: Of driving.
         driven: It happened; else it is planned.
+        incidents: What happened beside drives and captures, each behind so many stops.
     """
 
     name: str
@@ -94,6 +95,7 @@ class Route:
     stops: tuple[Stop, ...]
     speed_m_s: float
     driven: bool
+    incidents: tuple[tuple[int, Incident], ...] = ()
 
 
 def planned(task: Task, site: Site, robot: RobotProfile) -> Route:
@@ -135,8 +137,16 @@ def planned(task: Task, site: Site, robot: RobotProfile) -> Route:
     )
 
 
-def driven(events: Sequence[Event], *, speed_m_s: float = 0.0) -> Route:
-    """The route of an event log. Events without a place on the earth are left out."""
+def driven(
+    events: Sequence[Event], *, speed_m_s: float = 0.0, tell: Callable[[Event], str | None] = lambda _: None
+) -> Route:
+    """The route of an event log. Stops without a place on the earth are left out.
+
+    Args:
+        events: The log.
+        speed_m_s: Of driving.
+        tell: Says an event in words, with its time in front.
+    """
     started = next((e for e in events if isinstance(e, Started)), None)
     begin = (0.0, 0.0) if started is None else (started.lat, started.lon)
     stops: list[Stop] = []
@@ -171,7 +181,10 @@ def driven(events: Sequence[Event], *, speed_m_s: float = 0.0) -> Route:
             case _:
                 pass
     name = started.task if started is not None else "mission"
-    return Route(name=name, start=begin, stops=tuple(stops), speed_m_s=speed_m_s, driven=True)
+    beside = tuple(
+        (sum(stop.t is not None and stop.t <= one.t for stop in stops), one) for one in incidents(events, tell)
+    )
+    return Route(name=name, start=begin, stops=tuple(stops), speed_m_s=speed_m_s, driven=True, incidents=beside)
 
 
 class _Certain:
@@ -237,7 +250,3 @@ def _stop(place: Place, site: Site, *, node: str, certain: bool) -> Stop:
 
 def _degrees(site: Site, points: ArrayLike) -> tuple[LatLon, ...]:
     return tuple((float(lat), float(lon)) for lat, lon in site.projection.degrees(points))
-
-
-def _known(at: LatLon) -> bool:
-    return math.isfinite(at[0]) and math.isfinite(at[1])

@@ -1,4 +1,4 @@
-"""A route as CSV (RFC 4180): one line an action at a stop, and one for a stop where nothing is done."""
+"""A route as CSV (RFC 4180): one line an action at a stop, one for a stop where nothing is done, one an incident."""
 
 from __future__ import annotations
 
@@ -9,17 +9,21 @@ from fieldhand.exchange.routes.route import Route, Work
 
 COLUMNS = (
     "stop", "kind", "place", "lat", "lon", "robot_lat", "robot_lon", "leg_m", "travelled_m", "t_s", "certain",
-    "node", "action", "captures", "failed", "readings",
+    "node", "action", "captures", "failed", "readings", "event", "said",
 )  # fmt: skip
 #: What a spreadsheet takes for the beginning of a formula.
 _FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
 
 
 def write_csv(route: Route) -> bytes:
-    """The stops in their order. Text that a spreadsheet would take for a formula begins with an apostrophe."""
+    """The stops in their order, what happened beside them behind the stop before.
+
+    Text that a spreadsheet would take for a formula begins with an apostrophe.
+    """
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\r\n")
     writer.writerow(COLUMNS)
+    rows: list[tuple[int, tuple[object, ...]]] = []
     for number, stop in enumerate(route.stops, start=1):
         beginning = (number, _text(stop.kind), _text(stop.place), *(f"{d:.9f}" for d in (*stop.at, *stop.stand)))
         way = (round(stop.length_m, 3), round(stop.travelled_m, 3), "" if stop.t is None else round(stop.t, 3))
@@ -27,7 +31,12 @@ def write_csv(route: Route) -> bytes:
             readings = "; ".join(f"{q} {v} {u}".strip() for q, (v, u) in work.readings.items())
             certain = "" if route.driven else "yes" if stop.certain and work.certain else "no"
             what = (_text(work.node), _text(work.action), work.captures or "", work.failed or "", _text(readings))
-            writer.writerow((*beginning, *way, certain, *what))
+            rows.append((number, (*beginning, *way, certain, *what, "", "")))
+    for behind, one in route.incidents:
+        at = ("", "") if one.at is None else tuple(f"{d:.9f}" for d in one.at)
+        where = (behind or "", "", _text(one.place), *at, "", "", "", "", round(one.t, 3), "", _text(one.node))
+        rows.append((behind, (*where, "", "", "", "", one.event, _text(one.words))))
+    writer.writerows(row for _, row in sorted(rows, key=lambda numbered: numbered[0]))
     return out.getvalue().encode()
 
 

@@ -1,0 +1,135 @@
+"""What happened to a mission beside drives and captures: faults, doubts, pauses, power cuts, each with its place."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.task.results import (
+    Arrived,
+    ClockSet,
+    Continued,
+    Driving,
+    Ended,
+    Event,
+    Faulted,
+    InDoubt,
+    Obstructed,
+    Paused,
+    Resumed,
+    Started,
+    Waited,
+)
+
+Floats = NDArray[np.float64]
+LatLon = tuple[float, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Incident:
+    """One of them.
+
+    Attributes:
+        event: As the event log calls it.
+        at: Where the robot was, or the capture in doubt; None where the log does not say.
+        place: What it drove to or worked on; empty where none is meant.
+        words: What happened.
+        blocked: All that the robot will not drive over from then on, as corners; None where nothing changed.
+        unreachable: Trees to which no way leads any more.
+    """
+
+    t: float
+    event: str
+    node: str
+    at: LatLon | None
+    place: str
+    words: str
+    blocked: tuple[tuple[LatLon, ...], ...] | None = None
+    unreachable: tuple[str, ...] = ()
+
+
+def incidents(events: Sequence[Event], tell: Callable[[Event], str | None]) -> tuple[Incident, ...]:
+    """The incidents of a log, in order.
+
+    Args:
+        events: The log.
+        tell: Says an event in words, with its time in front.
+    """
+    found: list[Incident] = []
+    here: LatLon | None = None
+    for k, event in enumerate(events):
+        here = position_of(event) or here
+        match event:
+            case Obstructed():
+                found.append(_incident(event, here, tell, event.place, event.blocked, event.unreachable))
+            case InDoubt():
+                at = (event.lat, event.lon)
+                found.append(_incident(event, at if known(at) else here, tell, event.place))
+            case Resumed() | Paused() | Continued() | Waited() | ClockSet() | Faulted():
+                stood = position_of(event) or _stood(events, k) or here
+                found.append(_incident(event, stood, tell, ""))
+            case _:
+                pass
+    return tuple(found)
+
+
+def position_of(event: Event) -> LatLon | None:
+    """Where an event says that the robot was."""
+    if isinstance(event, Started | Arrived | Resumed | Obstructed | Ended):
+        return (event.lat, event.lon) if known((event.lat, event.lon)) else None
+    return None
+
+
+def known(at: Sequence[float]) -> bool:
+    """Whether this is a place on the earth."""
+    return math.isfinite(at[0]) and math.isfinite(at[1]) and abs(at[0]) <= 90 and abs(at[1]) <= 180
+
+
+def way_until(way: Floats, at: Floats) -> Floats:
+    """A way as far as the point of it that is nearest to where the robot then was, that place as its last corner.
+
+    Args:
+        way: Corners, shape (n, 2), in metres or in anything that is alike in both directions.
+        at: Shape (2,).
+    """
+    legs = np.diff(way, axis=0)
+    squares = np.maximum((legs**2).sum(axis=1), 1e-12)
+    parts = np.clip(((at - way[:-1]) * legs).sum(axis=1) / squares, 0.0, 1.0)
+    feet = way[:-1] + parts[:, None] * legs
+    nearest = int(np.argmin(((feet - at) ** 2).sum(axis=1)))
+    return np.vstack([way[: nearest + 1], at])
+
+
+def _incident(
+    event: Event,
+    at: LatLon | None,
+    tell: Callable[[Event], str | None],
+    place: str,
+    blocked: tuple[tuple[LatLon, ...], ...] | None = None,
+    unreachable: tuple[str, ...] = (),
+) -> Incident:
+    words = " ".join((tell(event) or "").split()[1:]) or event.event
+    return Incident(
+        t=event.t, event=event.event, node=event.node, at=at, place=place, words=words, blocked=blocked,
+        unreachable=unreachable,
+    )  # fmt: skip
+
+
+def _stood(events: Sequence[Event], k: int) -> LatLon | None:
+    """Where the robot stood at an event that does not say it: there a drive begins anew that was broken off."""
+    driving = next((isinstance(e, Driving) for e in reversed(events[:k]) if isinstance(e, Driving | Arrived)), False)
+    if not driving:
+        return None
+    for event in events[k + 1 :]:
+        if isinstance(event, Driving):
+            return event.path[0] if event.path and known(event.path[0]) else None
+        if isinstance(event, Arrived):
+            return None
+        at = position_of(event)
+        if at is not None:
+            return at
+    return None
