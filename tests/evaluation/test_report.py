@@ -31,7 +31,25 @@ from fieldhand.site.geojson import parse_site
 from fieldhand.task.authorization import Authorization
 from fieldhand.task.conditions import Compare
 from fieldhand.task.plan import Act, ForEach, If, Sequence
-from fieldhand.task.results import Acted, Arrived, Decided, Driving, Ended, Exited, Faulted, Shed, Started, Visiting
+from fieldhand.task.results import (
+    Acted,
+    Arrived,
+    ClockSet,
+    Continued,
+    Decided,
+    Driving,
+    Ended,
+    Exited,
+    Faulted,
+    InDoubt,
+    Obstructed,
+    Paused,
+    Resumed,
+    Shed,
+    Started,
+    Visiting,
+    Waited,
+)
 from fieldhand.task.selectors import Corners
 from orchards import husky, orchard, task_for
 
@@ -386,3 +404,68 @@ def test_a_folder_that_cannot_be_written_is_one_clear_error(tmp_path):
     (taken / "observations.csv").mkdir(parents=True)
     with pytest.raises(OutputError, match="cannot be written"):
         written(taken, log())
+
+
+def faulty_log():
+    """A mission in whose way something stood, that was cut off and paused, and that did not come to two trees."""
+    five = SITE.by_id["5"].place
+    begun, rest = log(captured()), log()[-1]
+    where = {"kind": "tree", "place": "5", "lat": five.lat, "lon": five.lon}
+    area = ((five.lat, five.lon), (five.lat + 1e-5, five.lon), (five.lat, five.lon + 1e-5))
+    return [
+        *begun[:-5],
+        Obstructed(
+            t=76, node="n1", travelled_m=7.0, blocked=(area,), unreachable=("5", "16"), what="a ladder", **where
+        ),
+        Waited(t=77, node="n1", wanted="way", seconds=60.0, over=False),
+        InDoubt(t=78, node="n2", action="take_thermal_picture", then="skip", what="the power was cut", **where),
+        Resumed(t=78, lat=five.lat, lon=five.lon, charge_percent=97.0),
+        ClockSet(t=79, by_s=-60.0),
+        Paused(t=80, reason="lunch"),
+        Continued(t=81),
+        Shed(t=82, node="n1", places=("5", "16"), optional=False, reason="no way", cause="unreachable"),
+        Shed(t=82, node="n1", places=("20",), optional=False, reason="it is far", chance_short=0.4),
+        replace(rest, t=90),
+    ]
+
+
+def test_faults_doubts_and_interruptions_stand_under_right_headings(tmp_path):
+    read = text_of(written(tmp_path, faulty_log()))
+    told = read[read.index("Faults, doubts and interruptions") : read.index("What it took")]
+    for said in ("a ladder", "waited 1:00", "at tree 5 is in doubt; it was not made again", "goes on after a power cut",
+                 "clock was set back", "paused (lunch)", "continued"):  # fmt: skip
+        assert said in told
+    left = read[read.index("What was not done") : read.index("Faults, doubts")]
+    assert "2 places given up, though to be done, because no way led to them" in left
+    assert "1 place given up, though to be done, because the budget would hardly have lasted (40 % chance" in left
+    table = read[read.index("Every reading") : read.index("Record")]
+    assert "in doubt" in table
+
+
+def test_the_map_tells_what_no_way_led_to_from_what_the_budget_left_out():
+    (shown,) = report_maps(SITE, faulty_log(), summaries(TASK, ROBOT, faulty_log()))
+    meanings = [meaning for _, _, meaning in shown.marks]
+    for meaning in ("something stands in the way", "no way led there", "capture in doubt", "went on after a power cut"):
+        assert meaning in meanings
+    assert "given up, though to be done" in meanings
+    without = [e for e in faulty_log() if not isinstance(e, Shed) or e.cause == "unreachable"]
+    (shown,) = report_maps(SITE, without, summaries(TASK, ROBOT, without))
+    assert "given up, though to be done" not in [meaning for _, _, meaning in shown.marks]
+    came = [*faulty_log()[:-1], captured("5"), captured("16")]
+    (shown,) = report_maps(SITE, came, summaries(TASK, ROBOT, came))
+    assert "no way led there" not in [meaning for _, _, meaning in shown.marks]
+
+
+def test_the_bars_show_what_every_other_mission_and_nine_in_ten_stay_within(tmp_path):
+    branch = estimate(TASK, SITE, ROBOT).worst
+    files = written(tmp_path, log(captured()))
+    assert (
+        f"at most {branch.metres.p50:.0f} m every other time, {branch.metres.p90:.0f} m nine times in ten"
+        in text_of(files)
+    )
+    for bar in page_of(files).find_class("bar"):
+        light, dark = (
+            float(next(r.get("width") for r in bar.iter("rect") if r.get("fill") == fill))
+            for fill in ("#d5ddd2", "#a9b8a5")
+        )
+        assert 0 < dark <= light <= 100

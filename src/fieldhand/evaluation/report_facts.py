@@ -10,7 +10,7 @@ from fieldhand.forecast.estimate import BranchEstimate, Estimate
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
-from fieldhand.task.results import Acted, Decided, Ended, Event, Started
+from fieldhand.task.results import Acted, Decided, Ended, Event, Shed, Started
 
 #: What of an event must be a number for anything to be said of it. Positions may be unknown.
 _FIGURES = ("t", "leg_m", "travelled_m", "charge_percent")
@@ -29,6 +29,12 @@ def start_of(events: Sequence[Event]) -> Started | None:
 def end_of(events: Sequence[Event]) -> Ended | None:
     """The end of the mission, if the log has it."""
     return next((e for e in reversed(events) if isinstance(e, Ended)), None)
+
+
+def out_of_reach(event: Shed) -> bool:
+    """Whether work was given up because no way led to it, and not for the budget's sake."""
+    # The guard gives what cannot be driven to no chance but certainty.
+    return event.cause == "unreachable" or (event.chance_short >= 1.0 and "no way" in event.reason)
 
 
 def branch_taken(events: Sequence[Event], estimate: Estimate) -> BranchEstimate:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from fieldhand.evaluation.report_facts import clock_time, end_of
+from fieldhand.evaluation.report_facts import clock_time, end_of, out_of_reach
 from fieldhand.evaluation.report_places import PlaceNames
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import ForEach, walk
@@ -36,9 +36,7 @@ def left_out(task: Task, events: Sequence[Event], names: PlaceNames) -> tuple[Le
     groups: dict[tuple[bool, bool], list[Shed]] = {}
     for event in events:
         if isinstance(event, Shed):
-            # The guard gives what cannot be driven to no chance but certainty: the budget is not why it is left out.
-            cut_off = event.chance_short >= 1.0 and "no way" in event.reason
-            groups.setdefault((event.optional, cut_off), []).append(event)
+            groups.setdefault((event.optional, out_of_reach(event)), []).append(event)
     found = [
         _folded(group, optional=optional, cut_off=cut_off, names=names)
         for (optional, cut_off), group in sorted(groups.items())
@@ -82,7 +80,8 @@ def _folded(group: Sequence[Shed], *, optional: bool, cut_off: bool, names: Plac
     what = say_count(len(places), "place") if places else say_count(len(group), "step")
     done = "left out" if optional else "given up, though to be done,"
     where = f": {names.many(places)}" if places else ""
-    why = "there is no way to them" if cut_off else f"the budget would hardly have lasted{_chances(group)}"
+    them = "it" if len(places) == 1 else "them"
+    why = f"no way led to {them}" if cut_off else f"the budget would hardly have lasted{_chances(group)}"
     details = [f"{clock_time(event.t)}  {' '.join(event.reason.split())}" for event in group[:_MOST_DETAILS]]
     if len(group) > _MOST_DETAILS:
         details.append(f"and {len(group) - _MOST_DETAILS} more in the event log")

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.evaluation.report_facts import captures
+from fieldhand.evaluation.report_incidents import draw_incidents
 from fieldhand.evaluation.report_marks import (
     COLOURS,
     FONT,
@@ -122,6 +123,7 @@ def draw_map(
     disc = float(np.clip(1.5 * math.sqrt(size), 5.0, 9.5))
     marks = draw_drives(ax, site, events)
     marks += draw_left_out(ax, site, events, missed, disc)
+    marks += draw_incidents(ax, site, events, disc)
     good = [e for e in placed(events) if e.status == "success"]
     if summary is None:
         marks += draw_plain(ax, site, [e for e in good if not e.readings], disc)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.evaluation.report_facts import captures, end_of
+from fieldhand.evaluation.report_facts import captures, end_of, out_of_reach
 from fieldhand.evaluation.report_readings import Summary
 from fieldhand.site.drawing.labels import Labels
 from fieldhand.site.model import Site
@@ -97,7 +97,8 @@ def last_stand(site: Site, events: Sequence[Event]) -> Floats:
 def draw_left_out(ax: Axes, site: Site, events: Sequence[Event], missed: Sequence[str], disc: float) -> list[Mark]:
     """Trees that were given up or not come to, and those that a drive did not reach."""
     marks: list[Mark] = []
-    shed = [e for e in events if isinstance(e, Shed)]
+    # Those to which no way led have a mark of their own.
+    shed = [e for e in events if isinstance(e, Shed) and not out_of_reach(e)]
     groups: tuple[tuple[str, str, Sequence[str]], ...] = (
         ("ring", "left out", [p for e in shed if e.optional for p in e.places]),
         ("cross", "given up, though to be done", [p for e in shed if not e.optional for p in e.places]),

@@ -13,7 +13,7 @@ from fieldhand.task.conditions import Between, Compare, Level, walk
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Node, condition_of
 from fieldhand.task.plan import walk as walk_plan
-from fieldhand.task.results import Acted, Event
+from fieldhand.task.results import Acted, Event, InDoubt
 from fieldhand.task.words import capitalised, say_action, say_name, say_number, say_unit
 
 #: More readings than this stand in the CSV file alone.
@@ -97,10 +97,13 @@ def summaries(task: Task, robot: RobotProfile, events: Sequence[Event]) -> tuple
 
 
 def reading_rows(summary: Mapping[str, Summary], events: Sequence[Event], names: PlaceNames) -> tuple[ReadingRow, ...]:
-    """A row a reading, and one a capture that measured nothing; those beyond :data:`MOST_ROWS` are left to the CSV."""
+    """A row a reading, and one a capture that measured nothing or is in doubt.
+
+    Those beyond :data:`MOST_ROWS` are left to the CSV.
+    """
     rows: list[ReadingRow] = []
-    for event in captures(events):
-        if event.status == "success":
+    for event in events:
+        if isinstance(event, InDoubt) or (isinstance(event, Acted) and event.status == "success"):
             rows.extend(_rows_of(event, summary, names))
         if len(rows) > MOST_ROWS:
             break
@@ -195,7 +198,7 @@ def _in_short(
         yield f"{limit.word} ({side})" if limit.word else side, str(count)
 
 
-def _rows_of(event: Acted, summary: Mapping[str, Summary], names: PlaceNames) -> Iterator[ReadingRow]:
+def _rows_of(event: Acted | InDoubt, summary: Mapping[str, Summary], names: PlaceNames) -> Iterator[ReadingRow]:
     where = names.where(event.kind, event.place)
     place = names.name(event.kind, event.place)
     values = [(q, v) for q, v in sorted(event.readings.items()) if q in summary]
@@ -212,4 +215,5 @@ def _rows_of(event: Acted, summary: Mapping[str, Summary], names: PlaceNames) ->
         )
     if not values:
         said = capitalised(say_action(event.action))
-        yield ReadingRow(time=clock_time(event.t), where=where, place=place, what=said, value="done", relation="")
+        done = "in doubt" if isinstance(event, InDoubt) else "done"
+        yield ReadingRow(time=clock_time(event.t), where=where, place=place, what=said, value=done, relation="")

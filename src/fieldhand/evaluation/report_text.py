@@ -9,22 +9,21 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from fieldhand.evaluation.outcome import because
-from fieldhand.evaluation.report_facts import branch_taken, captures, clock_time, end_of, start_of, used
+from fieldhand.evaluation.report_facts import branch_taken, captures, end_of, start_of, used
 from fieldhand.evaluation.report_left_out import LeftOut, left_out
 from fieldhand.evaluation.report_places import PlaceNames
 from fieldhand.evaluation.report_readings import MOST_ROWS, ReadingRow, Summary, reading_rows, summaries
+from fieldhand.evaluation.report_story import Folded, conditions, faults
 from fieldhand.forecast.estimate import Estimate, Figure
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.account import NAMES, account, has_ranges
 from fieldhand.task.authorization import Authorization
 from fieldhand.task.frames import BudgetKind, Task
-from fieldhand.task.results import Acted, Arrived, Decided, Event, Faulted, GoalOutcome, Shed
+from fieldhand.task.results import Event, GoalOutcome, Shed
 from fieldhand.task.words import capitalised, listed, say_action, say_count, say_duration, say_number
 
 _MARKS = {"success": "✓ met", "failure": "✗ not met", "indeterminate": "? not known"}
-#: More conditions and faults than the few are folded; more than the most are counted, not told.
-_FEW_LINES, _MOST_LINES = 12, 200
 
 #: Headings and heads of tables, by what stands below them.
 HEADINGS = {
@@ -36,10 +35,11 @@ HEADINGS = {
     "goals": "What was done",
     "left_out": "What was not done, and why",
     "details": "Each decision",
-    "faults": "Faults",
+    "faults": "Faults, doubts and interruptions",
     "conditions": "Conditions",
     "took": "What it took, and what was forecast",
-    "bars": "Dark: used. Grey: what nine missions in ten stay within. Orange: the average. Red: the budget.",
+    "bars": "Dark: used. Dark grey: what every other mission stays within; light grey: nine in ten."
+    " Orange: the average. Red: the budget.",
     "table": "Every reading",
     "warnings": "Warnings that were confirmed",
     "record": "Record",
@@ -65,7 +65,7 @@ class Bar:
     """What was used of a resource beside its forecast and its limit.
 
     Attributes:
-        used, mean, high, limit: As parts of the bar's length, 0 to 1; None where it is not known.
+        used, mean, middle, high, limit: As parts of the bar's length, 0 to 1; None where it is not known.
         words: The same in words.
     """
 
@@ -74,16 +74,9 @@ class Bar:
     words: tuple[str, ...]
     used: float
     mean: float | None
+    middle: float | None
     high: float | None
     limit: float | None
-
-
-@dataclass(frozen=True, kw_only=True)
-class Folded:
-    """Lines, and where they are many a sentence that stands for them."""
-
-    said: str
-    lines: tuple[str, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -146,8 +139,8 @@ def tell(
         words=_words(task),
         goals=tuple(_goal_rows(task, events, outcomes)),
         left_out=left_out(task, events, names),
-        faults=_faults(events, names),
-        conditions=_conditions(events, names),
+        faults=faults(robot, events, names),
+        conditions=conditions(events, names),
         bars=tuple(_bars(task, events, estimate)),
         summaries=read,
         rows=rows[:MOST_ROWS],
@@ -219,37 +212,6 @@ def _without_reasons(why: str, reasons: Iterable[str]) -> str:
     return why
 
 
-def _faults(events: Sequence[Event], names: PlaceNames) -> Folded:
-    """What went wrong, captures that had to be tried again included."""
-    lines = []
-    for event in events:
-        if isinstance(event, Acted) and event.status != "success":
-            what = f"{say_action(event.action)} failed at {names.name(event.kind, event.place)}"
-            lines.append(f"{clock_time(event.t)}: {what} (attempt {event.attempt}): {event.what}")
-        elif isinstance(event, Faulted):
-            worked = " (worked around)" if event.handled else ""
-            lines.append(f"{clock_time(event.t)}: {event.what or event.fault}{worked}")
-    return _folded(lines, say_count(len(lines), "fault"))
-
-
-def _conditions(events: Sequence[Event], names: PlaceNames) -> Folded:
-    lines, held, at = [], 0, ""
-    for event in events:
-        if isinstance(event, Arrived):
-            at = f" at {names.name(event.kind, event.place)}"
-        elif isinstance(event, Decided):
-            held += event.holds
-            lines.append(f"{clock_time(event.t)}{at}: {event.why}")
-    return _folded(lines, f"{say_count(len(lines), 'condition')} tested: {held} held, {len(lines) - held} did not.")
-
-
-def _folded(lines: Sequence[str], said: str) -> Folded:
-    """Lines as they are where they are few."""
-    more = len(lines) - _MOST_LINES
-    kept = (*lines[:_MOST_LINES], f"and {more} more in the event log") if more > 0 else tuple(lines)
-    return Folded(said=said if len(lines) > _FEW_LINES else "", lines=kept)
-
-
 def _bars(task: Task, events: Sequence[Event], estimate: Estimate | None) -> Iterable[Bar]:
     """Driven distance, time and battery against the forecast of the branch that was taken, and against the budget."""
     metres, seconds, percent = used(events)
@@ -261,13 +223,16 @@ def _bars(task: Task, events: Sequence[Event], estimate: Estimate | None) -> Ite
 
 
 def _bar(name: str, value: float, figure: Figure | None, limit: float | None, unit: str) -> Bar:
-    amounts = [value, *([figure.mean, figure.p90] if figure else []), *([] if limit is None else [limit])]
+    amounts = [value, *([figure.mean, figure.p50, figure.p90] if figure else []), *([] if limit is None else [limit])]
     whole = max(1.04 * max(amounts), 1e-9)
 
     def say(amount: float) -> str:
         return say_duration(amount) if unit == "s" else f"{amount:,.{1 if unit == '%' else 0}f} {unit}"
 
-    words = [f"forecast {say(figure.mean)} on average, at most {say(figure.p90)} nine times in ten"] if figure else []
+    words = []
+    if figure:
+        often = f"at most {say(figure.p50)} every other time, {say(figure.p90)} nine times in ten"
+        words.append(f"forecast {say(figure.mean)} on average, {often}")
     if limit is not None:
         words.append(f"budget {say(limit)}")
     return Bar(
@@ -276,6 +241,7 @@ def _bar(name: str, value: float, figure: Figure | None, limit: float | None, un
         words=tuple(words),
         used=value / whole,
         mean=figure.mean / whole if figure else None,
+        middle=figure.p50 / whole if figure else None,
         high=figure.p90 / whole if figure else None,
         limit=None if limit is None else limit / whole,
     )
