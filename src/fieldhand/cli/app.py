@@ -19,6 +19,7 @@ from fieldhand.cli.export import export
 from fieldhand.cli.import_tree import import_tree
 from fieldhand.cli.inspect import inspect
 from fieldhand.cli.keys import keys
+from fieldhand.cli.missions import missions
 from fieldhand.cli.plan import plan
 from fieldhand.cli.replay import replay
 from fieldhand.cli.report import report
@@ -50,6 +51,7 @@ def assemble(*others: Callable[..., None]) -> typer.Typer:
         status,
         pause,
         abort,
+        missions,
         report,
         replay,
         export,

@@ -35,6 +35,7 @@ HEADINGS = {
     "goals": "What was done",
     "left_out": "What was not done, and why",
     "details": "Each decision",
+    "lines": "All of them",
     "faults": "Faults, doubts and interruptions",
     "conditions": "Conditions",
     "took": "What it took, and what was forecast",

@@ -70,13 +70,7 @@ def standing(task: Task, robot: RobotProfile, events: Sequence[Event], *, runnin
         running: Whether a process carries it out.
     """
     last = events[-1] if events else None
-    ended = last if isinstance(last, Ended) else None
-    turn = next((e for e in reversed(events) if isinstance(e, Paused | Continued | Exited)), None)
-    state: State = "interrupted"
-    if ended is not None:
-        state = "ended"
-    elif running:
-        state = "paused" if isinstance(turn, Paused) else "running"
+    state, ended = state_of(events, running=running)
     at = next((e for e in reversed(events) if isinstance(e, Started | Arrived | Resumed | Ended)), None)
     to = next((e for e in reversed(events) if isinstance(e, Arrived | Driving)), None)
     charged = [e.charge_percent for e in events if isinstance(e, Started | Arrived | Acted | InDoubt | Resumed | Ended)]
@@ -99,6 +93,22 @@ def standing(task: Task, robot: RobotProfile, events: Sequence[Event], *, runnin
         status="" if ended is None else ended.status,
         reason="" if ended is None else ended.reason,
     )
+
+
+def state_of(events: Sequence[Event], *, running: bool) -> tuple[State, Ended | None]:
+    """Whether a mission has ended, and else whether it goes on; and its end.
+
+    Args:
+        events: Those that are safe; of them are needed ends, exits, and the beginnings and ends of pauses.
+        running: Whether a process carries it out.
+    """
+    last = events[-1] if events else None
+    if isinstance(last, Ended):
+        return "ended", last
+    turn = next((e for e in reversed(events) if isinstance(e, Paused | Continued | Exited)), None)
+    if not running:
+        return "interrupted", None
+    return ("paused" if isinstance(turn, Paused) else "running"), None
 
 
 def _doing(robot: RobotProfile, last: Event | None, task: Task) -> str:

@@ -6,14 +6,16 @@ import hashlib
 import json
 import os
 import secrets
+import shutil
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
-from datetime import datetime
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fieldhand import mission
-from fieldhand.errors import JournalError, NotApprovedError
+from fieldhand.errors import JournalError
+from fieldhand.missions.signed import require_signed
 from fieldhand.task.authorization import Authorization, AuthorizedTask
 
 if TYPE_CHECKING:
@@ -198,7 +200,7 @@ def open_mission(folder: Path, verify: Callable[[bytes, str], Bundle] | None = N
     if verify is not None and _SIGNED in files:
         # Before anything else of the folder is read.
         bundle = verify(files[_SIGNED], str(folder / _SIGNED))
-        _require_signed(bundle, files, authorization, lenient=lenient, planner=planner, folder=folder)
+        require_signed(bundle, files, authorization, lenient=lenient, planner=planner, folder=folder)
         authorized, site, robot = bundle.authorized, bundle.site, bundle.robot
     else:
         robot = parse_profile(files["robot.yaml"], source=str(folder / "robot.yaml"))
@@ -239,6 +241,29 @@ def all_missions(under: Path) -> tuple[Path, ...]:
     """Every mission that was begun there, the one begun last at the end."""
     found = [about for about in under.glob(f"*/{_ABOUT}") if about.is_file()]
     return tuple(about.parent for about in sorted(found, key=lambda a: (a.stat().st_mtime_ns, a.parent.name)))
+
+
+def begun_at(folder: Path) -> datetime:
+    """When a mission was begun."""
+    return datetime.fromtimestamp((folder / _ABOUT).stat().st_mtime, UTC)
+
+
+def remove_folder(folder: Path) -> None:
+    """Remove a mission with all that it has done.
+
+    Raises:
+        JournalError: It cannot be removed.
+    """
+    try:
+        # First what makes it a mission: half of a folder shall not be taken for one.
+        (folder / _ABOUT).unlink()
+        shutil.rmtree(folder)
+    except OSError as error:
+        raise JournalError(
+            f"the mission's folder cannot be removed: {error.strerror or error}",
+            where=str(folder),
+            advice="remove what is left of it by hand",
+        ) from None
 
 
 def _known(under: Path) -> str:
@@ -284,35 +309,6 @@ def read_file(folder: Path, file: str, sha256: str) -> bytes:
             advice="bring the file back, or carry the Task out as a new mission",
         )
     return data
-
-
-def _require_signed(
-    bundle: Bundle,
-    files: Mapping[str, bytes],
-    authorization: Authorization,
-    *,
-    lenient: bool,
-    planner: str,
-    folder: Path,
-) -> None:
-    """What lies beside the bundle must be what it holds: somebody reads it, and takes it for what was signed."""
-    from fieldhand.task.codec import encode
-
-    signed, manifest = bundle.authorized, bundle.manifest
-    site = {file: data for file, data in files.items() if file.startswith("site/")}
-    for what, here, wanted in (
-        ("Task", files["task.xml"], encode(signed.task)),
-        ("robot profile", files["robot.yaml"], bundle.profile),
-        ("site", site, {f"site/{Path(name).name}": data for name, data in bundle.files.parts.items()}),
-        ("approval", authorization, signed.authorization),
-        ("rest", (lenient, planner), (manifest.site.lenient, manifest.task.planner)),
-    ):
-        if here != wanted:
-            raise NotApprovedError(
-                f"the {what} in the mission's folder is not what was signed",
-                where=str(folder),
-                advice="carry the signed mission out as a new one",
-            )
 
 
 def _no_mission(folder: Path, why: str) -> JournalError:

@@ -1,0 +1,78 @@
+"""``fieldhand missions``: all missions at a glance, and the removal of old ones."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from fieldhand.cli.options import JsonOption, MissionsOption
+
+if TYPE_CHECKING:
+    from fieldhand.missions.listing import Entry
+
+_LONGEST = 60
+
+
+def missions(
+    prune: Annotated[
+        float | None,
+        typer.Option("--prune", min=0, metavar="DAYS", help="Remove missions that ended longer ago than this."),
+    ] = None,
+    keep: Annotated[
+        int | None, typer.Option("--keep", min=0, metavar="N", help="Remove missions that have ended but the last N.")
+    ] = None,
+    kept: MissionsOption = None,
+    json: JsonOption = False,
+) -> None:
+    """List all missions, the last at the end; with --prune or --keep remove old ones that have ended, never others."""
+    from datetime import UTC, datetime
+
+    from fieldhand.cli import show
+    from fieldhand.missions import missions_folder
+    from fieldhand.missions.listing import listed, older_than, removable, remove
+
+    under = kept or missions_folder(os.environ)
+    entries = listed(under)
+    gone: tuple[Entry, ...] = ()
+    if prune is not None or keep is not None:
+        before = None if prune is None else older_than(datetime.now(UTC), prune)
+        gone = removable(entries, ended_before=before, keep=keep)
+        for entry in gone:
+            remove(entry)
+    left = tuple(entry for entry in entries if entry not in gone)
+    if json:
+        show.print_json({"folder": str(under), "missions": [_record(e) for e in left], "removed": [e.id for e in gone]})
+        return
+    _show(left, under)
+    if prune is not None or keep is not None:
+        show.out.print(f"removed: {', '.join(e.id for e in gone) or 'none'}")
+
+
+def _record(entry: Entry) -> dict[str, Any]:
+    return {
+        "id": entry.id,
+        "begun": entry.begun.isoformat(timespec="seconds"),
+        "last": entry.last.isoformat(timespec="seconds"),
+        "state": entry.state,
+        "status": entry.status,
+        "signed": entry.signed,
+        "request": entry.request,
+    }
+
+
+def _show(entries: tuple[Entry, ...], under: Path) -> None:
+    from fieldhand.cli import show
+
+    if not entries:
+        show.out.print(f"no missions in {under}")
+    wide = max((len(entry.id) for entry in entries), default=0)
+    for entry in entries:
+        request = " ".join(entry.request.split())
+        said = request if len(request) <= _LONGEST else f"{request[: _LONGEST - 1]}…"
+        state = entry.status if entry.state == "ended" else entry.state
+        why = entry.status if entry.state == "unreadable" else said
+        begun = entry.begun.astimezone().strftime("%Y-%m-%d %H:%M")
+        show.out.print(f"{entry.id:<{wide}}  {begun}  {state:<11}  {'signed' if entry.signed else '':<6}  {why}")

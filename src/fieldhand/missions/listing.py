@@ -1,0 +1,111 @@
+"""All missions at a glance, and the removal of those that have ended and are old."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+from fieldhand.errors import FieldhandError, JournalError
+from fieldhand.missions.folder import JOURNAL, LOCK, all_missions, begun_at, read_about, read_file, remove_folder
+from fieldhand.task.results import Continued, Ended, Exited, Paused, from_json
+
+#: How the lines begin that say how a mission stands; the others are not read.
+_TURNS = tuple(f'{{"event": "{kind.event}"' for kind in (Paused, Continued, Exited, Ended))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Entry:
+    """One mission of a list.
+
+    Attributes:
+        begun, last: When it was begun, and when its last event was written.
+        state: ``running``, ``paused``, ``interrupted``, ``ended``; ``unreadable`` where its folder is damaged.
+        status: How it ended; of one that cannot be read, why.
+        signed: It came from a signed bundle.
+    """
+
+    folder: Path
+    begun: datetime
+    last: datetime
+    state: str
+    status: str
+    request: str
+    signed: bool
+
+    @property
+    def id(self) -> str:
+        """The mission's name."""
+        return self.folder.name
+
+
+def listed(under: Path) -> tuple[Entry, ...]:
+    """Every mission that was begun there, the one begun last at the end."""
+    return tuple(_entry(folder) for folder in all_missions(under))
+
+
+def removable(
+    entries: tuple[Entry, ...], *, ended_before: datetime | None = None, keep: int | None = None
+) -> tuple[Entry, ...]:
+    """Missions that have ended and may go; never one that runs, is paused, was cut off or cannot be read.
+
+    Args:
+        entries: From :func:`listed`.
+        ended_before: Only those whose last event is older.
+        keep: Not the last so many of those that have ended.
+    """
+    ended = tuple(entry for entry in entries if entry.state == "ended")
+    if keep is not None:
+        ended = ended[: max(0, len(ended) - keep)]
+    return tuple(entry for entry in ended if ended_before is None or entry.last < ended_before)
+
+
+def older_than(now: datetime, days: float) -> datetime:
+    """The moment so many days ago; the beginning of all time where that is before it."""
+    try:
+        return now - timedelta(days=days)
+    except OverflowError:
+        return datetime.min.replace(tzinfo=UTC)
+
+
+def remove(entry: Entry) -> None:
+    """Remove the folder of a mission that has ended.
+
+    Raises:
+        JournalError: It has not ended, or goes on just now; or its folder cannot be removed.
+    """
+    if _entry(entry.folder).state != "ended":
+        raise JournalError("the mission has not ended", where=str(entry.folder))
+    remove_folder(entry.folder)
+
+
+def _entry(folder: Path) -> Entry:
+    from fieldhand.evaluation.standing import state_of
+    from fieldhand.execution.journal.desk import taken
+    from fieldhand.execution.journal.store import heard
+    from fieldhand.task.codec import decode
+
+    begun = begun_at(folder)
+    try:
+        files = read_about(folder)[0]["files"]
+        running = taken(folder / LOCK)
+        lines = heard(folder / JOURNAL)[1]
+        events = [from_json(line) for _, line in lines if line.startswith(_TURNS)]
+        task = decode(read_file(folder, "task.xml", files["task.xml"]))
+        last = datetime.fromisoformat(lines[-1][0]) if lines else begun
+    except (FieldhandError, KeyError, TypeError, ValueError) as error:
+        why = (
+            str(error) if isinstance(error, FieldhandError) else f"its mission.json or journal cannot be read: {error}"
+        )
+        return Entry(folder=folder, begun=begun, last=begun, state="unreadable", status=why, request="", signed=False)
+    state, end = state_of([event for event in events if event is not None], running=running)
+    return Entry(
+        folder=folder,
+        begun=begun,
+        last=last,
+        # Its end is written, and its process still writes the report.
+        state="running" if running and state == "ended" else state,
+        status="" if end is None else end.status,
+        request=task.command.request,
+        signed="signed.mission" in files,
+    )
