@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -144,6 +145,16 @@ def test_mcap_shows_them_to_the_panels(tmp_path: Path) -> None:
     tried = json.loads(str(found["/captures"][-1]["geojson"]))["features"]
     assert [f["properties"]["status"] for f in tried] == ["in_doubt", "success"]
     assert sum(line["level"] == 3 for line in found["/log"]) == 7
+
+
+@pytest.mark.parametrize(("at", "second"), [("2026-05-01T08:00:00+00:00", 1777622400), ("", 0), ("soon", 0)])
+def test_an_mcap_begins_when_its_log_says(tmp_path: Path, at: str, second: int) -> None:
+    with McapLog(tmp_path / "m.mcap") as log:
+        for event in (replace(LOG[0], at=at), *LOG[1:]):
+            log(event)
+    with (tmp_path / "m.mcap").open("rb") as stream:
+        times = [message.log_time / 1e9 for _, _, message in make_reader(stream).iter_messages()]
+    assert (min(times), max(times)) == (second, second + 100)
 
 
 def test_routes_carry_them() -> None:

@@ -19,7 +19,7 @@ from fieldhand.cli.show import note
 from fieldhand.errors import InputError, OutputError
 from fieldhand.language import ENGLISH, Language, message
 from fieldhand.task.frames import Task
-from fieldhand.task.results import Ended, Event, Started
+from fieldhand.task.results import Ended, Event
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
@@ -206,8 +206,7 @@ def _taking(ground: Ground, orders: Orders, before: Sequence[Event]) -> Iterator
         if orders.mcap is not None:
             from fieldhand.exchange.mcap import McapLog
 
-            began = _began(before).timestamp()
-            logs.append(stack.enter_context(McapLog(orders.mcap, began_s=began, tell=teller.tell, site=ground.site)))
+            logs.append(stack.enter_context(McapLog(orders.mcap, tell=teller.tell, site=ground.site)))
 
         def take(event: Event) -> None:
             for log in logs:
@@ -220,12 +219,6 @@ def _taking(ground: Ground, orders: Orders, before: Sequence[Event]) -> Iterator
             for log in logs:
                 log(event)
         yield take
-
-
-def _began(before: Sequence[Event]) -> datetime:
-    """When the mission began: now, unless it goes on and its log says when."""
-    at = next((event.at for event in before if isinstance(event, Started)), "")
-    return datetime.fromisoformat(at) if at else datetime.now(UTC)
 
 
 def conclude(

@@ -41,11 +41,11 @@ def _show(found: Status) -> None:
     if now.status:
         print_(f"  reason    {now.reason}" if now.reason else "  reason    all is done")
     else:
-        print_(f"  now       {now.doing}")
+        print_(f"  {'before' if now.state == 'interrupted' else 'now':<9} {now.doing}")
     if now.lat is not None and now.lon is not None:
-        print_(f"  where     {now.lat:.6f}, {now.lon:.6f}{f', {now.place}' if now.place else ''}")
+        print_(f"  where     {now.lat:.6f}, {now.lon:.6f}{f', {now.near}' if now.near else ''}")
     for goal in now.goals:
-        print_(f"  {goal.goal:<9} {goal.outcome}: {goal.why}")
+        print_(f"  {goal.goal:<9} {goal.outcome + ': ' if now.status else ''}{goal.why}")
     charge = "" if now.charge_percent is None else f", battery at {now.charge_percent:.0f} %"
     print_(f"  used      {now.travelled_m:.0f} m, {clock_time(now.seconds)}{charge}")
     for kind, limit in now.limits.items():
@@ -57,4 +57,4 @@ def _show(found: Status) -> None:
     if found.order:
         print_(f"  order     {found.order}, not heard yet")
     if now.state == "interrupted":
-        print_("  next      fieldhand resume")
+        print_(f"  next      fieldhand resume {found.mission}")

@@ -24,24 +24,27 @@ _LONGEST_REASON = 160
 Verdict = Literal["success", "failure", "indeterminate"]
 
 
-def judge(task: Task, events: Sequence[Event]) -> tuple[GoalOutcome, ...]:
+def judge(task: Task, events: Sequence[Event], *, under_way: bool = False) -> tuple[GoalOutcome, ...]:
     """The outcome of each goal of a Task, in the order of its goals.
 
     Args:
         task: What was carried out.
         events: The event log, from its beginning; it may stop anywhere.
+        under_way: More is to come: nothing is said of what the log does not tell yet.
     """
     tallies = replay(task.composition.plan, events)
     ended = next((e for e in reversed(events) if isinstance(e, Ended)), None)
-    return tuple(_outcome(goal, tallies.get(goal.node, Tally(open=True)), ended) for goal in task.command.goals)
+    return tuple(
+        _outcome(goal, tallies.get(goal.node, Tally(open=True)), ended, under_way=under_way)
+        for goal in task.command.goals
+    )
 
 
-def _outcome(goal: Goal, tally: Tally, ended: Ended | None) -> GoalOutcome:
+def _outcome(goal: Goal, tally: Tally, ended: Ended | None, *, under_way: bool) -> GoalOutcome:
     verdict = _optional(goal, tally, ended) if goal.optional else _mandatory(tally, ended)
     wanted = None if tally.open else tally.wanted
-    return GoalOutcome(
-        goal=goal.id, outcome=verdict, done=tally.done, wanted=wanted, why=_why(goal, tally, verdict, ended)
-    )
+    why = _why(goal, tally, verdict, ended, under_way=under_way)
+    return GoalOutcome(goal=goal.id, outcome=verdict, done=tally.done, wanted=wanted, why=why)
 
 
 def _mandatory(tally: Tally, ended: Ended | None) -> Verdict:
@@ -72,7 +75,7 @@ def _optional(goal: Goal, tally: Tally, ended: Ended | None) -> Verdict:
     return "indeterminate" if goal.conditional or cut else "failure"
 
 
-def _why(goal: Goal, tally: Tally, verdict: Verdict, ended: Ended | None) -> str:
+def _why(goal: Goal, tally: Tally, verdict: Verdict, ended: Ended | None, *, under_way: bool) -> str:
     """The outcome in words: what there is, then what kept it from being more."""
     parts = [_counted(goal, tally)]
     if tally.done == 0 and tally.wanted == 0 and verdict == "success":
@@ -87,7 +90,7 @@ def _why(goal: Goal, tally: Tally, verdict: Verdict, ended: Ended | None) -> str
         parts.append(f"{say_count(tally.left_out, 'place')} left out{_because(tally)}")
     if tally.spared:
         parts.append(f"left out {say_count(tally.spared, 'time')}{_because(tally)}")
-    if verdict == "success":
+    if verdict == "success" or under_way:
         return "; ".join(parts)
     if ended is None:
         parts.append("the log ends before the mission does")

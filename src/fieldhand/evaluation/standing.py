@@ -35,6 +35,7 @@ class Standing:
     Attributes:
         doing: What it does, or did last, in words.
         place: The place that it is at or drives to; empty before the first.
+        near: The same in words: "at tree 12", "on the way to the end".
         lat, lon: Where it was when that was written; None before it began.
         captures: That succeeded.
         in_doubt: Captures that a power cut left in doubt.
@@ -47,6 +48,7 @@ class Standing:
     doing: str
     node: str
     place: str
+    near: str
     lat: float | None
     lon: float | None
     seconds: float
@@ -80,6 +82,7 @@ def standing(task: Task, robot: RobotProfile, events: Sequence[Event], *, runnin
         doing=_doing(robot, last, task),
         node=next((e.node for e in reversed(events) if e.node), ""),
         place=to.place if to is not None else "",
+        near=_near(to),
         lat=at.lat if at is not None else None,
         lon=at.lon if at is not None else None,
         seconds=last.t if last is not None else 0.0,
@@ -87,7 +90,7 @@ def standing(task: Task, robot: RobotProfile, events: Sequence[Event], *, runnin
         charge_percent=charged[-1] if charged else None,
         captures=sum(isinstance(e, Acted) and e.status == "success" for e in events),
         in_doubt=sum(isinstance(e, InDoubt) for e in events),
-        goals=judge(task, events),
+        goals=judge(task, events, under_way=ended is None),
         limits={b.kind: b.limit for b in task.constraints.budgets},
         events=len(events),
         status="" if ended is None else ended.status,
@@ -109,6 +112,13 @@ def state_of(events: Sequence[Event], *, running: bool) -> tuple[State, Ended | 
     if not running:
         return "interrupted", None
     return ("paused" if isinstance(turn, Paused) else "running"), None
+
+
+def _near(to: Arrived | Driving | None) -> str:
+    if to is None:
+        return ""
+    place = f"tree {to.place}" if to.kind == "tree" else f"the {to.place}"
+    return f"at {place}" if isinstance(to, Arrived) else f"on the way to {place}"
 
 
 def _doing(robot: RobotProfile, last: Event | None, task: Task) -> str:

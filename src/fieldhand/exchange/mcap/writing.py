@@ -18,6 +18,7 @@ import json
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
 from types import TracebackType
 from typing import IO, TYPE_CHECKING, Any
@@ -78,7 +79,8 @@ class McapLog:
 
     Args:
         path: File to write; it is replaced, its folder is made.
-        began_s: When the mission began, in seconds since 1970; events count from there.
+        began_s: When the mission began, in seconds since 1970; events count from there. None for what its first
+            event says.
         tell: Says an event in words, or None where it is not worth a line.
         site: Drawn on the map, if it is given.
 
@@ -90,7 +92,7 @@ class McapLog:
         self,
         path: Path,
         *,
-        began_s: float = 0.0,
+        began_s: float | None = None,
         tell: Callable[[Event], str | None] = lambda _: None,
         site: Site | None = None,
     ) -> None:
@@ -144,6 +146,8 @@ class McapLog:
 
     def _messages(self, event: Event) -> Iterator[_Message]:
         """The messages of an event, in the order of their times."""
+        if isinstance(event, Started) and self._began is None:
+            self._began = _seconds_of(event.at)
         if isinstance(event, Started) and self._site is not None:
             yield self._geojson("/site", event.t, _site_features(self._site))
         if isinstance(event, Arrived | Obstructed | Resumed | Ended):
@@ -248,7 +252,7 @@ class McapLog:
 
     def _nanoseconds(self, t: float) -> int:
         """Since 1970; a log whose clock was set back before that stands at its beginning."""
-        return max(0, round((self._began + (t if math.isfinite(t) else 0.0)) * 1e9))
+        return max(0, round(((self._began or 0.0) + (t if math.isfinite(t) else 0.0)) * 1e9))
 
     def _time(self, t: float) -> dict[str, int]:
         sec, nsec = divmod(self._nanoseconds(t), 1_000_000_000)
@@ -261,6 +265,14 @@ class McapLog:
             where=str(self._path),
             advice="give a file in a folder that you may write to",
         )
+
+
+def _seconds_of(moment: str) -> float | None:
+    """Seconds since 1970 of an ISO 8601 moment; None where it is none. A log may come from anywhere."""
+    try:
+        return datetime.fromisoformat(moment).timestamp()
+    except (ValueError, OverflowError, OSError):
+        return None
 
 
 def _site_features(site: Site) -> list[dict[str, Any]]:
