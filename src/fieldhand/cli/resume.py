@@ -28,7 +28,6 @@ def resume(
     from fieldhand.cli.flight import Orders, conclude, go_on, leave_plan, parse_speed
     from fieldhand.cli.inputs import Ground
     from fieldhand.cli.tell import tell
-    from fieldhand.execution.journal.desk import Desk
     from fieldhand.language import spoken
 
     pace = parse_speed(speed)
@@ -37,7 +36,7 @@ def resume(
         tell(str(folder), folder.parent, "continue", "the operator", "goes on", json=json)
         return
     given = missions.open_mission(folder)
-    if Desk(folder / "orders.sqlite").last()[1] == "pause":
+    if missions.last_order(folder) == "pause":
         missions.order(folder, "continue", "resumed by the operator")
     orders = Orders(
         ask=False,

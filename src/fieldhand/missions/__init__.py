@@ -14,12 +14,13 @@ from fieldhand.missions.folder import (
     Mission,
     all_missions,
     begin,
+    exists,
     find,
     missions_folder,
     new_id,
     open_mission,
 )
-from fieldhand.missions.kept import Status, carry_out, events_of, is_running, order, status
+from fieldhand.missions.kept import Status, carry_out, events_of, is_running, last_order, lines_after, order, status
 
 __all__ = [
     "Inputs",
@@ -29,8 +30,11 @@ __all__ = [
     "begin",
     "carry_out",
     "events_of",
+    "exists",
     "find",
     "is_running",
+    "last_order",
+    "lines_after",
     "missions_folder",
     "new_id",
     "open_mission",

@@ -132,6 +132,11 @@ def begin(under: Path, name: str, inputs: Inputs) -> Path:
     return folder
 
 
+def exists(folder: Path) -> bool:
+    """Whether this is the folder of a mission that was begun."""
+    return (folder / _ABOUT).is_file()
+
+
 def open_mission(folder: Path) -> Mission:
     """Read a mission from its folder; every byte has to be the one that it began with.
 
