@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from fieldhand import missions
 from fieldhand.delivery.crew import Crew, Standing, said_of
 from fieldhand.delivery.depot import Depot
 from fieldhand.delivery.ledger import Ledger
@@ -116,6 +117,19 @@ def test_pause_and_resume(station: Station) -> None:
     kinds = "".join(station.events(good()))
     assert '"paused"' in kinds
     assert '"continued"' in kinds
+
+
+def test_an_agent_that_ends_lets_its_robot_stand_still(station: Station) -> None:
+    station.carry = lambda given: missions.carry_out(given, speed=5.0, emit=lambda _: None)
+    tell(station, good(), "start")
+    moment = threading.Event()
+    while not missions.is_running(station.depot.folder_of(station.depot.get(sha256_of(good())))):
+        moment.wait(0.01)
+    station.crew.rest(lambda: not moment.wait(0.01))
+    assert standing(station, good()).state == "paused"
+    tell(station, good(), "abort")
+    station.crew.join(30)
+    station.crew.rest(lambda: pytest.fail("nothing is under way"))
 
 
 @pytest.mark.parametrize("said", ["pause", "resume", "return", "abort"])

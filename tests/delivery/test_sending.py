@@ -152,7 +152,9 @@ def test_an_acknowledgement_of_something_else_is_not_believed(wrong: str, statio
     assert not isinstance(caught.value, UnreachableError)
 
 
-@pytest.mark.parametrize(("status", "later"), [(503, True), (507, True), (429, True), (408, True), (401, False)])
+@pytest.mark.parametrize(
+    ("status", "later"), [(503, True), (507, True), (429, True), (408, True), (401, True), (403, False)]
+)
 def test_what_may_succeed_later_is_tried_later(status: int, later: bool) -> None:
     def answer(_: httpx.Request) -> httpx.Response:
         return httpx.Response(status, content=b"<html>")
@@ -250,6 +252,9 @@ def test_addresses_pins_and_tokens(tmp_path: Path) -> None:
     assert require_address("https://robot:8443/", Trusting()) == "https://robot:8443"
     assert require_address("http://localhost:8443", Trusting()) == "http://localhost:8443"
     assert require_address("http://robot:8443", Trusting(plain=True)) == "http://robot:8443"
+    for trusting in (Trusting(pin="ab" * 32), Trusting(ca="ca.crt")):
+        with pytest.raises(InputError, match="without TLS"):
+            require_address("http://localhost:8443", trusting)
     assert parse_pin("SHA256 Fingerprint=" + ":".join(["AB"] * 32)) == "ab" * 32
     for text in ("", "ab" * 31, "xy" * 32):
         with pytest.raises(InputError):

@@ -21,8 +21,8 @@ A = TypeVar("A", bound=BaseModel)
 
 #: Bytes of an answer; 500 events are far less.
 MOST_ANSWER = 16_000_000
-#: What a later try may not meet any more: too slow, too many at once, wrong tokens of others, a full disk, a restart.
-_LATER = frozenset({408, 429, 500, 502, 503, 504, 507})
+#: What a later try may not meet any more: a token that was not at hand, too slow, too many at once, a full disk.
+_LATER = frozenset({401, 408, 429, 500, 502, 503, 504, 507})
 _CHUNK = 65_536
 
 

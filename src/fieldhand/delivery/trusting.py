@@ -61,6 +61,10 @@ def require_address(url: str, trusting: Trusting) -> str:
         raise InputError(
             "everyone on the way could read the token", where=url, advice="use https, or say --insecure if you mean it"
         )
+    if parts.scheme == "http" and (trusting.ca or trusting.pin):
+        raise InputError(
+            "there is no certificate without TLS", where=url, advice="use https, or leave out --ca and --pin"
+        )
     return url.rstrip("/")
 
 
