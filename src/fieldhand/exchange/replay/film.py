@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.errors import InputError
+from fieldhand.exchange.broken_off import driven_part
 from fieldhand.site.model import Site
 from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event, Started
 
@@ -90,10 +91,13 @@ def film_of(events: Sequence[Event], site: Site, *, tell: Callable[[Event], str 
             lines.append((event.t, " ".join(words.split())))
         match event:
             case Driving():
+                if drive is not None and event.path and track.corners:
+                    track.drive(drive, event.t, site, ended_at=event.path[0])
                 drive = event
             case Started() | Arrived() | Ended() if _known(event.lat, event.lon):
-                if isinstance(event, Arrived) and drive is not None:
-                    track.drive(drive, event.t, site)
+                if drive is not None:
+                    ended_at = None if isinstance(event, Arrived) else (event.lat, event.lon)
+                    track.drive(drive, event.t, site, ended_at=ended_at)
                 track.add(event.t, site.projection.metres(event.lat, event.lon))
                 drive = None
             case Acted() if _known(event.lat, event.lon):
@@ -130,11 +134,15 @@ class _Track:
             latest = self.corners[-1][0] if self.corners else t
             self.corners.append((max(t, latest), float(x), float(y)))
 
-    def drive(self, drive: Driving, until: float, site: Site) -> None:
-        """A drive that went evenly along its way."""
+    def drive(self, drive: Driving, until: float, site: Site, *, ended_at: tuple[float, float] | None) -> None:
+        """A drive that went evenly along its way, to its end or to where it was broken off."""
         degrees = np.asarray(drive.path, dtype=np.float64).reshape(-1, 2)
         if len(degrees) < 2 or not np.isfinite(degrees).all():
             return
+        if ended_at is not None:
+            if not _known(*ended_at):
+                return
+            degrees = np.asarray(driven_part(drive.path, ended_at), dtype=np.float64)
         xy = site.projection.metres(degrees[:, 0], degrees[:, 1])
         lengths = np.hypot(*np.diff(xy, axis=0).T)
         parts = np.concatenate([[0.0], np.cumsum(lengths)]) / max(float(lengths.sum()), 1e-9)
