@@ -28,6 +28,22 @@ def history_folder(environ: Mapping[str, str]) -> Path:
     return mission.state_folder(environ) / "history"
 
 
+def read_log(path: Path) -> tuple[Event, ...]:
+    """The events of a log, whether JSON lines or MCAP, whole or cut off.
+
+    Raises:
+        InputError: The file cannot be read, is damaged, or holds no event.
+        TaskError: A line or a message is no event.
+    """
+    from fieldhand.exchange.mcap import is_mcap, read_mcap
+    from fieldhand.execution.log import read_events
+
+    events = read_mcap(path) if is_mcap(path) else read_events(path, whole=False)
+    if not events:
+        raise InputError("holds no event", where=str(path), advice="give a log that fieldhand run wrote")
+    return events
+
+
 def report_log(
     folder: Path, log: Path, task: Task, document: bytes, site: Site, robot: RobotProfile
 ) -> tuple[ReportFiles, mission.Assessment, tuple[Event, ...]]:
@@ -48,9 +64,8 @@ def report_log(
 
     from fieldhand.evaluation.report import write_report
     from fieldhand.evaluation.report_facts import require_fitting
-    from fieldhand.execution.log import read_events
 
-    events = read_events(log, whole=False)
+    events = read_log(log)
     require_fitting(events, task, site, robot, where=str(log))
     assessment = mission.assess(task, events)
     hashes = [("Task document", document), ("event log", log.read_bytes())]
@@ -100,11 +115,10 @@ def missions_of(
     """
     from fieldhand.evaluation.calibration.history import kept
     from fieldhand.evaluation.calibration.steps import steps_of
-    from fieldhand.execution.log import read_events
 
     read = {}
     for log in logs:
-        driven = steps_of(read_events(log, whole=False), where=str(log))
+        driven = steps_of(read_log(log), where=str(log))
         if driven.robot != robot.name:
             raise InputError(
                 f"is of the robot {driven.robot!r}, not {robot.name!r}", where=str(log), advice="give logs of one robot"

@@ -13,6 +13,7 @@ from exchange_missions import STRAIGHT, flight, task_of
 from fieldhand.cli.export import export
 from fieldhand.cli.import_tree import import_tree
 from fieldhand.cli.replay import replay
+from fieldhand.cli.report import report
 from fieldhand.errors import InputError
 from fieldhand.task.codec import encode
 
@@ -94,3 +95,25 @@ def test_a_tree_that_reads_after_it_tests_is_refused(files: Path) -> None:
     with pytest.raises(InputError, match=r"tree\.xml: .*n1"):
         call(import_tree, tree=files / "tree.xml", output=files / "out.xml")
     assert not (files / "out.xml").exists()
+
+
+def test_a_log_that_was_cut_off_is_written_and_drawn_as_far_as_it_goes(files: Path) -> None:
+    whole = (files / "events.jsonl").read_text()
+    (files / "cut.jsonl").write_text(whole[: len(whole) // 2])
+    call(export, given=files / "cut.jsonl", to="events", output=files / "again.jsonl")
+    kept = (files / "again.jsonl").read_text()
+    assert kept
+    assert whole.startswith(kept)
+    call(replay, events=files / "cut.jsonl", site="demo", output=files / "cut.html")
+    assert "cut off" in (files / "cut.html").read_text()
+
+
+def test_a_report_reads_mcap_as_it_reads_json_lines(files: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    call(export, given=files / "events.jsonl", to="mcap", output=files / "log.mcap", site="demo")
+    capsys.readouterr()
+    said = []
+    for log in ("events.jsonl", "log.mcap"):
+        with pytest.raises(SystemExit):
+            call(report, events=files / log, task=files / "task.xml", site="demo", output=files / log[:3], json=True)
+        said.append(json.loads(capsys.readouterr().out)["goals"])
+    assert said[0] == said[1]

@@ -111,6 +111,7 @@ def _of_task(path: Path, to: str, site: str | None, robot: str, lenient: bool) -
 def _of_log(path: Path, to: str, site: str | None, robot: str, lenient: bool, output: Path) -> _Made:
     from fieldhand.cli.inputs import open_ground
     from fieldhand.exchange.routes.route import driven
+    from fieldhand.past import read_log
     from fieldhand.task.results import to_json
 
     events = read_log(path)
@@ -124,22 +125,6 @@ def _of_log(path: Path, to: str, site: str | None, robot: str, lenient: bool, ou
         return _Made(data=None, facts=facts, notes=notes)
     route = driven(events)
     return _Made(data=_WRITERS[to](route), facts=facts | _facts(route))
-
-
-def read_log(path: Path) -> tuple[Event, ...]:
-    """The events of a log, whether JSON lines or MCAP.
-
-    Raises:
-        InputError: The file cannot be read, is damaged, or holds no event.
-        TaskError: A line or a message is no event.
-    """
-    from fieldhand.exchange.mcap import is_mcap, read_mcap
-    from fieldhand.execution.log import read_events
-
-    events = read_mcap(path) if is_mcap(path) else read_events(path)
-    if not events:
-        raise InputError("holds no event", where=str(path), advice="give a log that fieldhand run wrote")
-    return events
 
 
 def _write_mcap(events: tuple[Event, ...], output: Path, ground: Ground | None, robot: str) -> None:

@@ -13,7 +13,7 @@ _ENDINGS = (".html", ".gif", ".mp4")
 
 
 def replay(
-    events: Annotated[Path, typer.Argument(help="An event log (JSON lines or MCAP).")],
+    events: Annotated[Path, typer.Argument(help="An event log (JSON lines or MCAP), whole or cut off.")],
     site: SiteOption,
     output: Annotated[
         Path, typer.Option("-o", "--output", help="Where to write: .html, .gif, or .mp4 (needs ffmpeg).")
@@ -25,11 +25,11 @@ def replay(
 ) -> None:
     """Draw a mission again as an animation: the way, the captures, the clock and the battery."""
     from fieldhand.cli import show
-    from fieldhand.cli.export import read_log
     from fieldhand.cli.inputs import open_ground, write_file
     from fieldhand.errors import OutputError
     from fieldhand.evaluation.telling import Teller
     from fieldhand.exchange.replay import film_of, page_of, save_animation
+    from fieldhand.past import read_log
 
     if output.suffix.lower() not in _ENDINGS:
         what = f"{output.suffix or 'no ending'} is no kind of animation"

@@ -11,7 +11,7 @@ from fieldhand.cli.options import JsonOption, LenientOption, RobotOption, SiteOp
 
 
 def report(
-    events: Annotated[Path, typer.Argument(help="An event log (JSON lines), whole or cut off.")],
+    events: Annotated[Path, typer.Argument(help="An event log (JSON lines or MCAP), whole or cut off.")],
     task: Annotated[Path, typer.Option("--task", help="The Task document that was carried out.")],
     site: SiteOption,
     robot: RobotOption = "husky",
