@@ -196,3 +196,10 @@ def test_a_folder_of_keys_that_cannot_be_read(tmp_path: Path, monkeypatch: pytes
     monkeypatch.setattr(Path, "exists", refused)
     with pytest.raises(KeyFileError, match="keys: cannot be read: Permission denied; check the rights"):
         SigningKeys(tmp_path).held()
+
+
+def test_a_key_whose_line_cannot_be_written_is_said_to_be_there(tmp_path: Path) -> None:
+    env = dict(os.environ) | {"FIELDHAND_CONFIG": str(tmp_path)}
+    made = fieldhand("keys", "new", "--name", "Ada", "-o", str(tmp_path), env=env)
+    assert is_one_clear_line(made, "cannot write", "the key was made all the same", "ada.pub")
+    assert "Ada" in fieldhand("keys", "list", env=env).out

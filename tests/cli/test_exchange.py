@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
 import typer
+from mcap.reader import make_reader
 
 from exchange_missions import STRAIGHT, flight, task_of
 from fieldhand.cli.export import export
@@ -16,6 +19,7 @@ from fieldhand.cli.replay import replay
 from fieldhand.cli.report import report
 from fieldhand.errors import InputError
 from fieldhand.task.codec import encode
+from fieldhand.task.results import Started, to_json
 
 Command = Callable[..., None]
 
@@ -117,3 +121,14 @@ def test_a_report_reads_mcap_as_it_reads_json_lines(files: Path, capsys: pytest.
             call(report, events=files / log, task=files / "task.xml", site="demo", output=files / log[:3], json=True)
         said.append(json.loads(capsys.readouterr().out)["goals"])
     assert said[0] == said[1]
+
+
+def test_an_mcap_file_that_is_made_of_a_log_begins_when_the_mission_did(files: Path) -> None:
+    began = datetime(2026, 5, 4, 6, 30, tzinfo=UTC)
+    events = flight().events
+    dated = [replace(e, at=began.isoformat()) if isinstance(e, Started) else e for e in events]
+    (files / "dated.jsonl").write_text("".join(to_json(e) + "\n" for e in dated))
+    call(export, given=files / "dated.jsonl", to="mcap", output=files / "log.mcap")
+    with (files / "log.mcap").open("rb") as file:
+        first = min(message.log_time for _, _, message in make_reader(file).iter_messages())
+    assert first == pytest.approx((began.timestamp() + events[0].t) * 1e9)

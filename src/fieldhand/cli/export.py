@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -133,9 +134,22 @@ def _write_mcap(events: tuple[Event, ...], output: Path, ground: Ground | None, 
     from fieldhand.robot.loader import load_robot
 
     teller = Teller(load_robot(robot) if ground is None else ground.robot)
-    with McapLog(output, tell=teller.tell, site=None if ground is None else ground.site) as log:
+    with McapLog(
+        output, began_s=_began_s(events), tell=teller.tell, site=None if ground is None else ground.site
+    ) as log:
         for event in events:
             log(event)
+
+
+def _began_s(events: tuple[Event, ...]) -> float:
+    """When the mission of a log began, in seconds since 1970; 0 where the log does not say."""
+    from fieldhand.task.results import Started
+
+    started = next((event for event in events if isinstance(event, Started)), None)
+    try:
+        return 0.0 if started is None else datetime.fromisoformat(started.at).timestamp()
+    except (ValueError, OverflowError):
+        return 0.0
 
 
 def _facts(route: Route) -> dict[str, Any]:
