@@ -12,12 +12,15 @@
     │   ├── KeyFileError            a key: its file, its rights, its passphrase, or that there is none
     │   ├── PlaceError              a selector that this site cannot resolve
     │   ├── OutputError             a place to write to that cannot be written
-    │   │   └── JournalError        a mission's folder or journal that cannot be gone on with
+    │   │   ├── JournalError        a mission's folder or journal that cannot be gone on with
+    │   │   └── StoreError          where missions wait: the robot's store, the sender's outbox
     │   ├── ProblemError            an orienteering problem that contradicts itself or has no solution
     │   └── ModelError              the language model: key, endpoint, answer
     ├── NotApprovedError            a check failed or the operator said no
     │   ├── NotConfirmedError       there are warnings that nobody has confirmed
     │   └── NotTrustedError         nobody whom this robot trusts has signed
+    ├── DeliveryError               a mission that could not be handed to a robot
+    │   └── UnreachableError        not now; later it may be
     └── ExecutionError              the robot
         ├── DriveFault              a leg that cannot be driven
         │   ├── BlockedFault        what the robot found in its way leaves no other
@@ -34,6 +37,7 @@ __all__ = [
     "BlockedFault",
     "BundleError",
     "CaseError",
+    "DeliveryError",
     "DriveFault",
     "ExecutionError",
     "FieldhandError",
@@ -51,7 +55,9 @@ __all__ = [
     "ProfileError",
     "RequestError",
     "SiteError",
+    "StoreError",
     "TaskError",
+    "UnreachableError",
     "WorldError",
 ]
 
@@ -132,6 +138,10 @@ class JournalError(OutputError):
     """
 
 
+class StoreError(OutputError):
+    """The place where missions wait cannot be used: the robot's store, or the outbox of whoever sends."""
+
+
 class ProblemError(InputError):
     """An orienteering problem is not a problem: bad numbers, a vertex that does not exist, no way to the end."""
 
@@ -159,6 +169,14 @@ class NotConfirmedError(NotApprovedError):
 
 class NotTrustedError(NotApprovedError):
     """A mission is not signed, or by a key that is unknown here or was revoked."""
+
+
+class DeliveryError(FieldhandError):
+    """A mission could not be handed to a robot, or what the robot answered is not what it has to be."""
+
+
+class UnreachableError(DeliveryError):
+    """The robot does not answer, or cannot take it now; the same may succeed later."""
 
 
 class ExecutionError(FieldhandError):

@@ -11,7 +11,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fieldhand.errors import InputError, RequestError, TaskError
+from fieldhand.errors import InputError, RequestError
 from fieldhand.planning.planner import Answer, Outcome, Planner
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -143,14 +143,9 @@ def read_task(path: Path, robot: RobotProfile) -> tuple[Task, bytes]:
     Raises:
         TaskError: The file cannot be read, is not well-formed, or fails the schema (line and element are named).
     """
-    try:
-        document = path.read_bytes()
-    except OSError as error:
-        raise TaskError(
-            f"cannot be read: {error.strerror}",
-            where=str(path),
-            advice="give a Task document that fieldhand plan wrote",
-        ) from None
+    from fieldhand.task.codec_xml import read_xml
+
+    document = read_xml(path, advice="give a Task document that fieldhand plan wrote")
     return decode_task(document, robot, source=str(path)), document
 
 

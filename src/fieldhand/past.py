@@ -143,11 +143,10 @@ def missions_of(
     """
     from fieldhand.evaluation.calibration.history import kept
     from fieldhand.evaluation.calibration.steps import steps_of
-    from fieldhand.execution.log import read_events
 
     read = {}
     for log in logs:
-        driven = steps_of(read_events(log, whole=False), where=str(log))
+        driven = steps_of(read_log(log).events, where=str(log))
         if driven.robot != robot.name:
             raise InputError(
                 f"is of the robot {driven.robot!r}, not {robot.name!r}", where=str(log), advice="give logs of one robot"

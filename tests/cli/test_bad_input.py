@@ -10,6 +10,8 @@ from pathlib import Path
 import pytest
 
 from command import Run, fieldhand
+from fieldhand.approval.keys.signing import SigningKeys
+from fieldhand.errors import KeyFileError
 
 
 def is_one_clear_line(run: Run, *words: str) -> bool:
@@ -172,3 +174,32 @@ def test_a_terminal_that_cannot_show_every_sign_still_gets_an_answer() -> None:
     )
     assert plan.status == 0, plan.err
     assert "CO?" in plan.out
+
+
+def test_a_file_without_end_is_not_read_to_its_end() -> None:
+    assert is_one_clear_line(fieldhand("check", "/dev/zero", "--site", "demo"), "/dev/zero", "more than")
+
+
+def test_a_signed_mission_is_written_to_a_file_and_not_approved_again(tmp_path: Path) -> None:
+    words = ("approve", "Read CO2 at tree 4.", "--site", "demo", "--yes")
+    assert is_one_clear_line(fieldhand(*words, "-o", "."), "ends in .mission", "write it to a file")
+    env = dict(os.environ) | {"FIELDHAND_CONFIG": str(tmp_path)}
+    assert fieldhand("keys", "new", "--name", "Ada", env=env).status == 0
+    again = fieldhand("approve", "a.mission", "--site", "demo", "-o", "b.mission", "--yes", cwd=tmp_path, env=env)
+    assert is_one_clear_line(again, "a.mission: is a signed mission", "inspect")
+
+
+def test_a_folder_of_keys_that_cannot_be_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refused(self: Path) -> bool:
+        raise PermissionError(13, "Permission denied", str(self))
+
+    monkeypatch.setattr(Path, "exists", refused)
+    with pytest.raises(KeyFileError, match="keys: cannot be read: Permission denied; check the rights"):
+        SigningKeys(tmp_path).held()
+
+
+def test_a_key_whose_line_cannot_be_written_is_said_to_be_there(tmp_path: Path) -> None:
+    env = dict(os.environ) | {"FIELDHAND_CONFIG": str(tmp_path)}
+    made = fieldhand("keys", "new", "--name", "Ada", "-o", str(tmp_path), env=env)
+    assert is_one_clear_line(made, "cannot write", "the key was made all the same", "ada.pub")
+    assert "Ada" in fieldhand("keys", "list", env=env).out

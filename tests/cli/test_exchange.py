@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
 import typer
+from mcap.reader import make_reader
 
 from exchange_missions import STRAIGHT, flight, task_of
 from fieldhand.cli.export import export
 from fieldhand.cli.import_tree import import_tree
 from fieldhand.cli.replay import replay
+from fieldhand.cli.report import report
 from fieldhand.errors import InputError
 from fieldhand.task.codec import encode
+from fieldhand.task.results import Started, to_json
 
 Command = Callable[..., None]
 
@@ -95,3 +100,36 @@ def test_a_tree_that_reads_after_it_tests_is_refused(files: Path) -> None:
     with pytest.raises(InputError, match=r"tree\.xml: .*n1"):
         call(import_tree, tree=files / "tree.xml", output=files / "out.xml")
     assert not (files / "out.xml").exists()
+
+
+def test_a_log_that_was_cut_off_is_written_and_drawn_as_far_as_it_goes(files: Path) -> None:
+    whole = (files / "events.jsonl").read_text()
+    (files / "cut.jsonl").write_text(whole[: len(whole) // 2])
+    call(export, given=str(files / "cut.jsonl"), to="events", output=files / "again.jsonl")
+    kept = (files / "again.jsonl").read_text()
+    assert kept
+    assert whole.startswith(kept)
+    call(replay, given=str(files / "cut.jsonl"), site="demo", output=files / "cut.html")
+    assert "cut off" in (files / "cut.html").read_text()
+
+
+def test_a_report_reads_mcap_as_it_reads_json_lines(files: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    call(export, given=str(files / "events.jsonl"), to="mcap", output=files / "log.mcap", site="demo")
+    capsys.readouterr()
+    said = []
+    for log in ("events.jsonl", "log.mcap"):
+        with pytest.raises(SystemExit):
+            call(report, given=str(files / log), task=files / "task.xml", site="demo", output=files / log[:3], json=True)
+        said.append(json.loads(capsys.readouterr().out)["goals"])
+    assert said[0] == said[1]
+
+
+def test_an_mcap_file_that_is_made_of_a_log_begins_when_the_mission_did(files: Path) -> None:
+    began = datetime(2026, 5, 4, 6, 30, tzinfo=UTC)
+    events = flight().events
+    dated = [replace(e, at=began.isoformat()) if isinstance(e, Started) else e for e in events]
+    (files / "dated.jsonl").write_text("".join(to_json(e) + "\n" for e in dated))
+    call(export, given=str(files / "dated.jsonl"), to="mcap", output=files / "log.mcap")
+    with (files / "log.mcap").open("rb") as file:
+        first = min(message.log_time for _, _, message in make_reader(file).iter_messages())
+    assert first == pytest.approx((began.timestamp() + events[0].t) * 1e9)

@@ -9,14 +9,13 @@ import math
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 from lxml import etree
 from mcap.reader import make_reader
 from shapely.geometry import Polygon, shape
 
 from fieldhand.evaluation.telling import Teller
-from fieldhand.exchange.incidents import incidents, way_until
+from fieldhand.exchange.incidents import incidents
 from fieldhand.exchange.mcap import McapLog
 from fieldhand.exchange.replay import film_of, page_of, save_animation
 from fieldhand.exchange.routes.geojson import write_geojson
@@ -101,15 +100,6 @@ def test_each_has_its_place_and_its_words() -> None:
     assert found[2].blocked == (AREA,)
     assert (found[5].blocked, found[2].unreachable) == ((), ("2",))
     assert all(one.words and not one.words[0].isdigit() for one in found)
-
-
-@pytest.mark.parametrize("part", [0.0, 0.3, 0.999, 1.0])
-def test_a_way_that_was_broken_off_ends_where_the_robot_is(part: float) -> None:
-    way = np.array([(0.0, 0.0), (3.0, 0.0), (3.0, 4.0)])
-    where = way[1] + part * (way[2] - way[1]) + (0.01, 0.0)
-    cut = way_until(way, where)
-    assert tuple(cut[-1]) == tuple(where)
-    assert np.hypot(*np.diff(cut, axis=0).T).sum() == pytest.approx(3.0 + 4.0 * part, abs=0.03)
 
 
 def test_a_replay_shows_the_robot_where_it_stood_and_what_happened(tmp_path: Path) -> None:

@@ -16,6 +16,7 @@ from PIL import Image
 from exchange_missions import flight
 from fieldhand.errors import InputError, OutputError
 from fieldhand.exchange.replay import film_of, page_of, save_animation
+from fieldhand.exchange.routes.route import driven
 from fieldhand.site.geojson import load_demo
 from fieldhand.task.results import Acted, Arrived, Driving, Ended, Started
 
@@ -121,3 +122,29 @@ def test_what_cannot_be_written_is_said(tmp_path: Path, monkeypatch: pytest.Monk
     (tmp_path / "file").write_text("")
     with pytest.raises(OutputError, match="cannot be written"):
         save_animation(film, load_demo(), tmp_path / "file" / "m.gif", seconds=0.5)
+
+
+def test_a_drive_that_was_broken_off_is_drawn_as_far_as_it_went() -> None:
+    site, events = load_demo(), flight().events
+    k = next(k for k, e in enumerate(events) if isinstance(e, Driving) and len(e.path) > 2)
+    drive = events[k]
+    assert isinstance(drive, Driving)
+    (lat, lon), (lat1, lon1) = drive.path[:2]
+    middle = ((lat + lat1) / 2, (lon + lon1) / 2)
+    # The robot was to go the whole way, was stopped in the middle of its first part, and went on from there.
+    on = replace(drive, t=(drive.t + events[k + 1].t) / 2, path=(middle, *drive.path[1:]))
+    broken = (*events[: k + 1], on, *events[k + 1 :])
+    whole, cut = film_of(events, site), film_of(broken, site)
+    gaps = [np.hypot(*(cut.track[:, 1:] - at).T).min() for at in whole.track[:, 1:]]
+    assert max(gaps) < 0.01
+    length = [float(np.hypot(*np.diff(film.track[:, 1:], axis=0).T).sum()) for film in (whole, cut)]
+    assert length[0] == pytest.approx(length[1], abs=0.01)
+    # Routes take the same ways.
+    ways = [[at for stop in driven(log).stops for at in stop.way] for log in (events, broken)]
+    assert set(ways[0]) <= set(ways[1])
+    assert len(ways[1]) <= len(ways[0]) + 3
+    # A mission that ends on the way ends the drive there.
+    ended = next(e for e in events if isinstance(e, Ended))
+    stopped = film_of((*events[: k + 1], replace(ended, t=on.t, lat=middle[0], lon=middle[1])), site)
+    assert stopped.track[-1, 1:] == pytest.approx(site.projection.metres(*middle)[0], abs=0.01)
+    assert any(np.hypot(*(at - site.projection.metres(lat, lon)[0])) < 0.01 for at in stopped.track[:, 1:])

@@ -50,7 +50,7 @@ def serve_forever(app: FastAPI, host: str, port: int) -> None:
     """
     import uvicorn
 
-    _check_free(host, port)
+    require_free(host, port)
     shown = f"[{host}]" if ":" in host else host
     print(f"Fieldhand is at http://{shown}:{port}/ (Ctrl-C to stop)", file=sys.stderr)  # noqa: T201
     if not is_loopback(host):
@@ -63,8 +63,12 @@ def serve_forever(app: FastAPI, host: str, port: int) -> None:
     )
 
 
-def _check_free(host: str, port: int) -> None:
-    """Try the address first: a server that cannot listen says so in one line, not in a log."""
+def require_free(host: str, port: int) -> None:
+    """Try the address first: a server that cannot listen says so in one line, not in a log.
+
+    Raises:
+        InputError: It cannot be listened on.
+    """
     import socket
 
     try:

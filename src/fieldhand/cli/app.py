@@ -20,15 +20,19 @@ from fieldhand.cli.import_tree import import_tree
 from fieldhand.cli.inspect import inspect
 from fieldhand.cli.keys import keys
 from fieldhand.cli.missions import missions
+from fieldhand.cli.order import order
+from fieldhand.cli.outbox import outbox
 from fieldhand.cli.plan import plan
 from fieldhand.cli.replay import replay
 from fieldhand.cli.report import report
 from fieldhand.cli.resume import resume
 from fieldhand.cli.robot import robot
 from fieldhand.cli.run import run
+from fieldhand.cli.send import send
 from fieldhand.cli.site import site
 from fieldhand.cli.status import status
 from fieldhand.cli.tell import abort, come_home, pause
+from fieldhand.cli.watch import watch
 
 
 def assemble(*others: Callable[..., None]) -> typer.Typer:
@@ -55,6 +59,10 @@ def assemble(*others: Callable[..., None]) -> typer.Typer:
         report,
         replay,
         export,
+        send,
+        outbox,
+        watch,
+        order,
         site,
         demo,
         *others,

@@ -11,9 +11,10 @@ from pathlib import Path
 from rich.text import Text
 
 from fieldhand import mission
+from fieldhand.cli.bundles import is_bundle
 from fieldhand.cli.inputs import Ground, may_ask
 from fieldhand.cli.show import err, fail_outcome, note, show_question
-from fieldhand.errors import RequestError
+from fieldhand.errors import InputError, RequestError
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Planner
 from fieldhand.task.frames import Task
 
@@ -88,6 +89,9 @@ def plan_or_read(
 
     Ends the program with status 2 where the planner refuses, or has a question that nobody answers.
     """
+    if is_bundle(words):
+        what = "is a signed mission, neither a request nor a Task"
+        raise InputError(what, where=words, advice="say what is in it with fieldhand inspect, carry it out with run")
     if words.lower().endswith(".xml") and "\n" not in words:
         task, document = mission.read_task(Path(words), ground.robot)
         return task, document, "file"

@@ -119,9 +119,8 @@ def require_ending(path: Path) -> None:
         InputError: It has another one.
     """
     if path.suffix.lower() != ENDING:
-        raise InputError(
-            "a signed mission ends in .mission", where=str(path), advice=f"write it to {path.with_suffix(ENDING)}"
-        )
+        better = path.with_suffix(ENDING) if path.name else f"a file such as mission{ENDING}"
+        raise InputError("a signed mission ends in .mission", where=str(path), advice=f"write it to {better}")
 
 
 def signed_record(path: Path, data: bytes, authorization: Authorization, public: PublicKey) -> dict[str, Any]:

@@ -34,12 +34,17 @@ def new(
     from fieldhand.cli.approving import user_name
     from fieldhand.cli.inputs import write_file
     from fieldhand.cli.secrets import new_passphrase
+    from fieldhand.errors import OutputError
 
     own, _ = _folders()
     key, file = own.make(name or user_name(), new_passphrase(asked=passphrase))
     public = key.public
     if output is not None:
-        write_file(output, f"{public.line()}\n".encode())
+        try:
+            write_file(output, f"{public.line()}\n".encode())
+        except OutputError as error:
+            advice = f"the key was made all the same; the line to send stands in {file}"
+            raise OutputError(error.what, where=error.where, advice=advice) from None
     if json:
         record = {"name": public.name, "fingerprint": public.fingerprint, "public_key": public.line()}
         show.print_json(record | {"file": str(file)})

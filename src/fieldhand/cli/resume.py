@@ -35,7 +35,6 @@ def resume(
     from fieldhand.cli.flight import Orders, conclude, go_on, leave_plan, parse_speed
     from fieldhand.cli.inputs import Ground
     from fieldhand.cli.tell import tell
-    from fieldhand.execution.journal.desk import Desk
     from fieldhand.language import spoken
 
     pace = parse_speed(speed)
@@ -48,7 +47,7 @@ def resume(
     given = missions.open_mission(folder, verify)
     if given.bundle is not None and not json:
         show.out.print(tell_signer(given.bundle))
-    if Desk(folder / "orders.sqlite").last()[1] == "pause":
+    if missions.last_order(folder) == "pause":
         missions.order(folder, "continue", "resumed by the operator")
     orders = Orders(
         ask=False,

@@ -6,9 +6,6 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from fieldhand.task.results import (
     Arrived,
     ClockSet,
@@ -25,7 +22,6 @@ from fieldhand.task.results import (
     Waited,
 )
 
-Floats = NDArray[np.float64]
 LatLon = tuple[float, float]
 
 
@@ -87,21 +83,6 @@ def position_of(event: Event) -> LatLon | None:
 def known(at: Sequence[float]) -> bool:
     """Whether this is a place on the earth."""
     return math.isfinite(at[0]) and math.isfinite(at[1]) and abs(at[0]) <= 90 and abs(at[1]) <= 180
-
-
-def way_until(way: Floats, at: Floats) -> Floats:
-    """A way as far as the point of it that is nearest to where the robot then was, that place as its last corner.
-
-    Args:
-        way: Corners, shape (n, 2), in metres or in anything that is alike in both directions.
-        at: Shape (2,).
-    """
-    legs = np.diff(way, axis=0)
-    squares = np.maximum((legs**2).sum(axis=1), 1e-12)
-    parts = np.clip(((at - way[:-1]) * legs).sum(axis=1) / squares, 0.0, 1.0)
-    feet = way[:-1] + parts[:, None] * legs
-    nearest = int(np.argmin(((feet - at) ** 2).sum(axis=1)))
-    return np.vstack([way[: nearest + 1], at])
 
 
 def _incident(

@@ -88,13 +88,15 @@ def read_events(path: Path, *, whole: bool = True) -> tuple[Event, ...]:
         TaskError: A line is no event; says which.
     """
     try:
-        if path.stat().st_size > MAX_BYTES:
+        with path.open("rb") as file:
+            data = file.read(MAX_BYTES + 1)
+        if len(data) > MAX_BYTES:
             raise InputError(
                 f"is larger than {MAX_BYTES:,} bytes", where=str(path), advice="give a log that --events wrote"
             )
-        text = path.read_text(encoding="utf-8")
+        text = data.decode()
     except (OSError, ValueError) as error:
-        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        why = error.strerror if isinstance(error, OSError) and error.strerror else "it is not UTF-8 text"
         raise InputError(
             f"the event log cannot be read: {why}", where=str(path), advice="give a log that --events wrote"
         ) from None

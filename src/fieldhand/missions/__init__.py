@@ -14,6 +14,7 @@ from fieldhand.missions.folder import (
     Mission,
     all_missions,
     begin,
+    exists,
     find,
     is_signed,
     missions_folder,
@@ -21,7 +22,7 @@ from fieldhand.missions.folder import (
     open_mission,
     signed_bundle,
 )
-from fieldhand.missions.kept import Status, carry_out, events_of, is_running, order, status
+from fieldhand.missions.kept import Status, carry_out, events_of, is_running, last_order, lines_after, order, status
 
 __all__ = [
     "Inputs",
@@ -31,9 +32,12 @@ __all__ = [
     "begin",
     "carry_out",
     "events_of",
+    "exists",
     "find",
     "is_running",
     "is_signed",
+    "last_order",
+    "lines_after",
     "missions_folder",
     "new_id",
     "open_mission",

@@ -145,6 +145,11 @@ def begin(under: Path, name: str, inputs: Inputs) -> Path:
     return folder
 
 
+def exists(folder: Path) -> bool:
+    """Whether this is the folder of a mission that was begun."""
+    return (folder / _ABOUT).is_file()
+
+
 def is_signed(folder: Path) -> bool:
     """Whether the mission came from a signed bundle, which then lies in its folder.
 

@@ -140,6 +140,18 @@ def events_of(folder: Path) -> tuple[Event, ...]:
     return tuple(event for event in events if event is not None)
 
 
+def lines_after(folder: Path, after: int, most: int) -> tuple[tuple[int, str, str], ...]:
+    """(number, time, line) of the events of a mission behind number ``after``, for who follows it from elsewhere.
+
+    Raises:
+        JournalError: The journal cannot be read.
+    """
+    from fieldhand.execution.journal.store import lines_after
+
+    read_about(folder)
+    return lines_after(folder / JOURNAL, after, most)
+
+
 def order(
     folder: Path, said: Said, reason: str, *, wait: Callable[[], bool] = lambda: False
 ) -> bool:  # fmt: skip
@@ -169,6 +181,17 @@ def order(
         if not wait():
             break
     return heard(folder / JOURNAL)[0] >= number
+
+
+def last_order(folder: Path) -> str:
+    """What a mission was told last; empty if it was told nothing.
+
+    Raises:
+        JournalError: This is no mission.
+    """
+    from fieldhand.execution.journal.desk import Desk
+
+    return Desk(folder / ORDERS).last()[1]
 
 
 def is_running(folder: Path) -> bool:

@@ -17,7 +17,7 @@ MAX_BYTES = 4_000_000
 MAX_DEPTH = 200
 
 
-def read_xml(path: Path) -> bytes:
+def read_xml(path: Path, *, advice: str = "give an XML file") -> bytes:
     """The bytes of a document's file; no more of it is read than one may have.
 
     Raises:
@@ -28,7 +28,7 @@ def read_xml(path: Path) -> bytes:
             data = file.read(MAX_BYTES + 1)
     except (OSError, ValueError) as error:
         why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise TaskError(f"cannot be read: {why}", where=str(path), advice="give an XML file") from None
+        raise TaskError(f"cannot be read: {why}", where=str(path), advice=advice) from None
     if len(data) > MAX_BYTES:
         raise TaskError(f"has more than {MAX_BYTES} bytes", where=str(path), advice="split the mission")
     return data

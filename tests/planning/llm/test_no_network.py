@@ -27,4 +27,6 @@ def test_an_address_without_a_name_cannot_be_asked_either() -> None:
 
 
 def test_no_key_of_the_developer_is_in_the_environment() -> None:
-    assert not [name for name in os.environ if name.startswith(("FIELDHAND_", "OPENAI_", "ANTHROPIC_", "GOOGLE_"))]
+    ours = {"FIELDHAND_MISSIONS"}  # where the tests keep their missions
+    private = ("FIELDHAND_", "OPENAI_", "ANTHROPIC_", "GOOGLE_")
+    assert not [name for name in os.environ if name.startswith(private) and name not in ours]

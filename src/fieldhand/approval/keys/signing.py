@@ -93,7 +93,13 @@ class SigningKeys:
             KeyFileError: One of them cannot be used.
         """
         found = []
-        for file in sorted(self.folder.glob("*.key")):
+        try:
+            files = sorted(self.folder.glob("*.key")) if self.folder.exists() else []
+        except OSError as error:
+            raise KeyFileError(
+                f"cannot be read: {error.strerror}", where=str(self.folder), advice="check the rights on the folder"
+            ) from None
+        for file in files:
             shared = file.with_suffix(".pub")
             public = parse_public(_text(read_guarded(shared, private=False), shared), source=str(shared))
             encrypted = b"BEGIN ENCRYPTED PRIVATE KEY" in read_guarded(file, private=True)

@@ -26,7 +26,8 @@ from typing import IO, TYPE_CHECKING, Any
 import numpy as np
 
 from fieldhand.errors import OutputError
-from fieldhand.exchange.incidents import known, position_of, way_until
+from fieldhand.exchange.broken_off import driven_part
+from fieldhand.exchange.incidents import known, position_of
 from fieldhand.exchange.mcap.schemas import EVENTS, GEOJSON, LOCATION, LOG, STATE, schema_of
 from fieldhand.task.results import (
     Acted,
@@ -197,13 +198,17 @@ class McapLog:
         """Positions along a drive to its end or where it was broken off, as if it had gone evenly."""
         drive, self._drive = self._drive, None
         until = event.t
-        if drive is None or len(drive.path) < 2 or until - drive.t <= _EVERY_S or not known(at):
+        if (
+            drive is None
+            or len(drive.path) < 2
+            or until - drive.t <= _EVERY_S
+            or not all(map(known, (at, *drive.path)))
+        ):
             return
-        corners = np.asarray(drive.path, dtype=np.float64)
+        path = drive.path if isinstance(event, Arrived) else driven_part(drive.path, at)
+        corners = np.asarray(path, dtype=np.float64)
         # A degree of longitude is shorter than one of latitude.
         alike = np.array([1.0, math.cos(math.radians(corners[0, 0]))])
-        if not isinstance(event, Arrived):
-            corners = way_until(corners * alike, np.array(at) * alike) / alike
         along = np.concatenate([[0.0], np.cumsum(np.hypot(*(np.diff(corners, axis=0) * alike).T))])
         count = min(_MOST, int((until - drive.t) / _EVERY_S))
         for part in np.linspace(0.0, 1.0, count + 1)[1:-1]:

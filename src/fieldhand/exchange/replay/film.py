@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.errors import InputError
-from fieldhand.exchange.incidents import LatLon, incidents, known, position_of, way_until
+from fieldhand.exchange.broken_off import driven_part
+from fieldhand.exchange.incidents import LatLon, incidents, known, position_of
 from fieldhand.site.model import Site
 from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event, InDoubt, Paused, Resumed, Started
 
@@ -118,7 +119,7 @@ def film_of(events: Sequence[Event], site: Site, *, tell: Callable[[Event], str 
     Raises:
         InputError: The log does not say where the robot was.
     """
-    track, charge = _Track(), []
+    track, charge = _Track(site), []
     captures: list[Capture] = []
     lines: list[tuple[float, str]] = []
     for event in events:
@@ -129,7 +130,7 @@ def film_of(events: Sequence[Event], site: Site, *, tell: Callable[[Event], str 
             lines.append((event.t, " ".join(words.split())))
         match event:
             case Driving():
-                track.begin(event, site)
+                track.begin(event)
             case Paused():
                 track.stop(event.t)
             case Acted() if known((event.lat, event.lon)):
@@ -137,7 +138,7 @@ def film_of(events: Sequence[Event], site: Site, *, tell: Callable[[Event], str 
             case _:
                 at = position_of(event)
                 if at is not None:
-                    track.come(event.t, site.projection.metres(*at), whole=isinstance(event, Arrived))
+                    track.come(event.t, at, whole=isinstance(event, Arrived))
         if isinstance(event, Started | Arrived | Acted | InDoubt | Resumed | Ended) and math.isfinite(
             event.charge_percent
         ):
@@ -165,44 +166,45 @@ def film_of(events: Sequence[Event], site: Site, *, tell: Callable[[Event], str 
 class _Track:
     """Corners with their times, which never fall: a clock that was set back stands still."""
 
-    def __init__(self) -> None:
+    def __init__(self, site: Site) -> None:
         self.corners: list[tuple[float, float, float]] = []
-        self._way: Floats | None = None
-        self._since = self._until = 0.0
+        self._site = site
+        self._drive: Driving | None = None
+        self._until = math.inf
 
-    def begin(self, drive: Driving, site: Site) -> None:
+    def begin(self, drive: Driving) -> None:
         """A drive begins; the one before was broken off where this one starts, if it did not arrive."""
-        degrees = np.asarray(drive.path, dtype=np.float64).reshape(-1, 2)
-        if len(degrees) < 2 or not all(known(corner) for corner in degrees.tolist()):
-            self._way = None
+        if len(drive.path) < 2 or not all(map(known, drive.path)):
+            self._drive = None
             return
-        way = site.projection.metres(degrees[:, 0], degrees[:, 1])
-        if self._way is not None and self.corners:
-            self.come(min(self._until, drive.t), way[:1])
-        self._way, self._since, self._until = way, drive.t, math.inf
+        if self._drive is not None and self.corners:
+            self.come(min(self._until, drive.t), drive.path[0])
+        self._drive, self._until = drive, math.inf
 
     def stop(self, t: float) -> None:
         """The robot stands still from now on."""
         self._until = min(self._until, t)
 
-    def come(self, t: float, at: Floats, *, whole: bool = False) -> None:
+    def come(self, t: float, at: LatLon, *, whole: bool = False) -> None:
         """The robot is here, along the drive in hand; ``whole``: at its end."""
-        if self._way is not None:
-            self._along(self._way if whole else way_until(self._way, at[0]), min(t, self._until))
-        self._way = None
-        self.add(t, at)
+        drive, self._drive = self._drive, None
+        if drive is not None:
+            path = drive.path if whole else driven_part(drive.path, at)
+            self._along(np.asarray(path, dtype=np.float64), drive.t, min(t, self._until))
+        self.add(t, self._site.projection.metres(*at))
 
     def add(self, t: float, xy: Floats) -> None:
         for x, y in xy:
             latest = self.corners[-1][0] if self.corners else t
             self.corners.append((max(t, latest), float(x), float(y)))
 
-    def _along(self, xy: Floats, until: float) -> None:
+    def _along(self, degrees: Floats, since: float, until: float) -> None:
         """A drive that went evenly along its way."""
+        xy = self._site.projection.metres(degrees[:, 0], degrees[:, 1])
         lengths = np.hypot(*np.diff(xy, axis=0).T)
         parts = np.concatenate([[0.0], np.cumsum(lengths)]) / max(float(lengths.sum()), 1e-9)
         for part, point in zip(parts, xy, strict=True):
-            self.add(self._since + float(part) * (until - self._since), point.reshape(1, 2))
+            self.add(since + float(part) * (until - since), point.reshape(1, 2))
 
 
 def _signs(events: Sequence[Event], site: Site, tell: Callable[[Event], str | None], track: Floats) -> tuple[Sign, ...]:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from itertools import takewhile
 from typing import TYPE_CHECKING
 
+from fieldhand.exchange.broken_off import driven_part
 from fieldhand.exchange.incidents import Incident, LatLon, incidents
 from fieldhand.exchange.incidents import known as _known
 from fieldhand.forecast.branches import branches
@@ -152,19 +153,23 @@ def driven(
     stops: list[Stop] = []
     here = begin
     way: tuple[LatLon, ...] = ()
+    broken: tuple[LatLon, ...] = ()
     for event in events:
         match event:
             case Driving():
-                way = tuple((a, b) for a, b in event.path if _known((a, b)))
+                path = tuple((a, b) for a, b in event.path if _known((a, b)))
+                # A drive before it that did not arrive ended where this one begins.
+                broken = (*broken, *driven_part(way, path[0])) if way and path else broken
+                way = path
             case Arrived() if _known((event.lat, event.lon)):
                 here = (event.lat, event.lon)
                 stops.append(
                     Stop(
-                        node=event.node, kind=event.kind, place=event.place, at=here, stand=here, way=way,
-                        length_m=event.leg_m, travelled_m=event.travelled_m, t=event.t,
+                        node=event.node, kind=event.kind, place=event.place, at=here, stand=here,
+                        way=broken + way, length_m=event.leg_m, travelled_m=event.travelled_m, t=event.t,
                     )
                 )  # fmt: skip
-                way = ()
+                way, broken = (), ()
             case Acted() if _known((event.lat, event.lon)):
                 if not stops or stops[-1].place != event.place:
                     metres = stops[-1].travelled_m if stops else 0.0

@@ -198,6 +198,16 @@ def heard(path: Path) -> tuple[int, tuple[tuple[str, str], ...], Record | None, 
     )
 
 
+def lines_after(path: Path, after: int, most: int) -> tuple[tuple[int, str, str], ...]:
+    """(number, time, line) of the events behind number ``after``, in order, so many at most.
+
+    Raises:
+        JournalError: It cannot be read.
+    """
+    with _said(path), closing(_open(path, None)) as db:
+        return tuple(db.execute("SELECT n, at, line FROM events WHERE n > ? ORDER BY n LIMIT ?", (after, most)))
+
+
 def _open(path: Path, mission: str | None) -> sqlite3.Connection:
     if not path.is_file():
         raise JournalError("the mission has no journal", where=str(path), advice=_ANEW)

@@ -187,9 +187,11 @@ class Cases(Hand):
         named = any(t.kind in ("NOUN", "ORD", "STILL") for t in terms)
         negated = any(t.kind in ("NOT", "ISNOT") for t in terms)
         opposite = self._choice is not None and isinstance(self._choice.condition, c.Not) != negated
-        near = self._choice in self._sentence_choices or opposite
-        if not near or named or not isinstance(before, c.Compare):
+        if named or not isinstance(before, c.Compare):
             return False
+        tests = [t.value[0] for t in terms if t.kind == "CMP"]
+        if not opposite and (tests == [before.test] or self._choice not in self._sentence_choices):
+            return False  # the same test again is of what was taken since
         if numbers != [before.value]:
             return False
         tested = [cap for cap in known if cap.reading == before.reading]

@@ -219,6 +219,8 @@ def _test(clause: Clause) -> Clause | None:
 def leaves_out(clause: Clause) -> bool:
     """Whether a word that could change something is not said again."""
     number = quantity(clause.terms)
+    if number and clause.kind == "repeat":
+        return True
     left = [t for t in clause.terms if t.kind in PLACE - {"EACH", "ANY", "PLOT", "TREE"} and t not in clause.said]
     if any(t.kind == "NUM" and not _counts(t, clause.terms) for t in clause.place):
         return True

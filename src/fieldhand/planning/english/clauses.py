@@ -170,7 +170,14 @@ def _clauses(sentence: Sequence[Term]) -> Iterator[list[Term]]:
 
 def _tests_wholly(clause: Sequence[Term]) -> bool:
     """Whether a clause ends with a test that is said to its end."""
-    return any(t.kind in TESTS for t in clause) and clause[-1].kind in ("AMOUNT", "NUM", "LEVEL", "GLUE", "READING")
+    return any(t.kind in TESTS for t in clause) and clause[-1].kind in (
+        "AMOUNT",
+        "NUM",
+        "LEVEL",
+        "GLUE",
+        "READING",
+        "THERE",
+    )
 
 
 def _decides(term: Term) -> bool:

@@ -145,7 +145,7 @@ def reading_of(
         said: Its words, with those of the answers.
     """
     lexicon = lexicon_for(robot, site)
-    words, notes = respelt(reworded(said), lexicon)
+    words, notes = respelt(reworded([_of_the_robot(word, robot) for word in said]), lexicon)
     return Reading(
         request=request,
         worded=worded,
@@ -157,6 +157,11 @@ def reading_of(
         terms=tuple(lexicon.terms(words)),
         notes=tuple(notes),
     )
+
+
+def _of_the_robot(word: Word, robot: RobotProfile) -> Word:
+    """A word; the name of the robot as "robot"."""
+    return replace(word, norm="robot") if word.norm == robot.name.lower() else word
 
 
 def refused(worded: Worded, reasons: tuple[Reason, ...]) -> Refused:

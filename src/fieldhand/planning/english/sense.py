@@ -45,6 +45,8 @@ def check_sense(root: d.Block, request: str) -> None:
                 raise Question(f"'{_text(_said(step), request)}': what is to be done there?")
             if _is_mixed(step):
                 raise _unclear(_said(step), request, "which places are meant is not clear", "name them all")
+            if _is_far_for_nothing(step, after):
+                raise _unclear(_said(after), request, "is that tree the one that is far away?", "say 'at that tree'")
             if _is_tested_twice(step, after):
                 raise _unclear(_said(after), request, "the same is tested twice", "say of which reading it is meant")
             if _is_twice(step, after) and not _says_again(step, after, request):
@@ -81,6 +83,12 @@ def _is_mixed(step: d.Step) -> bool:
     if not isinstance(step, d.Loop) or not isinstance(step.select, s.Union):
         return False
     return any(isinstance(part, s.Here) for part in step.select.parts) and bool(step.body.steps)
+
+
+def _is_far_for_nothing(step: d.Step, after: d.Step | None) -> bool:
+    """ "Move as far away as possible for a picture of another tree": that tree is meant to be far away."""
+    far = isinstance(step, d.Go) and isinstance(step.place, s.Farthest)
+    return far and isinstance(after, d.Capture) and isinstance(after.at, s.Take) and isinstance(after.at.of, s.Other)
 
 
 def _is_tested_twice(step: d.Step, after: d.Step | None) -> bool:

@@ -1,0 +1,121 @@
+"""The addresses of the agent. A mission is known by the SHA-256 of its bundle; no name of a file comes from outside."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import Annotated
+
+import anyio
+from fastapi import APIRouter, Path, Query, Request, Response
+from starlette.concurrency import run_in_threadpool
+
+from fieldhand import __version__
+from fieldhand.agent.uploads import Entrance, Uploads, receive, size_of
+from fieldhand.api.problems import Turned
+from fieldhand.delivery.crew import Crew, Line
+from fieldhand.delivery.depot import Depot
+from fieldhand.delivery.ledger import Held
+from fieldhand.delivery.wire import (
+    LONGEST_WAIT_S,
+    MOST_EVENTS,
+    Events,
+    Heard,
+    Order,
+    Receipt,
+    RobotState,
+    event_lines,
+    shown,
+)
+
+#: Missions that are listed.
+LISTED = 50
+#: Seconds between two looks at a journal, and until an order that was not heard is answered.
+LOOK_S, ANSWER_WITHIN_S = 0.2, 5.0
+
+Bundle = Annotated[str, Path(pattern=r"^[0-9a-f]{64}$")]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Identity:
+    """What robot this is, and where it may work; no site where it may work on any."""
+
+    robot: str
+    robot_sha256: str
+    sites: tuple[str, ...]
+
+
+def router(depot: Depot, crew: Crew, who: Identity, uploads: Uploads) -> APIRouter:
+    """Every address."""
+    routes = APIRouter()
+    entrance = Entrance(uploads.at_once)
+
+    @routes.get("/agent")
+    def robot() -> RobotState:
+        """The robot, and the missions that arrived last."""
+        return RobotState(
+            robot=who.robot,
+            robot_sha256=who.robot_sha256,
+            sites=list(who.sites),
+            version=__version__,
+            active=crew.active,
+            missions=[shown(crew.standing(held)) for held in depot.latest(LISTED)],
+        )
+
+    @routes.put("/agent/missions/{bundle}")
+    async def upload(bundle: Bundle, request: Request, response: Response) -> Receipt:
+        """Take a mission: its bytes, whose SHA-256 is in the address. Nothing runs by this."""
+        size = size_of(request, uploads)
+        with entrance.entered(), depot.receiving() as part:
+            await receive(request, part, size, uploads)
+            held, new = await run_in_threadpool(depot.take, part, bundle)
+        response.status_code = 201 if new else 200
+        return Receipt(hashes=dict(held.hashes), new=new, mission=shown(await run_in_threadpool(crew.standing, held)))
+
+    @routes.get("/agent/missions/{bundle}")
+    def mission(bundle: Bundle) -> Receipt:
+        """A mission that has arrived: its hashes, and how it stands."""
+        held = found(bundle)
+        return Receipt(hashes=dict(held.hashes), new=False, mission=shown(crew.standing(held)))
+
+    @routes.post("/agent/missions/{bundle}/orders")
+    def order(bundle: Bundle, body: Order) -> Heard:
+        """Tell a mission to start, pause, resume, return or abort."""
+        held, until = found(bundle), time.monotonic() + ANSWER_WITHIN_S
+
+        def wait() -> bool:
+            time.sleep(0.02)
+            return time.monotonic() < until
+
+        heard = crew.tell(held, body.order, body.because or f"{body.order} from elsewhere", wait=wait)
+        return Heard(heard=heard, mission=shown(crew.standing(found(bundle))))
+
+    @routes.get("/agent/missions/{bundle}/events")
+    async def events(
+        bundle: Bundle,
+        after: Annotated[int, Query(ge=0, le=10**12)] = 0,
+        wait: Annotated[float, Query(ge=0, le=LONGEST_WAIT_S, allow_inf_nan=False)] = 0.0,
+    ) -> Events:
+        """The events behind number ``after``; where there are none yet, the answer waits so many seconds for one."""
+        held = await run_in_threadpool(found, bundle)
+        lines, idle = await _awaited(crew, held, after, wait)
+        standing = await run_in_threadpool(crew.standing, held)
+        return Events(events=event_lines(lines), idle=idle, mission=shown(standing))
+
+    def found(bundle: str) -> Held:
+        held = depot.find(bundle)
+        if held is None:
+            raise Turned(404, "no such mission has arrived", "send it first")
+        return held
+
+    return routes
+
+
+async def _awaited(crew: Crew, held: Held, after: int, wait: float) -> tuple[tuple[Line, ...], bool]:
+    """The next events, or none after so many seconds, or once none can come."""
+    until = anyio.current_time() + wait
+    while True:
+        lines, idle = await run_in_threadpool(crew.lines, held, after, MOST_EVENTS)
+        if lines or idle or anyio.current_time() >= until:
+            return lines, idle
+        await anyio.sleep(LOOK_S)

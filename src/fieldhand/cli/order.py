@@ -1,0 +1,39 @@
+"""``fieldhand order``: tell a mission on a robot elsewhere to start, pause, resume, return or abort."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from fieldhand.cli.links import CaOption, InsecureOption, MissionOfRobot, PinOption, TokenFileOption, UrlArgument
+from fieldhand.cli.options import JsonOption
+
+
+def order(
+    url: UrlArgument,
+    said: Annotated[str, typer.Argument(metavar="ORDER", help="start, pause, resume, return or abort.")],
+    mission: MissionOfRobot = None,
+    because: Annotated[str, typer.Option("--because", help="Why, in words; the event log keeps it.")] = "",
+    token_file: TokenFileOption = None,
+    ca: CaOption = None,
+    pin: PinOption = None,
+    insecure: InsecureOption = False,
+    json: JsonOption = False,
+) -> None:
+    """Tell a mission on a robot to start, pause, resume, return (come home) or abort (stop here)."""
+    from contextlib import closing
+
+    from fieldhand.cli import show
+    from fieldhand.cli.links import find_mission, open_link, state_line, trusting_of
+    from fieldhand.delivery.crew import said_of
+
+    word = said_of(said)
+    with closing(open_link(url, token_file, trusting_of(ca, pin, insecure=insecure))) as link:
+        heard = link.order(find_mission(link, mission).bundle, word, because)
+    if json:
+        show.print_json(heard.model_dump())
+    else:
+        show.out.print(state_line(heard.mission))
+        if not heard.heard:
+            show.note("the mission has not answered yet; the order stands")

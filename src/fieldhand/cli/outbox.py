@@ -1,0 +1,23 @@
+"""``fieldhand outbox``: what was sent, and what waits for its robot."""
+
+from __future__ import annotations
+
+import os
+
+from fieldhand.cli.options import JsonOption
+
+
+def outbox(json: JsonOption = False) -> None:
+    """List what was sent, and what waits for its robot to be back."""
+    from fieldhand.cli import show
+    from fieldhand.cli.send import line, record
+    from fieldhand.delivery.outbox import Outbox, outbox_folder
+
+    entries = Outbox(outbox_folder(os.environ)).entries()
+    if json:
+        show.print_json([record(entry) for entry in entries])
+        return
+    if not entries:
+        show.out.print("Nothing was sent from here.")
+    for entry in entries:
+        show.out.print(line(entry))

@@ -1,0 +1,307 @@
+"""What a robot is told to do with the missions that have arrived: one at a time, and each at most once.
+
+Nothing here starts by itself, with one exception that has to be asked for: going on with a mission after a power cut.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, get_args
+
+from fieldhand import missions
+from fieldhand.delivery.depot import Depot
+from fieldhand.delivery.ledger import Held
+from fieldhand.errors import ExecutionError, FieldhandError, InputError
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from fieldhand.approval.bundle.opening import Bundle
+
+log = logging.getLogger("fieldhand.agent")
+
+#: Carries a mission out to its end, in the thread that calls it: the simulation, or the driver of a robot.
+Carry = Callable[[missions.Mission], object]
+#: ``waiting``: it has arrived and was never begun. ``lost``: it was begun, and its folder is gone
+#: or cannot be read.
+State = Literal["waiting", "running", "paused", "interrupted", "ended", "lost"]
+Said = Literal["start", "pause", "resume", "return", "abort"]
+ORDERS: tuple[Said, ...] = get_args(Said)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Standing:
+    """How a mission stands.
+
+    Attributes:
+        status: How it ended (``completed``, ...); empty before.
+        reason: Why.
+        doing: What it does, in words; empty before it was begun.
+        events: How many are safe on the disk.
+        fault: Why it could not be gone on with, if that was so.
+    """
+
+    held: Held
+    state: State
+    status: str = ""
+    reason: str = ""
+    doing: str = ""
+    lat: float | None = None
+    lon: float | None = None
+    charge_percent: float | None = None
+    travelled_m: float = 0.0
+    events: int = 0
+    fault: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Line:
+    """An event as its mission's log has it.
+
+    Attributes:
+        n: Its number, from 1, without a gap.
+        at: When it was written, ISO 8601.
+        line: JSON.
+    """
+
+    n: int
+    at: str
+    line: str
+
+
+class Crew:
+    """Carries missions out, one at a time, each in a thread of its own. Safe for several threads.
+
+    Args:
+        depot: Where they have arrived.
+        carry: Who carries one out.
+        world: The world file of a simulation.
+        check: Refuses a mission that this world, or this robot, does not fit.
+        seed: Of the simulation and of the guard.
+    """
+
+    def __init__(
+        self,
+        depot: Depot,
+        *,
+        carry: Carry,
+        world: bytes | None = None,
+        check: Callable[[Bundle], None] = lambda _: None,
+        seed: int = 0,
+    ) -> None:
+        self._depot, self._carry, self._world, self._check, self._seed = depot, carry, world, check, seed
+        self._guard = threading.Lock()
+        self._active: str | None = None
+        self._thread: threading.Thread | None = None
+        self._faults: dict[str, str] = {}
+        #: What has ended stays as it is, and need not be read again each time somebody looks.
+        self._ended: dict[str, Standing] = {}
+
+    # --- look ----------------------------------------------------------------------------------------------------
+
+    @property
+    def active(self) -> str | None:
+        """SHA-256 of the mission that is under way."""
+        return self._active if self._thread is not None and self._thread.is_alive() else None
+
+    def standing(self, held: Held) -> Standing:
+        """How a mission stands."""
+        if held.sha256 in self._ended:
+            return self._ended[held.sha256]
+        folder, fault = self._depot.folder_of(held), self._faults.get(held.sha256, "")
+        if not missions.exists(folder):
+            return Standing(held=held, state="waiting" if held.begun_at is None else "lost", fault=fault)
+        try:
+            found = missions.status(folder).now
+        except FieldhandError as error:
+            return Standing(held=held, state="lost", fault=fault or str(error))
+        state: State = "running" if found.state == "interrupted" and self.active == held.sha256 else found.state
+        standing = Standing(
+            held=held,
+            state=state,
+            status=found.status,
+            reason=found.reason,
+            doing=found.doing,
+            lat=found.lat,
+            lon=found.lon,
+            charge_percent=found.charge_percent,
+            travelled_m=found.travelled_m,
+            events=found.events,
+            fault="" if state == "ended" else fault,
+        )
+        if state == "ended":
+            self._ended[held.sha256] = standing
+        return standing
+
+    def lines(self, held: Held, after: int, most: int) -> tuple[tuple[Line, ...], bool]:
+        """The events behind number ``after``, and whether nothing comes behind these for now.
+
+        Nothing comes while nobody carries the mission out, be it that it has ended, waits or was cut off.
+
+        Raises:
+            JournalError: Its journal cannot be read.
+        """
+        folder = self._depot.folder_of(held)
+        if not missions.exists(folder):
+            return (), True
+        # Asked before the events are read: what is written in between is told the next time.
+        over = self.active != held.sha256 and not missions.is_running(folder)
+        found = missions.lines_after(folder, after, most)
+        return tuple(Line(n=n, at=at, line=line) for n, at, line in found), over and len(found) < most
+
+    # --- tell ----------------------------------------------------------------------------------------------------
+
+    def tell(self, held: Held, said: Said, reason: str, *, wait: Callable[[], bool] = lambda: False) -> bool:
+        """Tell a mission something. What is so already stays so: an order may be sent twice.
+
+        Args:
+            held: The mission.
+            said: What to do.
+            reason: Who wants it, or why.
+            wait: Waits a moment, and says whether to wait longer for the mission to hear it.
+
+        Returns:
+            Whether the mission has heard it.
+
+        Raises:
+            ExecutionError: It comes too late, or another mission is under way.
+            BundleError, NotTrustedError, StoreError: It may not be begun.
+            JournalError: Its folder cannot be used.
+        """
+        folder = self._depot.folder_of(held)
+        with self._guard:
+            known = missions.exists(folder)
+            if said == "start":
+                # One that was begun is not begun again, whatever became of it.
+                if not known and self.active != held.sha256:
+                    self._begin(held)
+                return True
+            if not known:
+                raise ExecutionError("the mission was not begun", where=held.name, advice="start it first")
+            if self.active != held.sha256 and not missions.is_running(folder):
+                return self._go_on(held, folder, said, reason)
+        if said == "resume" and missions.last_order(folder) != "pause":
+            return True
+        return missions.order(folder, "continue" if said == "resume" else said, reason, wait=wait)
+
+    def go_on(self) -> str | None:
+        """Go on with the mission that a power cut has cut off, if there is one; a paused one stays paused.
+
+        Returns:
+            Its SHA-256.
+        """
+        cut = self._cut_off()
+        if cut is None:
+            return None
+        with self._guard:
+            self._run(cut, missions.open_mission(self._depot.folder_of(cut)))
+        return cut.sha256
+
+    def rest(self, wait: Callable[[], bool]) -> None:
+        """Let the mission under way stand still, because the program ends; ``resume`` goes on with it."""
+        active = self.active
+        if active is None:
+            return
+        try:
+            self.tell(self._depot.get(active), "pause", "the agent ends", wait=wait)
+        except FieldhandError as error:
+            log.warning("%s", error)
+
+    def join(self, timeout_s: float | None = None) -> None:
+        """Wait until no mission is under way."""
+        if self._thread is not None:
+            self._thread.join(timeout_s)
+
+    def _begin(self, held: Held) -> None:
+        self._require_free(held)
+        bundle = self._depot.open(held.sha256)
+        self._check(bundle)
+        folder = missions.begin(self._depot.missions, held.name, _inputs(bundle, self._world, self._seed))
+        self._depot.note_begun(held.sha256)
+        self._run(held, missions.open_mission(folder))
+
+    def _go_on(self, held: Held, folder: Path, said: Said, reason: str) -> bool:
+        """Go on with a mission that nobody carries out; what it is told holds from its first tick."""
+        if missions.status(folder).now.state == "ended":
+            raise ExecutionError("the mission has ended", where=held.name)
+        if said == "start" or said == "pause":
+            return True
+        self._require_free(held)
+        given = missions.open_mission(folder)
+        if said != "resume":
+            missions.order(folder, said, reason)
+        elif missions.last_order(folder) == "pause":
+            missions.order(folder, "continue", reason)
+        self._run(held, given)
+        return True
+
+    def _require_free(self, held: Held) -> None:
+        under_way = self.active
+        other = self._cut_off() if under_way is None else self._depot.get(under_way)
+        if other is not None and other.sha256 != held.sha256:
+            how = "was cut off" if under_way is None else "is under way"
+            raise ExecutionError(
+                f"another mission {how}: {other.name}",
+                where=held.name,
+                advice="let it end first, or tell it to return or abort",
+            )
+
+    def _cut_off(self) -> Held | None:
+        # No mission begins while another is cut off, so it can only be the last one.
+        held = self._depot.last_begun()
+        if held is None or held.sha256 in self._faults or not missions.exists(self._depot.folder_of(held)):
+            return None
+        try:
+            return None if missions.status(self._depot.folder_of(held)).now.state == "ended" else held
+        except FieldhandError as error:
+            # What cannot be read cannot be gone on with; it shall not keep the robot from working.
+            log.warning("mission %s: %s", held.name, error)
+            return None
+
+    def _run(self, held: Held, given: missions.Mission) -> None:
+        self._faults.pop(held.sha256, None)
+
+        def carry() -> None:
+            try:
+                self._carry(given)
+            except FieldhandError as error:
+                self._faults[held.sha256] = str(error)
+                log.warning("mission %s: %s", held.name, error)
+            except Exception as error:
+                # A fault of the program: the mission stands as it is, and the agent answers on.
+                self._faults[held.sha256] = f"a fault of the program: {type(error).__name__}"
+                log.exception("mission %s", held.name)
+
+        self._active = held.sha256
+        self._thread = threading.Thread(target=carry, name=f"mission {held.name}", daemon=True)
+        self._thread.start()
+
+
+def said_of(word: str) -> Said:
+    """An order by its word.
+
+    Raises:
+        InputError: There is none of that name.
+    """
+    for said in ORDERS:
+        if said == word:
+            return said
+    raise InputError(f"no order '{word[:40]}'", where="order", advice=f"give one of {', '.join(ORDERS)}")
+
+
+def _inputs(bundle: Bundle, world: bytes | None, seed: int) -> missions.Inputs:
+    from fieldhand.task.codec import encode
+
+    return missions.Inputs(
+        task=encode(bundle.authorized.task),
+        site=bundle.files.parts,
+        robot=bundle.profile,
+        authorization=bundle.authorized.authorization,
+        world=world,
+        lenient=bundle.manifest.site.lenient,
+        seed=seed,
+        planner=bundle.manifest.task.planner,
+    )

@@ -1,0 +1,193 @@
+"""What has arrived at a robot, and what of it was begun: one SQLite file that one process at a time has open."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+import threading
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from fieldhand.errors import StoreError
+
+#: Of the database; a program that writes another one refuses this.
+FORMAT = 1
+
+_TABLES = (
+    "CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
+    "CREATE TABLE held (n INTEGER PRIMARY KEY, sha256 TEXT NOT NULL UNIQUE, task TEXT NOT NULL, request TEXT NOT NULL,"
+    " signer TEXT NOT NULL, approved_at REAL NOT NULL, received_at TEXT NOT NULL, hashes TEXT NOT NULL,"
+    " begun_at TEXT, turn INTEGER)",
+)
+_COLUMNS = "sha256, task, request, signer, approved_at, received_at, hashes, begun_at"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Held:
+    """A mission that has arrived.
+
+    Attributes:
+        sha256: Of the bundle.
+        task: Id of its Task: the same for the same request, plan, site and robot, whenever it was approved.
+        request: What was asked.
+        signer: Whose key signed it, as this robot knows that person.
+        approved_at: Seconds since 1970.
+        received_at: ISO 8601.
+        hashes: What was verified: SHA-256 of the whole (``bundle``) and of each file.
+        begun_at: When it was told to run, ISO 8601; None if it never was.
+    """
+
+    sha256: str
+    task: str
+    request: str
+    signer: str
+    approved_at: float
+    received_at: str
+    hashes: Mapping[str, str]
+    begun_at: str | None
+
+    @property
+    def name(self) -> str:
+        """Of its folder among the missions."""
+        return self.sha256[:16]
+
+
+class Ledger:
+    """The database of a depot. Safe for several threads.
+
+    Args:
+        path: It is made if it is not there.
+
+    Raises:
+        StoreError: Another process has it open, it is damaged, or it cannot be written.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._guard = threading.RLock()
+        self._db = self._open()
+
+    def close(self) -> None:
+        """Let go of it."""
+        with self._guard:
+            self._db.close()
+
+    def note(self, held: Held) -> None:
+        """Keep that a mission has arrived."""
+        row = [
+            held.sha256,
+            held.task,
+            held.request,
+            held.signer,
+            held.approved_at,
+            held.received_at,
+            json.dumps(dict(held.hashes)),
+            held.begun_at,
+        ]
+        with self._guard, self._said():
+            self._db.execute(f"INSERT INTO held ({_COLUMNS}) VALUES (?, ?, ?, ?, ?, ?, ?, ?)", row)  # noqa: S608
+
+    def note_begun(self, sha256: str, at: str) -> None:
+        """Keep that a mission was begun."""
+        turn = "(SELECT coalesce(max(turn), 0) + 1 FROM held)"
+        with self._guard, self._said():
+            self._db.execute(
+                f"UPDATE held SET begun_at = ?, turn = {turn} WHERE sha256 = ? AND begun_at IS NULL",  # noqa: S608
+                [at, sha256],
+            )
+
+    def find(self, sha256: str) -> Held | None:
+        """The mission of that bundle, if it has arrived."""
+        found = self._rows("WHERE sha256 = ?", sha256)
+        return found[0] if found else None
+
+    def later(self, task: str, approved_at: float) -> Held | None:
+        """A mission of the same Task that was approved later, if one has arrived."""
+        found = self._rows("WHERE task = ? AND approved_at > ? ORDER BY approved_at DESC LIMIT 1", task, approved_at)
+        return found[0] if found else None
+
+    def latest(self, most: int) -> tuple[Held, ...]:
+        """Those that arrived last, in the order in which they came."""
+        return self._rows("ORDER BY n DESC LIMIT ?", most)[::-1]
+
+    def last_begun(self) -> Held | None:
+        """The one that was begun last, whatever the clock said."""
+        found = self._rows("WHERE turn IS NOT NULL ORDER BY turn DESC LIMIT 1")
+        return found[0] if found else None
+
+    def all(self) -> tuple[Held, ...]:
+        """Every mission that has arrived."""
+        return self._rows("ORDER BY n")
+
+    def _rows(self, where: str, *values: object) -> tuple[Held, ...]:
+        with self._guard, self._said():
+            rows = self._db.execute(f"SELECT {_COLUMNS} FROM held {where}", values).fetchall()  # noqa: S608
+            return tuple(_held(row) for row in rows)
+
+    def _open(self) -> sqlite3.Connection:
+        path = self._path
+        with self._said():
+            db = sqlite3.connect(path, isolation_level=None, timeout=0.5, check_same_thread=False)
+            try:
+                # Whoever has it open keeps it until the end, so that two agents never hold one store.
+                db.execute("PRAGMA locking_mode=EXCLUSIVE")
+                db.execute("PRAGMA synchronous=FULL")
+                db.execute("BEGIN EXCLUSIVE")
+                if not db.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]:
+                    for table in _TABLES:
+                        db.execute(table)
+                    db.execute("INSERT INTO about VALUES ('format', ?)", [str(FORMAT)])
+                db.execute("COMMIT")
+                sound = db.execute("PRAGMA quick_check(1)").fetchone()
+                found = db.execute("SELECT value FROM about WHERE key = 'format'").fetchone()
+                if sound != ("ok",):
+                    raise sqlite3.DatabaseError(str(sound[0]))
+                if found != (str(FORMAT),):
+                    raise StoreError(
+                        f"the store has format {found[0] if found else 'none'}, this version reads {FORMAT}",
+                        where=str(path),
+                        advice="use the version of Fieldhand that made it, or give another --store",
+                    )
+            except BaseException:
+                db.close()
+                raise
+        return db
+
+    @contextmanager
+    def _said(self) -> Iterator[None]:
+        """What SQLite complains of, in words."""
+        try:
+            yield
+        except (sqlite3.Error, ValueError) as error:
+            if "locked" in str(error):
+                raise StoreError(
+                    "another agent has this store open",
+                    where=str(self._path),
+                    advice="end that one first, or give another --store",
+                ) from None
+            for sign in ("full", "disk I/O", "readonly", "unable to open"):
+                if sign in str(error):
+                    raise StoreError(
+                        f"the store cannot be written: {error}", where=str(self._path), advice="free some space"
+                    ) from None
+            raise StoreError(
+                f"the store is damaged: {error}",
+                where=str(self._path),
+                advice="move the folder of the store away; nothing runs again by itself; send again what has not run",
+            ) from None
+
+
+def _held(row: tuple[str, str, str, str, float, str, str, str | None]) -> Held:
+    sha256, task, request, signer, approved_at, received_at, hashes, begun_at = row
+    return Held(
+        sha256=sha256,
+        task=task,
+        request=request,
+        signer=signer,
+        approved_at=approved_at,
+        received_at=received_at,
+        hashes=json.loads(hashes),
+        begun_at=begun_at,
+    )

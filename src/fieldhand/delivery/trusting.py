@@ -1,0 +1,127 @@
+"""How a sender knows that it talks to the robot: by an authority, the usual ones or its own, or by one certificate."""
+
+from __future__ import annotations
+
+import hashlib
+import ssl
+from dataclasses import dataclass
+from pathlib import Path
+from urllib.parse import urlsplit
+
+from fieldhand.errors import DeliveryError, InputError, UnreachableError
+
+_WAIT_S = 10.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Trusting:
+    """Whom to believe that it is the robot.
+
+    Attributes:
+        ca: PEM file of the authority that signed its certificate; empty for those that the system knows.
+        pin: SHA-256 of the very certificate, 64 hexadecimal digits; empty for none.
+        plain: Send without TLS to another machine, too.
+    """
+
+    ca: str = ""
+    pin: str = ""
+    plain: bool = False
+
+
+def parse_pin(text: str) -> str:
+    """The SHA-256 of a certificate, written with or without colons.
+
+    Raises:
+        InputError: It is none.
+    """
+    pin = text.strip().lower().removeprefix("sha256 fingerprint=").removeprefix("sha256:").replace(":", "")
+    if len(pin) != 64 or set(pin) - set("0123456789abcdef"):
+        raise InputError(
+            "is no SHA-256 of a certificate",
+            where="--pin",
+            advice="openssl x509 -in cert.pem -noout -fingerprint -sha256 prints it",
+        )
+    return pin
+
+
+def require_address(url: str, trusting: Trusting) -> str:
+    """The address of a robot, without a slash at its end.
+
+    Raises:
+        InputError: It is none, or would send the token in the clear.
+    """
+    try:
+        parts = urlsplit(url)
+        host, _ = parts.hostname, parts.port
+    except ValueError:
+        host, parts = None, urlsplit("")
+    if parts.scheme not in ("http", "https") or not host or parts.query or parts.fragment or parts.username:
+        raise InputError(f"'{url[:80]}' is no address of a robot", advice="give one like https://robot:8443")
+    if parts.scheme == "http" and not trusting.plain and host not in ("localhost", "127.0.0.1", "::1"):
+        raise InputError(
+            "everyone on the way could read the token", where=url, advice="use https, or say --insecure if you mean it"
+        )
+    if parts.scheme == "http" and (trusting.ca or trusting.pin):
+        raise InputError(
+            "there is no certificate without TLS", where=url, advice="use https, or leave out --ca and --pin"
+        )
+    return url.rstrip("/")
+
+
+def context_for(url: str, trusting: Trusting) -> ssl.SSLContext:
+    """What checks the robot's certificate.
+
+    With a pin the certificate is fetched, compared, and then trusted alone: nothing is sent before that, and whoever
+    shows it has to hold its key.
+
+    Raises:
+        InputError: The authority's file cannot be read.
+        DeliveryError: The robot shows another certificate than the pinned one.
+        UnreachableError: It shows none, because it does not answer.
+    """
+    if trusting.pin and url.startswith("https:"):
+        return _pinned(url, trusting.pin)
+    try:
+        return ssl.create_default_context(cafile=trusting.ca or None)
+    except (OSError, ssl.SSLError) as error:
+        raise InputError(
+            f"the certificate of the authority cannot be read: {error.strerror or error}",
+            where=trusting.ca,
+            advice="give a PEM file with --ca",
+        ) from None
+
+
+def pin_of(certificate: Path) -> str:
+    """The pin of a certificate in a PEM file.
+
+    Raises:
+        InputError: It cannot be read.
+    """
+    try:
+        text = certificate.read_text(encoding="ascii")
+        end = text.index(ssl.PEM_FOOTER) + len(ssl.PEM_FOOTER)
+        return hashlib.sha256(ssl.PEM_cert_to_DER_cert(text[text.index(ssl.PEM_HEADER) : end])).hexdigest()
+    except (OSError, ValueError) as error:
+        raise InputError(f"the certificate cannot be read: {error}", where=str(certificate)) from None
+
+
+def _pinned(url: str, pin: str) -> ssl.SSLContext:
+    parts = urlsplit(url)
+    try:
+        pem = ssl.get_server_certificate((parts.hostname or "", parts.port or 443), timeout=_WAIT_S)
+        shown = hashlib.sha256(ssl.PEM_cert_to_DER_cert(pem)).hexdigest()
+    except (OSError, ValueError) as error:
+        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise UnreachableError(f"does not answer: {why}", where=url, advice="see whether it is switched on") from None
+    if shown != pin:
+        raise DeliveryError(
+            f"shows another certificate than the one that was pinned (SHA-256 {shown})",
+            where=url,
+            advice="do not send; if the robot's certificate was renewed, give the new one's with --pin",
+        )
+    context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
+    context.check_hostname = False
+    # The certificate itself is believed, whoever signed it and whatever it says of itself.
+    context.verify_flags = (context.verify_flags | ssl.VERIFY_X509_PARTIAL_CHAIN) & ~ssl.VERIFY_X509_STRICT
+    context.load_verify_locations(cadata=pem)
+    return context

@@ -1,0 +1,129 @@
+"""What passes between robot and sender as JSON: models that one writes and the other reads.
+
+A sender does not know what a later agent says beside this, and passes over it; an agent refuses what it does not know.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from fieldhand.delivery.crew import Line, Said, Standing, State
+
+#: Events in one answer.
+MOST_EVENTS = 500
+#: Seconds that an answer may wait for the next event.
+LONGEST_WAIT_S = 25.0
+
+Sha256 = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
+
+
+class _Answer(BaseModel):
+    model_config = ConfigDict(frozen=True)
+
+
+class Shown(_Answer):
+    """A mission, and how it stands."""
+
+    bundle: Sha256
+    mission: str
+    task: str
+    request: str
+    signer: str
+    received_at: str
+    begun_at: str | None
+    state: State
+    status: str
+    reason: str
+    doing: str
+    lat: float | None
+    lon: float | None
+    charge_percent: float | None
+    travelled_m: float
+    events: int
+    fault: str
+
+
+class Receipt(_Answer):
+    """What has arrived: the hashes of every byte, as the robot verified them."""
+
+    hashes: dict[str, Sha256]
+    new: bool
+    mission: Shown
+
+
+class RobotState(_Answer):
+    """The robot, and the missions that arrived last."""
+
+    robot: str
+    robot_sha256: str
+    sites: list[str]
+    version: str
+    active: Sha256 | None
+    missions: list[Shown]
+
+
+class EventLine(_Answer):
+    """An event as the log of its mission has it."""
+
+    n: int
+    at: str
+    line: str
+
+
+class Events(_Answer):
+    """Events in their order, without a gap behind what was asked for.
+
+    Attributes:
+        idle: Nobody carries the mission out, and no event comes behind these.
+    """
+
+    events: list[EventLine]
+    idle: bool
+    mission: Shown
+
+
+class Order(BaseModel):
+    """What a mission is told."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    order: Said
+    because: Annotated[str, Field(max_length=500)] = ""
+
+
+class Heard(_Answer):
+    """Whether the mission has heard the order, and how it stands."""
+
+    heard: bool
+    mission: Shown
+
+
+def shown(standing: Standing) -> Shown:
+    """A mission as it is told to others."""
+    held = standing.held
+    return Shown(
+        bundle=held.sha256,
+        mission=held.name,
+        task=held.task,
+        request=held.request,
+        signer=held.signer,
+        received_at=held.received_at,
+        begun_at=held.begun_at,
+        state=standing.state,
+        status=standing.status,
+        reason=standing.reason,
+        doing=standing.doing,
+        lat=standing.lat,
+        lon=standing.lon,
+        charge_percent=standing.charge_percent,
+        travelled_m=standing.travelled_m,
+        events=standing.events,
+        fault=standing.fault,
+    )
+
+
+def event_lines(lines: tuple[Line, ...]) -> list[EventLine]:
+    """Events as they are told to others."""
+    return [EventLine(n=line.n, at=line.at, line=line.line) for line in lines]

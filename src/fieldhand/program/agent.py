@@ -1,0 +1,254 @@
+"""``fieldhand agent``: on the robot, takes signed missions and carries out what it is told to."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from fieldhand.errors import InputError
+
+if TYPE_CHECKING:
+    from fastapi import FastAPI
+
+    from fieldhand.approval.bundle.opening import Bundle
+    from fieldhand.delivery.crew import Crew
+    from fieldhand.delivery.depot import Depot
+    from fieldhand.execution.world import World
+
+
+@dataclass(frozen=True, kw_only=True)
+class Station:
+    """A robot that waits for missions.
+
+    Attributes:
+        app: What answers.
+    """
+
+    app: FastAPI
+    depot: Depot
+    crew: Crew
+
+
+def agent(
+    robot: Annotated[str, typer.Option("--robot", help="Profile of this robot: a built-in one or a YAML file.")],
+    site: Annotated[
+        list[str] | None, typer.Option("--site", help="A site where it may work; repeat it. Else any that was signed.")
+    ] = None,
+    store: Annotated[
+        Path | None, typer.Option("--store", help="Folder of its missions; else in the user's state folder.")
+    ] = None,
+    host: Annotated[
+        str, typer.Option("--host", help="Address to listen on; this machine alone by default.")
+    ] = "127.0.0.1",
+    port: Annotated[int, typer.Option("--port", min=1, max=65535, help="Port to listen on.")] = 8443,
+    cert: Annotated[Path | None, typer.Option("--cert", help="Certificate for TLS (PEM).")] = None,
+    key: Annotated[Path | None, typer.Option("--key", help="Its private key (PEM), mode 0600.")] = None,
+    token_file: Annotated[
+        Path | None, typer.Option("--token-file", help="File with the token, mode 0600; else FIELDHAND_TOKEN.")
+    ] = None,
+    insecure: Annotated[
+        bool, typer.Option("--insecure", help="Let others reach it without token or TLS, if you mean it.")
+    ] = False,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on by itself with a mission that a power cut has cut off.")
+    ] = False,
+    world: Annotated[Path | None, typer.Option("--world", help="What sensors read in the simulation.")] = None,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Of the simulation.")] = 0,
+    speed: Annotated[
+        str, typer.Option("--speed", help="max, or simulated seconds in a second (1 is real time).")
+    ] = "1",
+    lenient: Annotated[bool, typer.Option("--lenient", help="Read --site leniently.")] = False,
+) -> None:
+    """Wait for signed missions, and carry out, one at a time, what is told to start. The robot is simulated."""
+    from fieldhand.api.serving import require_extra, require_free
+    from fieldhand.cli.flight import parse_speed
+    from fieldhand.delivery.token import read_token
+
+    require_extra()
+    pace = parse_speed(speed)
+    token = read_token(os.environ, token_file)
+    tls = _tls(cert, key)
+    _require_guarded(host, token=token is not None, tls=tls is not None, insecure=insecure)
+    require_free(host, port)
+    station = compose_agent(
+        os.environ,
+        robot=robot,
+        sites=tuple(site or ()),
+        store=store,
+        host=host,
+        token=token,
+        world=world,
+        seed=seed,
+        speed=pace,
+        lenient=lenient,
+    )
+    try:
+        if resume and (cut := station.crew.go_on()):
+            print(f"going on with mission {cut[:16]}", file=sys.stderr)  # noqa: T201
+        _serve(station, host, port, tls, token)
+    finally:
+        _rest(station)
+
+
+def compose_agent(
+    environ: Mapping[str, str],
+    *,
+    robot: str,
+    sites: tuple[str, ...] = (),
+    store: Path | None = None,
+    host: str = "127.0.0.1",
+    token: str | None,
+    world: Path | None = None,
+    seed: int = 0,
+    speed: float | None = None,
+    lenient: bool = False,
+) -> Station:
+    """The agent of a robot, ready to be served.
+
+    A driver of a real robot takes the place of ``carry`` here, and of nothing else.
+
+    Raises:
+        InputError: Robot, site, world, store or trusted keys cannot be used.
+    """
+    from functools import partial
+
+    from fieldhand import missions
+    from fieldhand.agent.app import create_agent
+    from fieldhand.agent.routes import Identity
+    from fieldhand.api.serving import hosts_for
+    from fieldhand.approval.keys.folder import config_folder
+    from fieldhand.approval.keys.trust import TrustStore
+    from fieldhand.delivery.crew import Crew
+    from fieldhand.delivery.depot import Depot
+    from fieldhand.delivery.verified import acceptance
+    from fieldhand.execution.world import World, load_world
+    from fieldhand.robot.loader import load_robot
+    from fieldhand.site.geojson import open_site
+
+    profile = load_robot(robot)
+    places = tuple(open_site(one, lenient=lenient) for one in sites)
+    trusted = TrustStore(config_folder(environ))
+    trusted.known()
+    here = World() if world is None else load_world(world)
+    depot = Depot(
+        store or missions.missions_folder(environ).parent / "agent",
+        accept=acceptance(robot=profile, sites=places, trusted=trusted, now=_now),
+        now=_now,
+    )
+    crew = Crew(
+        depot,
+        carry=partial(missions.carry_out, speed=speed, emit=lambda _: None),
+        world=None if world is None else world.read_bytes(),
+        check=partial(_require_sound, here),
+        seed=seed,
+    )
+    who = Identity(robot=profile.name, robot_sha256=profile.sha256, sites=tuple(place.name for place in places))
+    return Station(app=create_agent(depot, crew, who, token=token, hosts=hosts_for(host)), depot=depot, crew=crew)
+
+
+def _now() -> datetime:
+    return datetime.now(UTC)
+
+
+def _require_sound(world: World, bundle: Bundle) -> None:
+    """The checks of whoever runs a mission by hand: the world fits it, and no check finds an error."""
+    from fieldhand import mission
+    from fieldhand.errors import NotApprovedError
+
+    mission.check_world(world, bundle.site, bundle.robot)
+    errors = mission.review(bundle.authorized.task, bundle.site, bundle.robot).errors
+    if errors:
+        raise NotApprovedError("; ".join(str(problem.line()) for problem in errors))
+
+
+def _tls(cert: Path | None, key: Path | None) -> tuple[Path, Path] | None:
+    """Certificate and key that can be served with.
+
+    Raises:
+        InputError: One of them is missing or cannot be used.
+        KeyFileError: Others can read the key.
+    """
+    import ssl
+
+    from fieldhand.approval.keys.rights import read_guarded
+
+    if cert is None and key is None:
+        return None
+    if cert is None or key is None:
+        raise InputError("TLS needs a certificate and its key", advice="give both --cert and --key")
+    read_guarded(key, private=True)
+    try:
+        # A passphrase would be asked for at a terminal that a robot does not have.
+        ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER).load_cert_chain(cert, key, password=lambda: "")
+    except (OSError, ValueError) as error:
+        raise InputError(
+            f"certificate and key cannot be used: {error}",
+            where=f"{cert}, {key}",
+            advice="give a PEM certificate and its own key, without a passphrase",
+        ) from None
+    return cert, key
+
+
+def _require_guarded(host: str, *, token: bool, tls: bool, insecure: bool) -> None:
+    """Refuse to be reached by others unguarded.
+
+    Raises:
+        InputError: There is no token or no TLS, and the address is not this machine's own.
+    """
+    from fieldhand.api.serving import is_loopback
+
+    if insecure or is_loopback(host) or (token and tls):
+        return
+    missing = " and ".join([*([] if token else ["a token"]), *([] if tls else ["TLS"])])
+    raise InputError(
+        f"others can reach this address, and there is no {missing}".replace("no a ", "no "),
+        where="--host",
+        advice="give --token-file, --cert and --key; or --insecure if you mean it",
+    )
+
+
+def _serve(station: Station, host: str, port: int, tls: tuple[Path, Path] | None, token: str | None) -> None:
+    import uvicorn
+
+    shown = f"[{host}]" if ":" in host else host
+    print(  # noqa: T201
+        f"The agent is at http{'s' if tls else ''}://{shown}:{port} (Ctrl-C to stop)", file=sys.stderr, flush=True
+    )
+    if token is None:
+        print("warning: there is no token; who reaches this address can tell the robot to run", file=sys.stderr)  # noqa: T201
+    uvicorn.run(
+        station.app,
+        host=host,
+        port=port,
+        log_level="warning",
+        http="h11",
+        ws="none",
+        server_header=False,
+        date_header=False,
+        limit_concurrency=64,
+        timeout_keep_alive=5,
+        timeout_graceful_shutdown=5,
+        ssl_certfile=None if tls is None else str(tls[0]),
+        ssl_keyfile=None if tls is None else str(tls[1]),
+    )
+
+
+def _rest(station: Station) -> None:
+    """Let the robot stand still before the program ends."""
+    import time
+
+    until = time.monotonic() + 5.0
+
+    def wait() -> bool:
+        time.sleep(0.02)
+        return time.monotonic() < until
+
+    station.crew.rest(wait)
+    station.depot.close()
