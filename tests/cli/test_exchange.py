@@ -119,7 +119,9 @@ def test_a_report_reads_mcap_as_it_reads_json_lines(files: Path, capsys: pytest.
     said = []
     for log in ("events.jsonl", "log.mcap"):
         with pytest.raises(SystemExit):
-            call(report, given=str(files / log), task=files / "task.xml", site="demo", output=files / log[:3], json=True)
+            call(
+                report, given=str(files / log), task=files / "task.xml", site="demo", output=files / log[:3], json=True
+            )
         said.append(json.loads(capsys.readouterr().out)["goals"])
     assert said[0] == said[1]
 

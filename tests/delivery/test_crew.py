@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 import threading
 from datetime import datetime, timedelta
@@ -86,6 +87,36 @@ def test_after_a_power_cut_nothing_else_begins_and_the_mission_goes_on(station: 
     station.crew.join(30)
     assert standing(station, good()).status == "completed"
     assert station.crew.go_on() is None
+
+
+@pytest.mark.parametrize("changed", ["key", "byte", "unsigned"])
+@pytest.mark.parametrize("by_itself", [True, False])
+def test_a_mission_that_may_not_run_any_more_does_not_go_on_and_keeps_nobody_from_working(
+    station: Station, changed: str, by_itself: bool
+) -> None:
+    station.carry = lambda _: None
+    tell(station, good(), "start")
+    station.again()
+    station.carry = fly
+    folder = station.depot.folder_of(station.depot.get(sha256_of(good())))
+    if changed == "key":
+        station.trusted.revoke(next(iter(station.trusted.known())), at=NOW)
+    elif changed == "byte":
+        (folder / "signed.mission").write_bytes(good()[:-1] + b"!")
+    else:
+        about = json.loads((folder / "mission.json").read_bytes())
+        del about["files"]["signed.mission"]
+        (folder / "mission.json").write_text(json.dumps(about))
+    if by_itself:
+        assert station.crew.go_on() is None
+    else:
+        with pytest.raises(FieldhandError, match=r"revoked|not the one that the mission began with|lacks the signed"):
+            tell(station, good(), "resume")
+    assert not missions.events_of(folder)
+    if changed != "key":
+        tell(station, other_mission(), "start")
+        station.crew.join(30)
+        assert standing(station, other_mission()).status == "completed"
 
 
 @pytest.mark.parametrize(("said", "then"), [("return", "return_to_"), ("abort", "stay")])

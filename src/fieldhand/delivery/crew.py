@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 from fieldhand import missions
 from fieldhand.delivery.depot import Depot
 from fieldhand.delivery.ledger import Held
-from fieldhand.errors import ExecutionError, FieldhandError, InputError
+from fieldhand.errors import ExecutionError, FieldhandError, InputError, NotTrustedError
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -191,13 +191,17 @@ class Crew:
         """Go on with the mission that a power cut has cut off, if there is one; a paused one stays paused.
 
         Returns:
-            Its SHA-256.
+            Its SHA-256; None also where it may not go on: its key was revoked since, or its folder was changed.
         """
         cut = self._cut_off()
         if cut is None:
             return None
         with self._guard:
-            self._run(cut, missions.open_mission(self._depot.folder_of(cut)))
+            try:
+                self._run(cut, self._read(cut))
+            except FieldhandError as error:
+                log.warning("mission %s: %s", cut.name, error)
+                return None
         return cut.sha256
 
     def rest(self, wait: Callable[[], bool]) -> None:
@@ -219,9 +223,23 @@ class Crew:
         self._require_free(held)
         bundle = self._depot.open(held.sha256)
         self._check(bundle)
-        folder = missions.begin(self._depot.missions, held.name, _inputs(bundle, self._world, self._seed))
+        missions.begin(self._depot.missions, held.name, _inputs(bundle, self._world, self._seed))
         self._depot.note_begun(held.sha256)
-        self._run(held, missions.open_mission(folder))
+        self._run(held, self._read(held))
+
+    def _read(self, held: Held) -> missions.Mission:
+        """A mission as it lies in its folder, its signature, the trust in it and every byte verified again."""
+        folder = self._depot.folder_of(held)
+        try:
+            if not missions.is_signed(folder):
+                raise NotTrustedError(
+                    "its folder lacks the signed mission", where=held.name, advice="have it approved and sent again"
+                )
+            return missions.open_mission(folder, self._depot.verify)
+        except FieldhandError as error:
+            # What may not go on shall not keep the robot from working.
+            self._faults[held.sha256] = str(error)
+            raise
 
     def _go_on(self, held: Held, folder: Path, said: Said, reason: str) -> bool:
         """Go on with a mission that nobody carries out; what it is told holds from its first tick."""
@@ -230,7 +248,7 @@ class Crew:
         if said == "start" or said == "pause":
             return True
         self._require_free(held)
-        given = missions.open_mission(folder)
+        given = self._read(held)
         if said != "resume":
             missions.order(folder, said, reason)
         elif missions.last_order(folder) == "pause":
@@ -304,4 +322,5 @@ def _inputs(bundle: Bundle, world: bytes | None, seed: int) -> missions.Inputs:
         lenient=bundle.manifest.site.lenient,
         seed=seed,
         planner=bundle.manifest.task.planner,
+        signed=bundle.data,
     )
