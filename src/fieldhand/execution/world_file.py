@@ -108,7 +108,7 @@ def _path(problem: ErrorDetails) -> list[str]:
 
 def _dotted(path: list[str]) -> list[str]:
     """A key's path as people write it: ``faults[0].at``."""
-    return ["".join(f"[{p}]" if p.isdigit() else f".{p}" for p in path).lstrip(".")] if path else []
+    return ["".join(f"[{p}]" if p.isdigit() else f".{_short(p)}" for p in path).lstrip(".")] if path else []
 
 
 def _is_branch(part: str) -> bool:
