@@ -20,6 +20,8 @@ REFUSED = {
     "a number to base 60 that no float holds": (f"a: {':'.join(['59'] * 400)}.5", 1, "cannot be read as float"),
     "a number that no float holds": (f"a: 0x{'f' * 400}", 1, "the number is too large"),
     "a number of thousands of digits": (f"a: {'9' * 5000}", 1, "cannot be read as int"),
+    "half of a character": ('a: "\\uD800"', 1, "cannot be read as str"),
+    "half of a character as a key": ('"\\uDC00": 1', 1, "cannot be read as str"),
     "an alias": ("a: &x 1\nb: *x", 2, "aliases (*name) are not allowed"),
     "a list in itself": ("&a [*a]", 1, "aliases (*name) are not allowed"),
     "merged keys by an alias": ("a: &a {b: 1}\nc: {<<: [*a, *a]}", 2, "aliases (*name) are not allowed"),

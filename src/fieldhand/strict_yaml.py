@@ -69,6 +69,8 @@ def _loader() -> type[yaml.SafeLoader]:
         def construct_object(self, node: yaml.Node, deep: bool = False) -> Any:
             try:
                 value = super().construct_object(node, deep)
+                if isinstance(value, str):
+                    value.encode()  # an escape can name half of a character, which nobody can write or print
             except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
                 # The library trusts that a tag, written or found, fits what stands behind it.
                 tag = str(node.tag).rpartition(":")[2]
