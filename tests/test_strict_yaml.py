@@ -25,6 +25,7 @@ REFUSED = {
     "an alias": ("a: &x 1\nb: *x", 2, "aliases (*name) are not allowed"),
     "a list in itself": ("&a [*a]", 1, "aliases (*name) are not allowed"),
     "merged keys by an alias": ("a: &a {b: 1}\nc: {<<: [*a, *a]}", 2, "aliases (*name) are not allowed"),
+    "merged keys": ("a:\n  <<: {b: 1}", 2, "merged keys (<<) are not allowed"),
     "a key twice": ("a: 1\nb: {c: 1, c: 2}", 2, "the key 'c' stands twice"),
     "a key that is a list": ("? [a]\n: 1", 1, "unhashable key"),
     "a mapping that is none": ("a: !!map [b]", 1, "expected a mapping node"),
@@ -42,6 +43,12 @@ def test_what_cannot_be_read_is_refused_with_its_line(text: str, line: int | Non
     assert says in caught.value.what
     assert caught.value.line == line
     assert len(caught.value.what) <= 200
+
+
+def test_an_alias_is_read_where_it_may_stand_and_never_merged() -> None:
+    assert read_yaml("a: &x [1]\nb: *x", aliases=True) == {"a": [1], "b": [1]}
+    with pytest.raises(YamlFault, match="merged keys"):
+        read_yaml("a: &x {c: 1}\nb: {<<: *x}", aliases=True)
 
 
 _TAGS = (
@@ -63,10 +70,11 @@ _scalars = st.one_of(st.none(), st.booleans(), st.integers(-(2**70), 2**70), st.
 
 
 @given(st.one_of(st.text(), st.lists(_words, max_size=12).map("".join)))
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=200, deadline=None)
 def test_any_text_is_read_or_refused(text: str) -> None:
-    with suppress(YamlFault):
-        read_yaml(text)
+    for aliases in (False, True):
+        with suppress(YamlFault):
+            read_yaml(text, aliases=aliases)
 
 
 @given(

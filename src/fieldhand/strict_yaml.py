@@ -30,17 +30,22 @@ class YamlFault(Exception):
         super().__init__(what)
 
 
-def read_yaml(text: str) -> Any:
+def read_yaml(text: str, *, aliases: bool = False) -> Any:
     """The content of a text: mappings, lists and plain values; None if it holds nothing.
 
+    Args:
+        text: Of anyone.
+        aliases: Whether ``*name`` may stand for what was called ``&name`` before; with them a small text can stand for
+            a huge one.
+
     Raises:
-        YamlFault: It is not YAML, has a key twice, an alias (with which a small text can stand for a huge one), a tag
-            that its value does not fit, a number that no float holds, or is nested too deep.
+        YamlFault: It is not YAML, has a key twice, merged keys, an alias, a tag that its value does not fit, a number
+            that no float holds, or is nested too deep.
     """
     import yaml
 
     try:
-        return yaml.load(text, Loader=_loader())  # noqa: S506  a SafeLoader
+        return yaml.load(text, Loader=_loader(aliases))  # noqa: S506  a SafeLoader
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         raise YamlFault(str(error.problem or error.context), mark.line + 1 if mark else None) from None
@@ -49,7 +54,7 @@ def read_yaml(text: str) -> Any:
 
 
 @cache
-def _loader() -> type[yaml.SafeLoader]:
+def _loader(aliases: bool) -> type[yaml.SafeLoader]:
     import yaml
 
     class StrictLoader(yaml.SafeLoader):
@@ -57,7 +62,7 @@ def _loader() -> type[yaml.SafeLoader]:
 
         def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
             mark = self.peek_event().start_mark  # type: ignore[no-untyped-call]
-            if self.check_event(yaml.AliasEvent):
+            if not aliases and self.check_event(yaml.AliasEvent):
                 raise yaml.composer.ComposerError(None, None, "aliases (*name) are not allowed", mark)
             if self.depth > _DEEPEST:
                 raise yaml.composer.ComposerError(None, None, "it is nested too deep", mark)
@@ -82,6 +87,8 @@ def _loader() -> type[yaml.SafeLoader]:
         def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
             seen: set[str] = set()
             for key, _ in node.value if isinstance(node, yaml.MappingNode) else ():
+                if key.tag == "tag:yaml.org,2002:merge":
+                    raise self._error(key, "merged keys (<<) are not allowed")
                 if isinstance(key, yaml.ScalarNode) and key.value in seen:
                     raise self._error(key, f"the key {key.value[:40]!r} stands twice")
                 seen.add(str(key.value))

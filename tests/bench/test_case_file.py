@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 
 from fieldhand.bench.missions.case_file import load_cases
 from fieldhand.bench.missions.case_form import EndForm, ExpectForm
@@ -31,7 +32,7 @@ def at(**place: Any) -> dict[str, Any]:
 
 def write(folder: Path, content: Any) -> str:
     path = folder / "cases.yaml"
-    path.write_text(content if isinstance(content, str) else json.dumps(content))  # JSON is YAML without aliases
+    path.write_text(content if isinstance(content, str) else yaml.safe_dump(content))
     return str(path)
 
 

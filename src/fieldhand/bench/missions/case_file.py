@@ -190,7 +190,7 @@ def _content(path: Path) -> dict[Any, Any]:
             f"cannot be read: {why}", where=str(path), advice=f"give a YAML file of cases, or '{BUILTIN}'"
         ) from None
     try:
-        content = read_yaml(text)
+        content = read_yaml(text, aliases=True)
     except YamlFault as fault:
         where = f"{path}, line {fault.line}" if fault.line else str(path)
         advice = "correct that line" if fault.line else "save it as plain text"
