@@ -74,8 +74,26 @@ def _each_once(values: tuple[str, ...]) -> tuple[str, ...]:
     return values
 
 
-Number = Annotated[float, BeforeValidator(_no_bool), Field(allow_inf_nan=False)]
-Positive = Annotated[Number, Field(gt=0)]
+def _not_tiny(value: float) -> float:
+    if 0 < value < _LEAST:
+        raise ValueError(f"{value:g} is too small: what is not 0 is at least {_LEAST:g} here")
+    return value
+
+
+def _not_huge(value: float) -> float:
+    if abs(value) > _MOST:
+        raise ValueError(f"{value:g} is too large: no number here is beyond {_MOST:g}")
+    return value
+
+
+#: Any unit: beyond these, what is computed with a number overflows or is lost.
+_LEAST, _MOST = 1e-9, 1e12
+#: Metres: no robot is wider, or works farther from a tree.
+_WIDEST = 100.0
+
+Number = Annotated[float, BeforeValidator(_no_bool), Field(allow_inf_nan=False), AfterValidator(_not_huge)]
+Positive = Annotated[Number, Field(gt=0), AfterValidator(_not_tiny)]
+Breadth = Annotated[Positive, Field(le=_WIDEST)]
 NotNegative = Annotated[Number, Field(ge=0)]
 Retries = Annotated[int, BeforeValidator(_no_bool), Field(ge=0, le=10)]
 Wait = Annotated[Number, Field(ge=0, le=3600)]
@@ -216,8 +234,8 @@ class ProfileDocument(Keyed):
     name: Name
     description: str = ""
     speed_m_s: Positive
-    width_m: Positive
-    standoff_m: Positive | None = None
+    width_m: Breadth
+    standoff_m: Breadth | None = None
     retries: Retries = 1
     patience: PatienceDocument = PatienceDocument()
     energy: EnergyDocument
