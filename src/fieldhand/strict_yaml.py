@@ -49,7 +49,7 @@ def read_yaml(text: str, *, aliases: bool = False) -> Any:
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         raise YamlFault(str(error.problem or error.context), mark.line + 1 if mark else None) from None
-    except (yaml.YAMLError, ValueError) as error:
+    except (yaml.YAMLError, ValueError, ArithmeticError) as error:
         raise YamlFault(" ".join(str(error).split())) from None
 
 
