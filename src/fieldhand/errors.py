@@ -62,8 +62,16 @@ __all__ = [
 ]
 
 
+#: Of what an error says, in characters, and of where.
+_LONGEST, _LONGEST_PLACE = 2_000, 500
+#: Not printable by name, and harmless: line breaks, tabs, spaces at which no line breaks.
+_HARMLESS = "\n\t\u00a0\u202f"
+
+
 class FieldhandError(Exception):
     """Something that the user has to know, with where it is and what to do about it.
+
+    What it quotes may come from anyone: signs that steer a terminal become escapes, what no screen holds is cut.
 
     Args:
         what: What is wrong, in words, without a full stop.
@@ -74,15 +82,22 @@ class FieldhandError(Exception):
     exit_status = 1
 
     def __init__(self, what: str, *, where: str = "", advice: str = "") -> None:
-        self.what = what
-        self.where = where
-        self.advice = advice
+        self.what = _told(what, _LONGEST)
+        self.where = _told(where, _LONGEST_PLACE)
+        self.advice = _told(advice, _LONGEST)
         super().__init__(str(self))
 
     def __str__(self) -> str:
         at = f"{self.where}: " if self.where else ""
         todo = f"; {self.advice}" if self.advice else ""
         return f"{at}{self.what}{todo}"
+
+
+def _told(text: str, longest: int) -> str:
+    """Text as it can be printed anywhere: no control characters, no halves of characters, no more than fits."""
+    if not text.isprintable():
+        text = "".join(c if c.isprintable() or c in _HARMLESS else ascii(c)[1:-1] for c in text)
+    return text if len(text) <= longest else f"{text[: longest - 3]}..."
 
 
 class InputError(FieldhandError):

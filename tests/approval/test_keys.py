@@ -62,6 +62,7 @@ TEXTS = {
     "too short": "fieldhand-ed25519 AAAA Ada",
     "no base 64": "fieldhand-ed25519 AA=AA Ada",
     "two keys": f"{signing_key(1).public.line()}\n{signing_key(2).public.line()}\n",
+    "empty lines without end": "\n" * 60_000 + signing_key(1).public.line() + " " * 60_000 + "\x00",
     "a name that steers the terminal": f"{signing_key(1).public.line()}\x1b[2J",
 }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import random
 import struct
@@ -17,7 +18,7 @@ from mcap.writer import CompressionType, Writer
 from exchange_missions import flight
 from fieldhand.errors import FieldhandError, InputError, OutputError, TaskError
 from fieldhand.exchange.mcap import McapLog, is_mcap, read_mcap
-from fieldhand.exchange.mcap.reading import MAX_RECORD
+from fieldhand.exchange.mcap.reading import MAGIC, MAX_RECORD
 from fieldhand.task.results import Acted, Arrived, Event, to_json
 from random_events import events as random_events
 
@@ -93,6 +94,15 @@ def test_a_damaged_file_is_read_or_refused_and_nothing_else(tmp_path: Path) -> N
             refused.append(str(error))
     assert len(refused) > 30
     assert all("bad.mcap" in said for said in refused)
+
+
+@pytest.mark.parametrize("claimed", [10**12, 2**63, 2**64 - 1])
+def test_a_chunk_that_claims_more_than_the_file_has_costs_nothing(claimed: int, tmp_path: Path) -> None:
+    body = struct.pack("<QQQII", 0, 0, 8, 0, 0) + struct.pack("<Q", claimed) + b"\0" * 8
+    path = tmp_path / "bad.mcap"
+    path.write_bytes(MAGIC + struct.pack("<BQ", 6, len(body)) + body)
+    with contextlib.suppress(FieldhandError):
+        assert read_mcap(path) == ()
 
 
 def test_what_unpacks_to_more_than_it_says_is_refused(tmp_path: Path) -> None:

@@ -208,20 +208,14 @@ def parse_world(content: Mapping[str, Any], *, source: str = "world") -> World:
 
 
 def _content(text: str, source: str) -> dict[Any, Any]:
-    import yaml
+    from fieldhand.strict_yaml import YamlFault, read_yaml
 
     try:
-        content = yaml.load(text, Loader=strict_yaml())  # noqa: S506  a SafeLoader
-    except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark or error.context_mark
-        where = f"{source}, line {mark.line + 1}" if mark else source
-        problem = error.problem or error.context
-        raise WorldError(f"is not YAML: {problem}", where=where, advice="correct that line") from None
-    except (yaml.YAMLError, ValueError) as error:
-        first = " ".join(str(error).split())
-        raise WorldError(f"is not YAML: {first}", where=source, advice="save it as plain text") from None
-    except RecursionError:
-        raise WorldError("is nested too deep", where=source, advice="see docs/formats.md, 'World file'") from None
+        content = read_yaml(text)
+    except YamlFault as fault:
+        where = f"{source}, line {fault.line}" if fault.line else source
+        advice = "correct that line" if fault.line else "see docs/formats.md, 'World file'"
+        raise WorldError(f"is not YAML: {fault.what}", where=where, advice=advice) from None
     if content is None:
         raise WorldError("is empty", where=source, advice="leave --world out for a world without surprises")
     if not isinstance(content, dict):
@@ -229,22 +223,3 @@ def _content(text: str, source: str) -> dict[Any, Any]:
             "is not a mapping of keys to values", where=source, advice="begin with readings:, faults: or seed:"
         )
     return content
-
-
-def strict_yaml() -> Any:
-    """Safe YAML in which a key stands once: a second value for the same quantity must not replace the first unseen."""
-    import yaml
-
-    class WorldYaml(yaml.SafeLoader):
-        def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
-            seen: set[str] = set()
-            for key, _ in node.value:
-                if isinstance(key, yaml.ScalarNode):
-                    if key.value in seen:
-                        raise yaml.constructor.ConstructorError(
-                            None, None, f"the key '{key.value}' stands twice", key.start_mark
-                        )
-                    seen.add(key.value)
-            return super().construct_mapping(node, deep)
-
-    return WorldYaml

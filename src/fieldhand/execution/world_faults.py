@@ -22,6 +22,8 @@ from fieldhand.execution.world import (
 )
 
 Second = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+#: No site is larger.
+Metres = Annotated[float, Field(gt=0, le=100_000, allow_inf_nan=False)]
 Times = Annotated[StrictInt, Field(ge=1)] | None
 
 
@@ -111,7 +113,7 @@ class BlockedModel(Strict):
     fault: Literal["blocked"]
     at: SpotModel | None = None
     between: tuple[SpotModel, SpotModel] | None = None
-    within_m: Annotated[float, Field(gt=0, allow_inf_nan=False)] = 1.0
+    within_m: Metres = 1.0
     times: Times = None
     from_s: Second = 0.0
     until_s: Second | None = None
@@ -142,7 +144,7 @@ class LocalisationLostModel(Strict):
     fault: Literal["localisation_lost"]
     at_s: Second | None = None
     at: SpotModel | None = None
-    within_m: Annotated[float, Field(gt=0, allow_inf_nan=False)] = 5.0
+    within_m: Metres = 5.0
     for_s: Second | None = None
     times: Times = 1
 

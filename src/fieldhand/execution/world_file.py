@@ -4,9 +4,19 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Mapping
+from datetime import datetime
 from typing import Annotated, Any, get_args
 
-from pydantic import AwareDatetime, BaseModel, Field, FiniteFloat, StrictBool, StrictInt, ValidationError
+from pydantic import (
+    AfterValidator,
+    AwareDatetime,
+    BaseModel,
+    Field,
+    FiniteFloat,
+    StrictBool,
+    StrictInt,
+    ValidationError,
+)
 from pydantic_core import ErrorDetails
 
 from fieldhand.errors import WorldError
@@ -44,6 +54,13 @@ _KINDS_OF_FAULT: dict[str, type[BaseModel]] = {
 }
 
 
+def _of_our_time(begins: datetime) -> datetime:
+    """Any zone tells the time then, and at the end of any mission; the first and the last year end in some zones."""
+    if not 2000 <= begins.year <= 2999:
+        raise ValueError(f"the year {begins.year} is not one from 2000 to 2999")
+    return begins
+
+
 class WorldModel(Strict):
     """The whole file."""
 
@@ -51,7 +68,7 @@ class WorldModel(Strict):
     faults: tuple[FaultModel, ...] = ()
     seed: Annotated[StrictInt, Field(ge=0)] = 0
     charge_percent: Annotated[float, Field(gt=0, le=100, allow_inf_nan=False)] = 100.0
-    begins: AwareDatetime | None = None
+    begins: Annotated[AwareDatetime, AfterValidator(_of_our_time)] | None = None
 
 
 def world_of(content: Mapping[str, Any], *, source: str) -> World:
@@ -108,7 +125,7 @@ def _path(problem: ErrorDetails) -> list[str]:
 
 def _dotted(path: list[str]) -> list[str]:
     """A key's path as people write it: ``faults[0].at``."""
-    return ["".join(f"[{p}]" if p.isdigit() else f".{p}" for p in path).lstrip(".")] if path else []
+    return ["".join(f"[{p}]" if p.isdigit() else f".{_short(p)}" for p in path).lstrip(".")] if path else []
 
 
 def _is_branch(part: str) -> bool:

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import difflib
 import hashlib
-from collections.abc import Hashable
 from importlib import resources
 from pathlib import Path
 from typing import Any
 
-import yaml
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
@@ -22,12 +20,16 @@ from fieldhand.robot.document import (
     QuantityDocument,
 )
 from fieldhand.robot.model import Action, Energy, LegCost, Level, Parameter, Patience, Quantity, RobotProfile
+from fieldhand.strict_yaml import YamlFault, read_yaml
 
 #: A profile is a page or two; a file beyond this is something else.
 MAX_BYTES = 1_000_000
 
 #: A profile that gives no standoff: the robot's side stays this far from the trunk, about a young tree's canopy.
 CANOPY_M = 1.0
+
+#: Of what is said to be wrong, in characters: what is quoted in it may be of any length.
+_LONGEST = 400
 
 GUIDE = "docs/add-a-robot.md shows a whole profile"
 
@@ -104,47 +106,18 @@ def _short(text: str) -> str:
     return text if len(text) <= 80 else f"{text[:77]}..."
 
 
-class _ProfileYaml(yaml.SafeLoader):
-    """Safe YAML in which a key stands once and aliases, which can blow a small file up, do not stand at all."""
-
-    def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
-        if self.check_event(yaml.AliasEvent):
-            event = self.peek_event()  # type: ignore[no-untyped-call]
-            raise yaml.composer.ComposerError(
-                None, None, "aliases (*name) are not allowed in a profile", event.start_mark
-            )
-        return super().compose_node(parent, index)
-
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
-        seen: set[str] = set()
-        for key, _ in node.value:
-            if isinstance(key, yaml.ScalarNode) and key.value in seen:
-                raise yaml.constructor.ConstructorError(
-                    None, None, f"the key {key.value!r} stands twice", key.start_mark
-                )
-            seen.add(str(key.value))
-        return super().construct_mapping(node, deep)
-
-
 def _content(data: bytes, source: str) -> dict[Any, Any]:
     """The mapping that the YAML holds."""
     if len(data) > MAX_BYTES:
         raise ProfileError(f"is larger than {MAX_BYTES} bytes", where=source, advice="a profile is a page of YAML")
     try:
-        content = yaml.load(data.decode("utf-8-sig"), Loader=_ProfileYaml)  # noqa: S506  a SafeLoader
+        content = read_yaml(data.decode("utf-8-sig"))
     except UnicodeDecodeError:
         raise ProfileError("is not UTF-8 text", where=source, advice="save the profile as UTF-8") from None
-    except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark or error.context_mark
-        where = f"{source}, line {mark.line + 1}" if mark else source
-        raise ProfileError(
-            f"is not YAML: {error.problem or error.context}", where=where, advice="correct that line"
-        ) from None
-    except (yaml.YAMLError, ValueError) as error:
-        what = " ".join(str(error).split())
-        raise ProfileError(f"is not YAML: {what}", where=source, advice="save the profile as plain text") from None
-    except RecursionError:
-        raise ProfileError("is nested too deep", where=source, advice=GUIDE) from None
+    except YamlFault as fault:
+        where = f"{source}, line {fault.line}" if fault.line else source
+        advice = "correct that line" if fault.line else GUIDE
+        raise ProfileError(f"is not YAML: {fault.what}", where=where, advice=advice) from None
     if content is None:
         raise ProfileError("is empty", where=source, advice=GUIDE)
     if not isinstance(content, dict):
@@ -159,7 +132,8 @@ def _explained(error: ValidationError, source: str) -> ProfileError:
     path = [str(part) for part in first["loc"] if part != "[key]"]
     what, advice = _words_for(first, path)
     more = f" (and {len(problems) - 1} more after it)" if len(problems) > 1 else ""
-    key = ".".join(path)
+    key = _short(".".join(path))
+    what = what if len(what) <= _LONGEST else f"{what[: _LONGEST - 3]}..."
     return ProfileError(f"{what}{more}", where=f"{source}: {key}" if key else source, advice=advice)
 
 

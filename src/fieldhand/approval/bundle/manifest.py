@@ -30,8 +30,11 @@ def _one_line(text: str) -> str:
 
 
 def _moment(text: str) -> str:
-    if datetime.fromisoformat(text).tzinfo is None:
+    moment = datetime.fromisoformat(text)
+    if moment.tzinfo is None:
         raise ValueError("has no time zone")
+    if not 2000 <= moment.year <= 2999:  # the first and the last year have no time in some zones
+        raise ValueError("is in no year from 2000 to 2999")
     return text
 
 

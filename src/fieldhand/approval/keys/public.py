@@ -16,7 +16,7 @@ KEY_BYTES = 32
 MAX_NAME = 80
 #: 160 bits: nobody finds a second key with the same fingerprint.
 _FINGERPRINT_BYTES = 20
-_LINE = re.compile(rf"^[>\s]*{MARK} +([A-Za-z0-9+/=]+)(?: +(\S.*?))?\s*$", re.MULTILINE)
+_LINE = re.compile(rf"[>\s]*{MARK} +([A-Za-z0-9+/=]+)(?: +(.*))?")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,7 +65,8 @@ def parse_public(text: str, *, source: str) -> PublicKey:
             where=source,
             advice="give the line that fieldhand keys new printed; if the file was sent to anyone, make a new key",
         )
-    found = {match.groups() for match in _LINE.finditer(text)}
+    lines = (_LINE.fullmatch(line.rstrip()) for line in text.split("\n"))
+    found = {match.groups() for match in lines if match is not None}
     if len(found) != 1:
         what = "no public key stands here" if not found else f"{len(found)} public keys stand here"
         raise KeyFileError(what, where=source, advice=f"give a file with one line that begins with {MARK}")

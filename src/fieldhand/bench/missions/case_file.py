@@ -10,7 +10,6 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-import yaml
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
@@ -29,10 +28,11 @@ from fieldhand.bench.missions.cases import Case, CaseWorld, Expected
 from fieldhand.bench.missions.ground import Ground, load_ground
 from fieldhand.bench.missions.places import Attributes, Place, Positions
 from fieldhand.errors import CaseError
-from fieldhand.execution.world import parse_world, strict_yaml
+from fieldhand.execution.world import parse_world
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.geojson import demo_path
+from fieldhand.strict_yaml import YamlFault, read_yaml
 
 BUILTIN = "builtin"
 #: A case is twenty lines; a file beyond this is something else.
@@ -190,16 +190,11 @@ def _content(path: Path) -> dict[Any, Any]:
             f"cannot be read: {why}", where=str(path), advice=f"give a YAML file of cases, or '{BUILTIN}'"
         ) from None
     try:
-        content = yaml.load(text, Loader=strict_yaml())  # noqa: S506  a SafeLoader
-    except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark or error.context_mark
-        where = f"{path}, line {mark.line + 1}" if mark else str(path)
-        raise CaseError(
-            f"is not YAML: {error.problem or error.context}", where=where, advice="correct that line"
-        ) from None
-    except (yaml.YAMLError, ValueError, RecursionError) as error:
-        what = " ".join(str(error).split())
-        raise CaseError(f"is not YAML: {what}", where=str(path), advice="save it as plain text") from None
+        content = read_yaml(text, aliases=True)
+    except YamlFault as fault:
+        where = f"{path}, line {fault.line}" if fault.line else str(path)
+        advice = "correct that line" if fault.line else "save it as plain text"
+        raise CaseError(f"is not YAML: {fault.what}", where=where, advice=advice) from None
     if not isinstance(content, dict):
         raise CaseError("holds no cases", where=str(path), advice=f"begin with site:, robot: and cases:; {GUIDE}")
     return content

@@ -44,13 +44,13 @@ def read_mcap(path: Path) -> tuple[Event, ...]:
         if size > MAX_BYTES:
             raise _unusable(path, f"has {size:,} bytes, more than {MAX_BYTES:,}")
         with path.open("rb") as file:
-            found = sorted(_events(file, path), key=lambda pair: pair[0])
+            found = sorted(_events(_Whole(file, size), path), key=lambda pair: pair[0])
     except OSError as error:
         raise _unusable(path, f"cannot be read: {error.strerror}") from None
     return tuple(event for _, event in found)
 
 
-def _events(file: IO[bytes], path: Path) -> Iterator[tuple[int, Event]]:
+def _events(file: _Whole, path: Path) -> Iterator[tuple[int, Event]]:
     """Each event with its number."""
     from mcap.records import Channel, Message
 
@@ -69,7 +69,7 @@ def _events(file: IO[bytes], path: Path) -> Iterator[tuple[int, Event]]:
                 yield record.sequence, event
 
 
-def _records(file: IO[bytes], path: Path) -> Iterator[Any]:
+def _records(file: _Whole, path: Path) -> Iterator[Any]:
     """The records of a file, those in chunks among them."""
     from mcap.exceptions import EndOfFile, McapError
     from mcap.records import Chunk
@@ -77,7 +77,8 @@ def _records(file: IO[bytes], path: Path) -> Iterator[Any]:
     from zstandard import ZstdError
 
     left = MAX_UNPACKED
-    reader = StreamReader(file, emit_chunks=True, record_size_limit=MAX_RECORD)
+    stream: Any = file  # it is only read from
+    reader = StreamReader(stream, emit_chunks=True, record_size_limit=MAX_RECORD)
     try:
         for record in reader.records:
             if not isinstance(record, Chunk):
@@ -91,6 +92,24 @@ def _records(file: IO[bytes], path: Path) -> Iterator[Any]:
         return
     except (McapError, ZstdError, ValueError, struct.error, RuntimeError) as error:
         raise _unusable(path, f"is damaged, or no MCAP file ({error or type(error).__name__})") from None
+
+
+class _Whole(io.BufferedIOBase):
+    """A file of which no more is asked for than it has: a field that says a length may say any.
+
+    Args:
+        file: At its beginning.
+        size: Of it, in bytes.
+    """
+
+    def __init__(self, file: IO[bytes], size: int) -> None:
+        self._file, self._left = file, size
+
+    def read(self, size: int | None = -1) -> bytes:
+        """Up to so many bytes."""
+        data = self._file.read(self._left if size is None or size < 0 else min(size, self._left))
+        self._left -= len(data)
+        return data
 
 
 def _unpacked(chunk: Chunk) -> Chunk:

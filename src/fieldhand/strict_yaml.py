@@ -1,0 +1,100 @@
+"""Read YAML from anyone safely: plain values, each key once, no aliases, one kind of error."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import yaml
+
+#: Bits of a whole number: beyond this it cannot be a float either.
+_MOST_BITS = 1000
+#: Mappings and lists within each other; a world file has six.
+_DEEPEST = 50
+_LONGEST = 200
+
+
+class YamlFault(Exception):
+    """What a text cannot be read for; its readers make a message of their own of it.
+
+    Attributes:
+        what: In words.
+        line: Counted from 1; None where the text as a whole is at fault.
+    """
+
+    def __init__(self, what: str, line: int | None = None) -> None:
+        self.what = what if len(what) <= _LONGEST else f"{what[: _LONGEST - 3]}..."
+        self.line = line
+        super().__init__(what)
+
+
+def read_yaml(text: str, *, aliases: bool = False) -> Any:
+    """The content of a text: mappings, lists and plain values; None if it holds nothing.
+
+    Args:
+        text: Of anyone.
+        aliases: Whether ``*name`` may stand for what was called ``&name`` before; with them a small text can stand for
+            a huge one.
+
+    Raises:
+        YamlFault: It is not YAML, has a key twice, merged keys, an alias, a tag that its value does not fit, a number
+            that no float holds, or is nested too deep.
+    """
+    import yaml
+
+    try:
+        return yaml.load(text, Loader=_loader(aliases))  # noqa: S506  a SafeLoader
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        raise YamlFault(str(error.problem or error.context), mark.line + 1 if mark else None) from None
+    except (yaml.YAMLError, ValueError) as error:
+        raise YamlFault(" ".join(str(error).split())) from None
+
+
+@cache
+def _loader(aliases: bool) -> type[yaml.SafeLoader]:
+    import yaml
+
+    class StrictLoader(yaml.SafeLoader):
+        depth = 0
+
+        def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
+            mark = self.peek_event().start_mark  # type: ignore[no-untyped-call]
+            if not aliases and self.check_event(yaml.AliasEvent):
+                raise yaml.composer.ComposerError(None, None, "aliases (*name) are not allowed", mark)
+            if self.depth > _DEEPEST:
+                raise yaml.composer.ComposerError(None, None, "it is nested too deep", mark)
+            self.depth += 1
+            node = super().compose_node(parent, index)
+            self.depth -= 1
+            return node
+
+        def construct_object(self, node: yaml.Node, deep: bool = False) -> Any:
+            try:
+                value = super().construct_object(node, deep)
+                if isinstance(value, str):
+                    value.encode()  # an escape can name half of a character, which nobody can write or print
+            except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
+                # The library trusts that a tag, written or found, fits what stands behind it.
+                tag = str(node.tag).rpartition(":")[2]
+                raise self._error(node, f"{str(node.value)[:40]!r} cannot be read as {tag}") from None
+            if isinstance(value, int) and value.bit_length() > _MOST_BITS:
+                raise self._error(node, "the number is too large")
+            return value
+
+        def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
+            seen: set[str] = set()
+            for key, _ in node.value if isinstance(node, yaml.MappingNode) else ():
+                if key.tag == "tag:yaml.org,2002:merge":
+                    raise self._error(key, "merged keys (<<) are not allowed")
+                if isinstance(key, yaml.ScalarNode) and key.value in seen:
+                    raise self._error(key, f"the key {key.value[:40]!r} stands twice")
+                seen.add(str(key.value))
+            return super().construct_mapping(node, deep)
+
+        def _error(self, node: yaml.Node, what: str) -> yaml.constructor.ConstructorError:
+            return yaml.constructor.ConstructorError(None, None, what, node.start_mark)
+
+    return StrictLoader
