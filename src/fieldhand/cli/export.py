@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fieldhand.cli.options import JsonOption, LenientOption, MissionsOption
-from fieldhand.cli.recorded import RecordedSiteOption
+from fieldhand.cli.options import JsonOption, LenientOption, MissionsOption, RecordedSiteOption
 from fieldhand.errors import InputError
 
 if TYPE_CHECKING:

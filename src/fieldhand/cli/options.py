@@ -63,3 +63,7 @@ SeedOption = Annotated[int, typer.Option("--seed", min=0, help="Same seed, same 
 CpuTimeOption = Annotated[
     bool, typer.Option("--cpu-time", help="Count processor time, where others use the machine as well.")
 ]
+RecordedSiteOption = Annotated[
+    str | None,
+    typer.Option("--site", help=f"{SITE_HELP} A signed mission (.mission) brings site and robot."),
+]

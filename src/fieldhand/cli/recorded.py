@@ -6,24 +6,16 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING
 
 from fieldhand.cli.bundles import is_bundle, read_unverified, require_site
 from fieldhand.cli.inputs import Ground, open_ground
-from fieldhand.cli.options import SITE_HELP
 from fieldhand.errors import InputError
 
 if TYPE_CHECKING:
     from fieldhand.past import Log
     from fieldhand.task.authorization import Authorization
     from fieldhand.task.frames import Task
-
-RecordedSiteOption = Annotated[
-    str | None,
-    typer.Option("--site", help=f"{SITE_HELP} A signed mission (.mission) brings site and robot."),
-]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,8 +8,7 @@ from typing import Annotated
 
 import typer
 
-from fieldhand.cli.options import JsonOption, LenientOption, MissionsOption
-from fieldhand.cli.recorded import RecordedSiteOption
+from fieldhand.cli.options import JsonOption, LenientOption, MissionsOption, RecordedSiteOption
 
 
 def report(
