@@ -181,9 +181,11 @@ def load_world(path: Path) -> World:
     """
     source = str(path)
     try:
-        if path.stat().st_size > MAX_BYTES:
+        with path.open("rb") as file:
+            data = file.read(MAX_BYTES + 1)  # a device has no size, and no end
+        if len(data) > MAX_BYTES:
             raise WorldError(f"is larger than {MAX_BYTES:,} bytes", where=source, advice="is it a world file?")
-        text = path.read_text(encoding="utf-8-sig")
+        text = data.decode("utf-8-sig")
     except (OSError, ValueError) as error:
         if isinstance(error, UnicodeDecodeError):
             raise WorldError("is not UTF-8 text", where=source, advice="save it as UTF-8") from None

@@ -9,19 +9,8 @@ begin ──▶ folder ──carry_out──▶ events          status and order
     orders.sqlite, lock                                       what people want; who carries it out
 """
 
-from fieldhand.missions.folder import (
-    Inputs,
-    Mission,
-    all_missions,
-    begin,
-    exists,
-    find,
-    is_signed,
-    missions_folder,
-    new_id,
-    open_mission,
-    signed_bundle,
-)
+from fieldhand.missions.finding import all_missions, exists, find, missions_folder
+from fieldhand.missions.folder import Inputs, Mission, begin, is_signed, new_id, open_mission, signed_bundle
 from fieldhand.missions.kept import Status, carry_out, events_of, is_running, last_order, lines_after, order, status
 
 __all__ = [

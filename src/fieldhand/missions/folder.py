@@ -9,7 +9,7 @@ import secrets
 import shutil
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 #: Of mission.json.
 FORMAT = 1
 
-LOCK, JOURNAL, ORDERS, LOG, _ABOUT = "lock", "journal.sqlite", "orders.sqlite", "events.jsonl", "mission.json"
+LOCK, JOURNAL, ORDERS, LOG, ABOUT = "lock", "journal.sqlite", "orders.sqlite", "events.jsonl", "mission.json"
 _SIGNED = "signed.mission"
 
 
@@ -81,14 +81,6 @@ class Mission:
         return self.folder.name
 
 
-def missions_folder(environ: Mapping[str, str]) -> Path:
-    """Where missions lie unless the user says otherwise: ``FIELDHAND_MISSIONS``, else in the user's state folder."""
-    own = environ.get("FIELDHAND_MISSIONS")
-    if own:
-        return Path(own)
-    return mission.state_folder(environ) / "missions"
-
-
 def new_id(at: datetime) -> str:
     """A name for a mission that begins now."""
     return f"{at:%Y%m%d-%H%M%S}-{secrets.token_hex(3)}"
@@ -123,7 +115,7 @@ def begin(under: Path, name: str, inputs: Inputs) -> Path:
         "files": {file: hashlib.sha256(data).hexdigest() for file, data in files.items()},
     }
     whole = json.dumps(about, ensure_ascii=False, indent=1).encode()
-    if (folder / _ABOUT).exists():
+    if (folder / ABOUT).exists():
         raise JournalError("there is a mission of that name already", where=str(folder), advice="fieldhand resume it")
     try:
         (folder / "site").mkdir(parents=True, exist_ok=True)
@@ -133,8 +125,8 @@ def begin(under: Path, name: str, inputs: Inputs) -> Path:
             _write(folder / file, data)
         create(folder / JOURNAL, hashlib.sha256(whole).hexdigest())
         Desk(folder / ORDERS).create()
-        _write(folder / f"{_ABOUT}.part", whole)
-        (folder / f"{_ABOUT}.part").rename(folder / _ABOUT)
+        _write(folder / f"{ABOUT}.part", whole)
+        (folder / f"{ABOUT}.part").rename(folder / ABOUT)
         _sync(folder)
     except OSError as error:
         raise JournalError(
@@ -143,11 +135,6 @@ def begin(under: Path, name: str, inputs: Inputs) -> Path:
             advice="free some space, or give another folder with --missions",
         ) from None
     return folder
-
-
-def exists(folder: Path) -> bool:
-    """Whether this is the folder of a mission that was begun."""
-    return (folder / _ABOUT).is_file()
 
 
 def is_signed(folder: Path) -> bool:
@@ -197,10 +184,10 @@ def open_mission(folder: Path, verify: Callable[[bytes, str], Bundle] | None = N
         )
         lenient, seed, planner = bool(about["lenient"]), int(about["seed"]), str(about["planner"])
     except (KeyError, TypeError, ValueError) as error:
-        raise _no_mission(folder, f"{_ABOUT} lacks {error}") from None
+        raise _no_mission(folder, f"{ABOUT} lacks {error}") from None
     files = {file: read_file(folder, file, sha256) for file, sha256 in sums.items()}
     if site_file not in files or not {"task.xml", "robot.yaml"} <= files.keys():
-        raise _no_mission(folder, f"{_ABOUT} names no Task, robot or site")
+        raise _no_mission(folder, f"{ABOUT} names no Task, robot or site")
     bundle = None
     if verify is not None and _SIGNED in files:
         # Before anything else of the folder is read.
@@ -225,34 +212,6 @@ def open_mission(folder: Path, verify: Callable[[bytes, str], Bundle] | None = N
     )
 
 
-def find(under: Path, name: str | None) -> Path:
-    """The folder of a mission: by its name, by its path, or without either the one begun last.
-
-    Raises:
-        JournalError: There is none.
-    """
-    if name is not None:
-        for folder in (under / name, Path(name)):
-            if (folder / _ABOUT).is_file():
-                return folder
-        raise JournalError(f"no mission '{name}'", where=str(under), advice=_known(under))
-    folders = all_missions(under)
-    if not folders:
-        raise JournalError("no mission was begun", where=str(under), advice="fieldhand run begins one")
-    return folders[-1]
-
-
-def all_missions(under: Path) -> tuple[Path, ...]:
-    """Every mission that was begun there, the one begun last at the end."""
-    found = [about for about in under.glob(f"*/{_ABOUT}") if about.is_file()]
-    return tuple(about.parent for about in sorted(found, key=lambda a: (a.stat().st_mtime_ns, a.parent.name)))
-
-
-def begun_at(folder: Path) -> datetime:
-    """When a mission was begun."""
-    return datetime.fromtimestamp((folder / _ABOUT).stat().st_mtime, UTC)
-
-
 def remove_folder(folder: Path) -> None:
     """Remove a mission with all that it has done.
 
@@ -261,7 +220,7 @@ def remove_folder(folder: Path) -> None:
     """
     try:
         # First what makes it a mission: half of a folder shall not be taken for one.
-        (folder / _ABOUT).unlink()
+        (folder / ABOUT).unlink()
         shutil.rmtree(folder)
     except OSError as error:
         raise JournalError(
@@ -271,11 +230,6 @@ def remove_folder(folder: Path) -> None:
         ) from None
 
 
-def _known(under: Path) -> str:
-    names = [folder.name for folder in all_missions(under)]
-    return f"there are {', '.join(names[-5:])}" if names else "none was begun there"
-
-
 def read_about(folder: Path) -> tuple[dict[str, Any], bytes]:
     """What mission.json says, and its bytes.
 
@@ -283,14 +237,14 @@ def read_about(folder: Path) -> tuple[dict[str, Any], bytes]:
         JournalError: It is missing, or is none.
     """
     try:
-        whole = (folder / _ABOUT).read_bytes()
+        whole = (folder / ABOUT).read_bytes()
         about = json.loads(whole)
     except OSError as error:
-        raise _no_mission(folder, f"{_ABOUT}: {error.strerror}") from None
+        raise _no_mission(folder, f"{ABOUT}: {error.strerror}") from None
     except ValueError as error:
-        raise _no_mission(folder, f"{_ABOUT} is not JSON: {error}") from None
+        raise _no_mission(folder, f"{ABOUT} is not JSON: {error}") from None
     if not isinstance(about, dict) or about.get("format") != FORMAT:
-        raise _no_mission(folder, f"{_ABOUT} has not the format {FORMAT} that this version reads")
+        raise _no_mission(folder, f"{ABOUT} has not the format {FORMAT} that this version reads")
     return about, whole
 
 

@@ -7,7 +7,8 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 from fieldhand.errors import FieldhandError, JournalError
-from fieldhand.missions.folder import JOURNAL, LOCK, all_missions, begun_at, read_about, read_file, remove_folder
+from fieldhand.missions.finding import all_missions, begun_at
+from fieldhand.missions.folder import JOURNAL, LOCK, read_about, read_file, remove_folder
 from fieldhand.task.results import Continued, Ended, Exited, Paused, from_json
 
 #: How the lines begin that say how a mission stands; the others are not read.

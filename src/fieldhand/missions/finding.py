@@ -1,0 +1,81 @@
+"""Where missions lie, and which of them is meant."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from datetime import UTC, datetime
+from pathlib import Path
+
+from fieldhand import mission
+from fieldhand.errors import JournalError
+from fieldhand.missions.folder import ABOUT
+
+
+def missions_folder(environ: Mapping[str, str]) -> Path:
+    """Where missions lie unless the user says otherwise: ``FIELDHAND_MISSIONS``, else in the user's state folder."""
+    own = environ.get("FIELDHAND_MISSIONS")
+    if own:
+        return Path(own)
+    return mission.state_folder(environ) / "missions"
+
+
+def find(under: Path, name: str | None) -> Path:
+    """The folder of a mission: by its name, by its path, or without either the one begun last.
+
+    Raises:
+        JournalError: There is none.
+    """
+    if name is not None:
+        for folder in (under / name, Path(name)):
+            if exists(folder):
+                return folder
+        raise JournalError(f"no mission '{name}'", where=str(under), advice=_known(under))
+    folders = all_missions(under)
+    if not folders:
+        raise JournalError("no mission was begun", where=str(under), advice="fieldhand run begins one")
+    return folders[-1]
+
+
+def exists(folder: Path) -> bool:
+    """Whether this is the folder of a mission that was begun.
+
+    Raises:
+        JournalError: It may not be looked into.
+    """
+    try:
+        return (folder / ABOUT).is_file()
+    except OSError as error:
+        raise _closed(folder, error) from None
+
+
+def all_missions(under: Path) -> tuple[Path, ...]:
+    """Every mission that was begun there, the one begun last at the end.
+
+    Raises:
+        JournalError: The folder may not be looked into, or is none.
+    """
+    try:
+        found = [folder for folder in under.iterdir() if exists(folder)]
+        return tuple(sorted(found, key=lambda folder: ((folder / ABOUT).stat().st_mtime_ns, folder.name)))
+    except FileNotFoundError:
+        return ()
+    except OSError as error:
+        raise _closed(under, error) from None
+
+
+def begun_at(folder: Path) -> datetime:
+    """When a mission was begun."""
+    return datetime.fromtimestamp((folder / ABOUT).stat().st_mtime, UTC)
+
+
+def _closed(folder: Path, error: OSError) -> JournalError:
+    return JournalError(
+        f"cannot be looked into: {error.strerror or error}",
+        where=str(folder),
+        advice="see to its rights, or give another folder with --missions",
+    )
+
+
+def _known(under: Path) -> str:
+    names = [folder.name for folder in all_missions(under)]
+    return f"there are {', '.join(names[-5:])}" if names else "none was begun there"
