@@ -41,6 +41,7 @@ from pathlib import Path
 from fieldhand import mission
 from fieldhand.approval.authorize import EveryWarning
 from fieldhand.approval.bundle.opening import unseal
+from fieldhand.approval.bundle.packing import pack
 from fieldhand.approval.keys.signing import SigningKeys
 from fieldhand.approval.keys.trust import TrustStore
 from fieldhand.delivery.link import RobotLink, open_client
@@ -77,7 +78,7 @@ class Field:
         """Start the agent and wait until it answers."""
         command = [sys.executable, "-m", "fieldhand", "agent", "--robot", "husky", "--site", "demo"]
         command += ["--store", str(self.folder / "store"), "--port", str(self.port), "--speed", "max"]
-        self.agent = subprocess.Popen(command, env=self.env, stderr=subprocess.PIPE)  # noqa: S603
+        self.agent = subprocess.Popen(command, env=self.env, stderr=subprocess.PIPE)
         for _ in range(600):
             with suppress(OSError), closing(socket.create_connection(("127.0.0.1", self.port), timeout=1)):
                 return
@@ -106,7 +107,7 @@ class Field:
             measures={"read_co2": ("co2",)},
         )
         approved = mission.authorize(task, self.site, self.robot, by="Ada", at=self.at, confirmed=EveryWarning())
-        return mission.pack(
+        return pack(
             approved,
             self.site,
             self.robot,
@@ -239,7 +240,7 @@ def killed_sender(field: Field, data: bytes) -> bool:
     file = field.folder / "m.mission"
     file.write_bytes(data)
     command = [sys.executable, "-m", "fieldhand", "send", str(file), "--to", field.url, "--start"]
-    sender = subprocess.Popen(command, env=field.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # noqa: S603
+    sender = subprocess.Popen(command, env=field.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     # Most of its time goes into starting; what counts is the moment at which it keeps the mission, and what follows.
     until = time.monotonic() + 60.0
     while sender.poll() is None and not (field.folder / "outbox").exists() and time.monotonic() < until:
@@ -249,7 +250,7 @@ def killed_sender(field: Field, data: bytes) -> bool:
     sender.kill()
     sender.wait()
     pending = [sys.executable, "-m", "fieldhand", "send", "--pending"]
-    subprocess.run(pending, env=field.env, capture_output=True, timeout=120, check=False)  # noqa: S603
+    subprocess.run(pending, env=field.env, capture_output=True, timeout=120, check=False)
     return True
 
 
@@ -338,7 +339,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--kinds", nargs="+", choices=KINDS, default=KINDS, help="only these")
     given = parser.parse_args()
-    rng = random.Random(given.seed)  # noqa: S311
+    rng = random.Random(given.seed)
     broken, arrived, wrong = Counter[str](), Counter[str](), list[str]()
     begun = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
@@ -360,15 +361,15 @@ def main() -> None:
                 wrong += [f"transfer {number}, {kind}: {one}" for one in found]
                 before = judge.whole[list(judge.whole)[-1]]
                 if number % 20 == 0:
-                    print(f"{number} transfers, {len(wrong)} wrong, {time.monotonic() - begun:.0f} s", flush=True)  # noqa: T201
+                    print(f"{number} transfers, {len(wrong)} wrong, {time.monotonic() - begun:.0f} s", flush=True)
         finally:
             field.end()
     for line in wrong:
-        print(line)  # noqa: T201
-    print(f"\n{'broken by':<15}{'transfers':>10}{'had arrived all the same':>26}")  # noqa: T201
+        print(line)
+    print(f"\n{'broken by':<15}{'transfers':>10}{'had arrived all the same':>26}")
     for kind in KINDS:
-        print(f"{kind:<15}{broken[kind]:>10}{arrived[kind]:>26}")  # noqa: T201
-    print(f"{sum(broken.values())} broken transfers, {len(wrong)} wrong, in {time.monotonic() - begun:.0f} s")  # noqa: T201
+        print(f"{kind:<15}{broken[kind]:>10}{arrived[kind]:>26}")
+    print(f"{sum(broken.values())} broken transfers, {len(wrong)} wrong, in {time.monotonic() - begun:.0f} s")
     raise SystemExit(1 if wrong else 0)
 
 

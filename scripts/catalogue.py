@@ -138,7 +138,7 @@ def main() -> int:
         text, missing = updated(file.read_text(encoding="utf-8"))
         file.write_text(text, encoding="utf-8")
         for entry in missing:
-            print(f"{file.parts[-3]}: {entry.context + ': ' if entry.context else ''}{entry.template}")  # noqa: T201
+            print(f"{file.parts[-3]}: {entry.context + ': ' if entry.context else ''}{entry.template}")
             status = 1
     return status
 

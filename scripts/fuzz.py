@@ -139,7 +139,7 @@ def fuzz(name: str, given: argparse.Namespace, corpus: Path, keep: Path, seconds
     command = [sys.executable, __file__, name, "--inside", str(corpus), "--keep", str(keep), "--seed", str(seed)]
     command += ["--minutes", str(seconds / 60), "--limit", str(given.limit), "--memory", str(given.memory)]
     with (keep / "libfuzzer.log").open("ab") as log:
-        subprocess.run(command, stdout=log, stderr=log, timeout=seconds + 120, check=False)  # noqa: S603
+        subprocess.run(command, stdout=log, stderr=log, timeout=seconds + 120, check=False)
     held = keep / "figures.json"
     found = Figures(**json.loads(held.read_text())) if held.exists() else Figures()
     held.unlink(missing_ok=True)
@@ -165,7 +165,7 @@ def inside(name: str, given: argparse.Namespace) -> None:
         reading = Reading(target, Path(given.keep), Path(work))
 
         def change(data: bytes, max_size: int, seed: int) -> bytes:
-            rng = random.Random(seed)  # noqa: S311  no secret
+            rng = random.Random(seed)
             if rng.random() < 0.15:
                 return bytes(atheris.Mutate(data, max_size))
             return target.mutate(data, rng)[:max_size]
@@ -220,7 +220,7 @@ def main(words: Sequence[str] | None = None) -> int:
             seed += 1
         grown = len(list(Path(corpus).iterdir()))
     record = {"target": given.target, "seconds": round(time.monotonic() - began), "corpus": grown, **asdict(figures)}
-    print(json.dumps(record | {"keep": str(keep)}, indent=1))  # noqa: T201
+    print(json.dumps(record | {"keep": str(keep)}, indent=1))
     if not figures.failures and not given.keep:
         shutil.rmtree(keep)
     return 1 if figures.failures else 0

@@ -49,7 +49,8 @@ from fieldhand.execution.runtime import run
 from fieldhand.execution.world import ActionFails, Blocked, SensorSilent, Spot, World, WorldFault
 from fieldhand.forecast.routes import drives_for
 from fieldhand.task.authorization import AuthorizedTask
-from fieldhand.task.results import Acted, Ended, InDoubt, Started, from_json
+from fieldhand.task.event_lines import from_json
+from fieldhand.task.results import Acted, Ended, InDoubt, Started
 
 #: What a driver and a clock are asked over the line.
 ASKED = (
@@ -194,7 +195,7 @@ def one_life(
             live(folder, approved, draft, there)
             status = 0
         except BaseException as error:  # noqa: BLE001  whatever it is, the parent has to see it
-            print(f"{type(error).__name__}: {error}", file=sys.stderr)  # noqa: T201
+            print(f"{type(error).__name__}: {error}", file=sys.stderr)
         finally:
             os._exit(status)
     there.close()
@@ -261,7 +262,7 @@ def judge(folder: Path, draft: Draft, robot: Robot, verdict: Verdict) -> None:
 
 def measure(kills: int, seed: int) -> Verdict:
     """Kill so many times, missions of one seed after the other."""
-    rng, verdict, number = random.Random(seed), Verdict(), seed * 100_000  # noqa: S311  no secret
+    rng, verdict, number = random.Random(seed), Verdict(), seed * 100_000
     while verdict.kills < kills:
         number += 1
         drawn = approved_draft(number)
@@ -304,10 +305,10 @@ def main(words: Sequence[str] | None = None) -> int:
     given = parser.parse_args(words)
     found = measure(given.kills, given.seed)
     if given.json:
-        print(json.dumps(vars(found)))  # noqa: T201
+        print(json.dumps(vars(found)))
     else:
         for name, value in vars(found).items():
-            print(f"{name:<12}{dict(value) if isinstance(value, Counter) else value}")  # noqa: T201
+            print(f"{name:<12}{dict(value) if isinstance(value, Counter) else value}")
     return 1 if found.lost or found.repeated or found.incomplete else 0
 
 

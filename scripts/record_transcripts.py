@@ -47,10 +47,10 @@ def main() -> int:
         try:
             path = args.out / f"{case['id']}.jsonl"
             outcome = record(case["request"], site, robot, path, settings=settings, note=args.note)
-            print(f"{case['id']}: {type(outcome).__name__}")  # noqa: T201
+            print(f"{case['id']}: {type(outcome).__name__}")
         except FieldhandError as error:
             failed += 1
-            print(f"{case['id']}: {error}", file=sys.stderr)  # noqa: T201
+            print(f"{case['id']}: {error}", file=sys.stderr)
     return min(failed, 125)
 
 

@@ -37,9 +37,10 @@ from fieldhand.robot.model import Patience, RobotProfile
 from fieldhand.site.geojson import open_site, parse_site
 from fieldhand.site.model import Site
 from fieldhand.task.build import FAULTED_EXITS, make_task
+from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import FaultedExit, Task
 from fieldhand.task.plan import Act, ForEach, GoTo, Node, Optional, Repeat, Sequence, Try, selector_of, walk
-from fieldhand.task.results import Event, to_json
+from fieldhand.task.results import Event
 from fieldhand.task.selectors import TreeIs, Trees, Union
 from rig import authorized
 

@@ -15,8 +15,9 @@ from fieldhand.planning.planner import Planned, Planner
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
 from fieldhand.site.model import Site
+from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Task
-from fieldhand.task.results import Ended, Event, to_json
+from fieldhand.task.results import Ended, Event
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -12,8 +12,8 @@ from fieldhand.errors import InputError
 from fieldhand.evaluation.report_facts import end_of
 from fieldhand.execution.world import World
 from fieldhand.task.codec import encode
+from fieldhand.task.event_lines import to_json
 from fieldhand.task.plan import Act, ForEach
-from fieldhand.task.results import to_json
 from fieldhand.task.selectors import Corners
 from orchards import husky, orchard, task_for
 

@@ -29,8 +29,9 @@ from fieldhand.site.formats.files import SiteFiles
 from fieldhand.site.geojson import site_of
 from fieldhand.site.model import Site
 from fieldhand.task.authorization import AuthorizedTask
+from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Task
-from fieldhand.task.results import Event, to_json
+from fieldhand.task.results import Event
 
 NOW = datetime(2026, 5, 1, 12, tzinfo=UTC)
 WHEN = "2026-05-01T08:00:00+02:00"

@@ -34,8 +34,8 @@ from fieldhand.site.formats.files import SiteFiles
 from fieldhand.site.formats.geojson import geojson_records
 from fieldhand.site.geojson import demo_path, site_of
 from fieldhand.task.codec import decode, decode_draft, encode
+from fieldhand.task.event_lines import from_json
 from fieldhand.task.references import references
-from fieldhand.task.results import from_json
 from fieldhand.task.schema import require_valid, schema_xsd
 from fuzzing import ground as g
 from fuzzing.mutate import Mutator, mutate_json, mutate_lines, mutate_text, mutate_xml, mutate_yaml

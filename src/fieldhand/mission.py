@@ -22,7 +22,6 @@ from fieldhand.task.results import Event, GoalOutcome
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
     from fieldhand.approval.checks import Problem
-    from fieldhand.approval.keys.signing import SigningKey
     from fieldhand.approval.keys.trust import TrustStore
     from fieldhand.approval.readback import ReadBack
     from fieldhand.evaluation.report import ReportFiles
@@ -33,7 +32,6 @@ if TYPE_CHECKING:
     from fieldhand.execution.world import World
     from fieldhand.forecast.estimate import Estimate
     from fieldhand.planning.llm.chat import Chat
-    from fieldhand.site.formats.files import SiteFiles
 
 PLANNERS = ("auto", "english", "llm")
 
@@ -209,35 +207,6 @@ def authorize(
     return approve(
         task, site, robot, by=by, at=at.isoformat(timespec="seconds"), confirmed=confirmed, language=language
     )
-
-
-def pack(
-    authorized: AuthorizedTask,
-    site: Site,
-    robot: RobotProfile,
-    *,
-    files: SiteFiles,
-    lenient: bool,
-    profile: bytes,
-    key: SigningKey,
-    planner: str,
-) -> bytes:
-    """The signed bundle of an approved mission (``*.mission``), which a robot that trusts the key carries out.
-
-    Args:
-        authorized: What approval gave.
-        site, robot: For which it was approved.
-        files: From which the site was read; ``lenient`` says how.
-        profile: The YAML from which the robot was read.
-        key: Of the person who approves.
-        planner: Who planned the Task.
-
-    Raises:
-        BundleError: The files are not those that were approved, or are too large.
-    """
-    from fieldhand.approval.bundle.packing import pack
-
-    return pack(authorized, site, robot, files=files, lenient=lenient, profile=profile, key=key, planner=planner)
 
 
 def open_bundle(data: bytes, *, source: str, trusted: TrustStore, now: datetime) -> Bundle:

@@ -13,7 +13,7 @@ from fieldhand import mission
 from fieldhand.api.work import Limits
 from fieldhand.planning.planner import Reason, Refused
 from fieldhand.robot.loader import load_robot
-from fieldhand.task.results import from_json
+from fieldhand.task.event_lines import from_json
 
 XML = corner_xml()
 

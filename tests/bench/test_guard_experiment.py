@@ -8,7 +8,7 @@ from fieldhand.bench.draw import PF, draw, family_of
 from fieldhand.bench.families import FAMILIES
 from fieldhand.bench.fly import Trial, fly, fly_all
 from fieldhand.bench.summary import Summary, summarize, wrongs
-from fieldhand.task.results import to_json
+from fieldhand.task.event_lines import to_json
 
 MISSIONS, TREES = 12, 30
 

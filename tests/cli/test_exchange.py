@@ -19,7 +19,8 @@ from fieldhand.cli.replay import replay
 from fieldhand.cli.report import report
 from fieldhand.errors import InputError
 from fieldhand.task.codec import encode
-from fieldhand.task.results import Started, to_json
+from fieldhand.task.event_lines import to_json
+from fieldhand.task.results import Started
 
 Command = Callable[..., None]
 

@@ -9,7 +9,7 @@ import pytest
 
 from command import fieldhand
 from driven import mission
-from fieldhand.task.results import to_json
+from fieldhand.task.event_lines import to_json
 
 WORDS = ("run", "Take a picture of the middle tree.", "--site", "demo", "--planner", "english", "--yes")
 

@@ -19,7 +19,8 @@ from exchange_missions import flight
 from fieldhand.errors import FieldhandError, InputError, OutputError, TaskError
 from fieldhand.exchange.mcap import McapLog, is_mcap, read_mcap
 from fieldhand.exchange.mcap.reading import MAGIC, MAX_RECORD
-from fieldhand.task.results import Acted, Arrived, Event, to_json
+from fieldhand.task.event_lines import to_json
+from fieldhand.task.results import Acted, Arrived, Event
 from random_events import events as random_events
 
 

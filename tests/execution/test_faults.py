@@ -32,6 +32,7 @@ from fieldhand.robot.model import Patience
 from fieldhand.site.model import Site
 from fieldhand.task.build import FAULTED_EXITS
 from fieldhand.task.conditions import Compare, Not
+from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import FaultedExit
 from fieldhand.task.plan import Act, ForEach, GoTo, If, Optional, Sequence, Try
 from fieldhand.task.results import (
@@ -47,7 +48,6 @@ from fieldhand.task.results import (
     Shed,
     Started,
     Waited,
-    to_json,
 )
 from fieldhand.task.selectors import TreeIs, Trees, Union
 from planted_sites import upright

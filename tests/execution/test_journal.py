@@ -26,19 +26,9 @@ from fieldhand.execution.runtime import Result, run
 from fieldhand.execution.world import World
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.conditions import Compare
+from fieldhand.task.event_lines import from_json, to_json
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Sequence, Try
-from fieldhand.task.results import (
-    Acted,
-    Continued,
-    Ended,
-    Exited,
-    InDoubt,
-    Paused,
-    Resumed,
-    Shed,
-    from_json,
-    to_json,
-)
+from fieldhand.task.results import Acted, Continued, Ended, Exited, InDoubt, Paused, Resumed, Shed
 from fieldhand.task.selectors import Half, Take, TreeIs
 from rig import BudgetOf, authorized, captured, husky, of_type, orchard, task_for
 

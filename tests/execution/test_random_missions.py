@@ -24,9 +24,10 @@ from fieldhand.execution.world import (
 )
 from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
 from fieldhand.robot.capabilities import capabilities_of
+from fieldhand.task.event_lines import from_json, to_json
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import walk
-from fieldhand.task.results import Acted, Arrived, Ended, Exited, Shed, Started, from_json, to_json
+from fieldhand.task.results import Acted, Arrived, Ended, Exited, Shed, Started
 from rig import Rig, husky, of_type, orchard
 from strategies import Parts
 

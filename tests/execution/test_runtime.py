@@ -30,6 +30,7 @@ from fieldhand.execution.world import (
 )
 from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
 from fieldhand.task.conditions import Compare
+from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Constraints, FaultedExit
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Stop, Try
 from fieldhand.task.plan import Sequence as Steps
@@ -44,7 +45,6 @@ from fieldhand.task.results import (
     Shed,
     Started,
     Waited,
-    to_json,
 )
 from fieldhand.task.selectors import Half, Selector, TreeIs, Trees, Union
 from rig import BudgetOf, Rig, authorized, captured, husky, of_type, orchard, task_for

@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given, settings
 
 from fieldhand.errors import TaskError
-from fieldhand.task.results import Event, from_json, to_json
+from fieldhand.task.event_lines import from_json, to_json
+from fieldhand.task.results import Event
 from random_events import events
 
 

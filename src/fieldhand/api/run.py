@@ -22,8 +22,9 @@ from fieldhand.approval.production import require_unsigned_allowed
 from fieldhand.evaluation.telling import Teller, goal_names
 from fieldhand.planning.planner import Planned
 from fieldhand.task.authorization import AuthorizedTask
+from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Task
-from fieldhand.task.results import Ended, Event, to_json
+from fieldhand.task.results import Ended, Event
 
 
 def router(workers: Workers, planners: Planners, limits: Limits) -> APIRouter:

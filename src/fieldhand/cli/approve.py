@@ -56,7 +56,7 @@ def approve(
     """Show what a mission will do and take, have it approved, and sign it for the robot."""
     import os
 
-    from fieldhand import mission
+    from fieldhand.approval.bundle.packing import pack
     from fieldhand.approval.keys.folder import config_folder
     from fieldhand.approval.keys.signing import SigningKeys
     from fieldhand.cli import show
@@ -89,7 +89,7 @@ def approve(
             show.out.print(language.say(message("Map: {file}", file=str(picture))))
     authorized = approve_plan(ground, review, consent, message("Approve and sign?"))
     signing = own.open(chosen, passphrase)
-    data = mission.pack(
+    data = pack(
         authorized,
         ground.site,
         ground.robot,

@@ -143,7 +143,7 @@ def _of_log(source: _Source, to: str, output: Path) -> _Made:
     from fieldhand.exchange.routes.route import driven
     from fieldhand.past import read_log
     from fieldhand.robot.loader import load_robot
-    from fieldhand.task.results import to_json
+    from fieldhand.task.event_lines import to_json
 
     folder, site = source.folder, source.site
     events = (read_log(Path(source.given)) if folder is None else log_of_folder(folder)).events

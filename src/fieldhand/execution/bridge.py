@@ -20,8 +20,9 @@ from fieldhand.execution.witness import Asked, Witness
 from fieldhand.forecast.routes import drives_for
 from fieldhand.robot.model import InDoubtPolicy, RobotProfile
 from fieldhand.site.model import Site
+from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Task
-from fieldhand.task.results import Continued, Driving, Event, InDoubt, Paused, Resumed, to_json
+from fieldhand.task.results import Continued, Driving, Event, InDoubt, Paused, Resumed
 
 
 class Bridge:

@@ -8,7 +8,8 @@ from types import TracebackType
 from typing import TextIO
 
 from fieldhand.errors import InputError, OutputError, TaskError
-from fieldhand.task.results import Event, from_json, to_json
+from fieldhand.task.event_lines import from_json, to_json
+from fieldhand.task.results import Event
 
 #: A mission of ten thousand captures is 10 MB; a file beyond this is something else.
 MAX_BYTES = 500_000_000

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 from fieldhand import mission
 from fieldhand.errors import ExecutionError
 from fieldhand.missions.folder import JOURNAL, LOCK, LOG, ORDERS, Mission, read_about, read_file
-from fieldhand.task.results import Event, from_json
+from fieldhand.task.event_lines import from_json
+from fieldhand.task.results import Event
 
 if TYPE_CHECKING:
     from fieldhand.evaluation.standing import Standing

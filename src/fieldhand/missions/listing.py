@@ -9,7 +9,8 @@ from pathlib import Path
 from fieldhand.errors import FieldhandError, JournalError
 from fieldhand.missions.finding import all_missions, begun_at
 from fieldhand.missions.folder import JOURNAL, LOCK, read_about, read_file, remove_folder
-from fieldhand.task.results import Continued, Ended, Exited, Paused, from_json
+from fieldhand.task.event_lines import from_json
+from fieldhand.task.results import Continued, Ended, Exited, Paused
 
 #: How the lines begin that say how a mission stands; the others are not read.
 _TURNS = tuple(f'{{"event": "{kind.event}"' for kind in (Paused, Continued, Exited, Ended))

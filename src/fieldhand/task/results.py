@@ -1,24 +1,16 @@
 """The results frame: what happened, as events, and what came of each goal, as outcomes.
 
-An event log is one JSON object a line, in the order in which things happened: ``event`` names the type, the other keys
-are the fields below. Execution writes events; evaluation reads them; other programs may, too. Every event has ``t``
-(seconds since the mission began) and ``node`` (id of the plan node, empty where none is meant). Degrees are WGS 84.
+An event log is one JSON object a line (:mod:`fieldhand.task.event_lines`), in the order in which things happened:
+``event`` names the type, the other keys are the fields below. Execution writes events; evaluation reads them; other
+programs may, too. Every event has ``t`` (seconds since the mission began) and ``node`` (id of the plan node, empty
+where none is meant). Degrees are WGS 84.
 """
 
 from __future__ import annotations
 
-import dataclasses
-import json
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cache
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, get_args
-
-from fieldhand.errors import TaskError
-
-if TYPE_CHECKING:
-    from pydantic import TypeAdapter
+from typing import ClassVar, Literal
 
 MissionStatus = Literal["completed", "returned", "faulted", "aborted"]
 
@@ -300,58 +292,6 @@ Event = (
     | Exited
     | Ended
 )
-
-_TYPES: dict[str, type[Event]] = {kind.event: kind for kind in get_args(Event)}
-
-
-def to_json(event: Event) -> str:
-    """An event as one line of an event log."""
-    fields = {f.name: getattr(event, f.name) for f in dataclasses.fields(event)}
-    return json.dumps({"event": event.event, **fields}, ensure_ascii=False, default=dict)
-
-
-def from_json(line: str, *, where: str = "") -> Event | None:
-    """An event from a line of an event log; None for an event type that this version does not know.
-
-    Raises:
-        TaskError: The line is not JSON, or lacks a field of its event.
-    """
-    try:
-        record: dict[str, Any] = json.loads(line)
-        kind = _TYPES.get(record.pop("event"))
-        if kind is None:
-            return None
-        known = {f.name for f in dataclasses.fields(kind)}
-        return _checked(kind, {key: value for key, value in record.items() if key in known})
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
-        raise TaskError(
-            f"not an event: {' '.join(str(error).split())[:200]}", where=where, advice="was the log cut off or edited?"
-        ) from None
-
-
-def _checked(kind: type[Event], record: dict[str, Any]) -> Event:
-    """An event whose fields are what they are declared to be; a log may come from anywhere."""
-    from pydantic import ValidationError
-
-    try:
-        event = _adapters()[kind.event].validate_json(json.dumps(record), strict=True)
-    except ValidationError as error:
-        wrong = error.errors(include_url=False)[0]
-        name = str(wrong["loc"][0]) if wrong["loc"] else "a field"
-        value = json.dumps(record.get(name), default=str)[:60]
-        raise ValueError(f"{name} cannot be {value}" if name in record else f"{name} is missing") from None
-    for f in dataclasses.fields(kind):
-        found = getattr(event, f.name)
-        if isinstance(found, float) and not math.isfinite(found):
-            raise ValueError(f"{f.name} cannot be {found}")
-    return event
-
-
-@cache
-def _adapters() -> dict[str, TypeAdapter[Event]]:
-    from pydantic import TypeAdapter
-
-    return {name: TypeAdapter(kind) for name, kind in _TYPES.items()}
 
 
 @dataclass(frozen=True, kw_only=True)

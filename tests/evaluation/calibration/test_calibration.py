@@ -17,7 +17,8 @@ from fieldhand.evaluation.calibration.fit import calibrate
 from fieldhand.evaluation.calibration.steps import Driven, Step, steps_of
 from fieldhand.robot.loader import builtin_names, load_robot, parse_profile, profile_bytes
 from fieldhand.robot.rewrite import figure, with_figures
-from fieldhand.task.results import Arrived, Driving, Faulted, to_json
+from fieldhand.task.event_lines import to_json
+from fieldhand.task.results import Arrived, Driving, Faulted
 
 NOW = datetime(2026, 5, 1, tzinfo=UTC)
 

@@ -23,9 +23,9 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.geojson import load_site
 from fieldhand.site.model import Site
 from fieldhand.task.authorization import AuthorizedTask
+from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Act, ForEach, If, Repeat, walk
-from fieldhand.task.results import to_json
 
 #: What became of a request: a mission; a question; a refusal; no answer of a model that could be used; a Task that a
 #: check forbids.

@@ -10,7 +10,18 @@ from typing import Literal
 
 from fieldhand.errors import InputError
 from fieldhand.robot.model import RobotProfile
-from fieldhand.task.results import Acted, Arrived, Decided, Driving, Ended, Event, Shed, Started, Visiting, to_json
+from fieldhand.task.event_lines import to_json
+from fieldhand.task.results import (
+    Acted,
+    Arrived,
+    Decided,
+    Driving,
+    Ended,
+    Event,
+    Shed,
+    Started,
+    Visiting,
+)
 
 StepKind = Literal["leg", "capture", "rest"]
 

@@ -11,7 +11,8 @@ from typing import IO, TYPE_CHECKING, Any
 
 from fieldhand.errors import InputError, TaskError
 from fieldhand.exchange.mcap.schemas import EVENTS
-from fieldhand.task.results import Event, from_json
+from fieldhand.task.event_lines import from_json
+from fieldhand.task.results import Event
 
 if TYPE_CHECKING:
     from mcap.records import Chunk

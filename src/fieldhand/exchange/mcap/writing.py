@@ -29,6 +29,7 @@ from fieldhand.errors import OutputError
 from fieldhand.exchange.broken_off import driven_part
 from fieldhand.exchange.incidents import known, position_of
 from fieldhand.exchange.mcap.schemas import EVENTS, GEOJSON, LOCATION, LOG, STATE, schema_of
+from fieldhand.task.event_lines import to_json
 from fieldhand.task.results import (
     Acted,
     Arrived,
@@ -44,7 +45,6 @@ from fieldhand.task.results import (
     Shed,
     Started,
     Waited,
-    to_json,
 )
 
 if TYPE_CHECKING:
