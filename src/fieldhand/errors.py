@@ -22,6 +22,7 @@
     ├── DeliveryError               a mission that could not be handed to a robot
     │   └── UnreachableError        not now; later it may be
     └── ExecutionError              the robot
+        ├── Ros2Error               it cannot be reached over ROS 2, or is not what its profile says
         ├── DriveFault              a leg that cannot be driven
         │   ├── BlockedFault        what the robot found in its way leaves no other
         │   └── LostFault           the robot does not know where it is
@@ -54,6 +55,7 @@ __all__ = [
     "ProblemError",
     "ProfileError",
     "RequestError",
+    "Ros2Error",
     "SiteError",
     "StoreError",
     "TaskError",
@@ -196,6 +198,10 @@ class UnreachableError(DeliveryError):
 
 class ExecutionError(FieldhandError):
     """The robot could not do what the Task asks."""
+
+
+class Ros2Error(ExecutionError):
+    """The robot cannot be reached over ROS 2, or what it says does not fit what its profile says of it."""
 
 
 class DriveFault(ExecutionError):

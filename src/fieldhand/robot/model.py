@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal
 
+from fieldhand.robot.bindings import Ros2Bindings
+
 Direction = Literal["below", "above"]
 
 #: What is done about a capture that was in the air when the power was cut: nobody knows whether it was made.
@@ -141,6 +143,7 @@ class RobotProfile:
             aisle it stands in the middle.
         retries: Of a failed action or drive.
         patience: How long it waits when something is wrong.
+        ros2: How it is reached over ROS 2; None for a robot that is only simulated.
     """
 
     name: str
@@ -156,6 +159,7 @@ class RobotProfile:
     sha256: str
     source: str = ""
     patience: Patience = Patience()
+    ros2: Ros2Bindings | None = None
 
     @cached_property
     def action(self) -> Mapping[str, Action]:
