@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldhand.errors import InputError, RequestError
+from fieldhand.files import state_folder
 from fieldhand.planning.planner import Answer, Outcome, Planner
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -109,12 +110,6 @@ def make_planner(
 def transcript_path(environ: Mapping[str, str]) -> Path:
     """Where transcripts are kept unless the user says otherwise: in the user's state folder, added to."""
     return state_folder(environ) / "transcripts.jsonl"
-
-
-def state_folder(environ: Mapping[str, str]) -> Path:
-    """Where Fieldhand keeps what is its user's own."""
-    state = environ.get("XDG_STATE_HOME") or str(Path(environ.get("HOME") or "~").expanduser() / ".local" / "state")
-    return Path(state) / "fieldhand"
 
 
 def plan(request: str, site: Site, robot: RobotProfile, planner: Planner, answers: tuple[Answer, ...] = ()) -> Outcome:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from fieldhand import mission
 from fieldhand.errors import InputError
+from fieldhand.files import state_folder
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 
 def history_folder(environ: Mapping[str, str]) -> Path:
     """Where it is kept what missions cost each robot: in the user's state folder."""
-    return mission.state_folder(environ) / "history"
+    return state_folder(environ) / "history"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -13,7 +13,6 @@ from cryptography.hazmat.primitives.asymmetric import ec, x25519
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fieldhand.approval.keys.folder import config_folder
 from fieldhand.approval.keys.public import PublicKey, parse_fingerprint, parse_public
 from fieldhand.approval.keys.signing import SigningKeys
 from fieldhand.approval.keys.trust import TrustStore
@@ -255,12 +254,6 @@ def test_a_folder_that_cannot_be_written_is_said(tmp_path: Path) -> None:
         SigningKeys(tmp_path / "file").make("Ada")
     with pytest.raises((OutputError, KeyFileError)):
         TrustStore(tmp_path / "file").revoke(signing_key().public.fingerprint, at=NOW)
-
-
-def test_the_folder_is_the_users_own() -> None:
-    assert config_folder({"FIELDHAND_CONFIG": "/etc/f", "HOME": "/h"}) == Path("/etc/f")
-    assert config_folder({"XDG_CONFIG_HOME": "/x", "HOME": "/h"}) == Path("/x/fieldhand")
-    assert config_folder({"HOME": "/h"}) == Path("/h/.config/fieldhand")
 
 
 @pytest.mark.parametrize(("said", "on"), [("1", True), ("Yes", True), (" on ", True), ("", False), ("0", False)])

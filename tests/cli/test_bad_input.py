@@ -177,7 +177,7 @@ def test_a_terminal_that_cannot_show_every_sign_still_gets_an_answer() -> None:
 
 
 def test_a_file_without_end_is_not_read_to_its_end() -> None:
-    assert is_one_clear_line(fieldhand("check", "/dev/zero", "--site", "demo"), "/dev/zero", "more than")
+    assert is_one_clear_line(fieldhand("check", "/dev/zero", "--site", "demo"), "/dev/zero", "larger than")
 
 
 def test_a_signed_mission_is_written_to_a_file_and_not_approved_again(tmp_path: Path) -> None:

@@ -22,12 +22,11 @@ from command import Run
 from fieldhand import missions
 from fieldhand.approval.keys.signing import SigningKeys
 from fieldhand.approval.keys.trust import TrustStore
-from fieldhand.cli import app, approving, flight, inputs, main
-from fieldhand.errors import OutputError
+from fieldhand.cli import app, approving, flight, main
 from fieldhand.exchange.mcap import read_mcap
 from fieldhand.execution.journal import store
 from fieldhand.task.codec import encode
-from signed import good, pack_mission, signing_key
+from signed import pack_mission, signing_key
 
 REQUEST = "Read CO2 at tree 4."
 Command = Callable[..., Run]
@@ -341,20 +340,6 @@ def test_a_folder_without_its_bundle_is_not_resumed_in_production(
     refuses(trusting("resume", "--production"), 1, "only signed missions")
     assert _events(cut_off) == before
     assert trusting("resume").status == 0
-
-
-def test_a_mission_is_written_as_a_whole_or_not_at_all(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(_: int) -> None:
-        raise OSError(28, "No space left on device")
-
-    path = tmp_path / "m.mission"
-    inputs.write_whole(path, b"the first")
-    with monkeypatch.context() as patch:
-        patch.setattr(inputs.os, "fsync", full)
-        with pytest.raises(OutputError, match="No space left"):
-            inputs.write_whole(path, good())
-    assert path.read_bytes() == b"the first"
-    assert list(tmp_path.iterdir()) == [path]
 
 
 def _page(folder: str) -> str:

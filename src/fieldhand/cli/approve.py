@@ -57,7 +57,6 @@ def approve(
     import os
 
     from fieldhand.approval.bundle.packing import pack
-    from fieldhand.approval.keys.folder import config_folder
     from fieldhand.approval.keys.signing import SigningKeys
     from fieldhand.cli import show
     from fieldhand.cli.approving import approve_plan, review_plan
@@ -65,6 +64,7 @@ def approve(
     from fieldhand.cli.bundles import require_ending
     from fieldhand.cli.inputs import Ground, tell_left_out, write_whole
     from fieldhand.cli.secrets import passphrase
+    from fieldhand.files import config_folder
     from fieldhand.language import message, spoken
     from fieldhand.robot.loader import parse_profile, profile_bytes
     from fieldhand.site.geojson import site_files, site_of

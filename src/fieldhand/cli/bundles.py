@@ -58,8 +58,8 @@ def verify(data: bytes, source: str) -> Bundle:
         BundleError: It cannot be used.
         NotTrustedError: Nobody who is trusted here has signed it.
     """
-    from fieldhand.approval.keys.folder import config_folder
     from fieldhand.approval.keys.trust import TrustStore
+    from fieldhand.files import config_folder
 
     trusted = TrustStore(config_folder(os.environ))
     return mission.open_bundle(data, source=source, trusted=trusted, now=datetime.now(UTC))
@@ -89,8 +89,8 @@ def read_unverified(data: bytes, source: str) -> Unverified:
     """
     from fieldhand.approval.bundle.container import TASK
     from fieldhand.approval.bundle.opening import content_of, unseal
-    from fieldhand.approval.keys.folder import config_folder
     from fieldhand.approval.keys.trust import TrustStore
+    from fieldhand.files import config_folder
 
     sealed = unseal(data, source=source)
     fingerprint = sealed.signature.public.fingerprint

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 import sys
-from contextlib import suppress
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from fieldhand import files
 from fieldhand.cli.show import note
 from fieldhand.errors import OutputError
 from fieldhand.robot.model import RobotProfile
@@ -48,13 +48,7 @@ def write_file(path: Path, data: bytes) -> None:
     Raises:
         OutputError: It cannot be written.
     """
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(data)
-    except OSError as error:
-        raise OutputError(
-            f"cannot write: {error.strerror}", where=str(path), advice="choose a folder that you may write to"
-        ) from None
+    _write(path, data, Path.write_bytes)
 
 
 def write_whole(path: Path, data: bytes) -> None:
@@ -63,17 +57,14 @@ def write_whole(path: Path, data: bytes) -> None:
     Raises:
         OutputError: It cannot be written.
     """
-    beside = path.with_name(f".{path.name}.{os.getpid()}.part")
+    _write(path, data, files.write_whole)
+
+
+def _write(path: Path, data: bytes, how: Callable[[Path, bytes], object]) -> None:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with beside.open("wb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        beside.replace(path)
+        how(path, data)
     except OSError as error:
-        with suppress(OSError):
-            beside.unlink(missing_ok=True)
         raise OutputError(
             f"cannot write: {error.strerror}", where=str(path), advice="choose a folder that you may write to"
         ) from None

@@ -61,9 +61,9 @@ def _findings(data: bytes, source: str, language: Language) -> _Findings:
 
     from fieldhand import mission
     from fieldhand.approval.bundle.opening import content_of, require_trusted, unseal
-    from fieldhand.approval.keys.folder import config_folder
     from fieldhand.approval.keys.trust import TrustStore
     from fieldhand.errors import BundleError, FieldhandError, NotTrustedError
+    from fieldhand.files import config_folder
 
     known = TrustStore(config_folder(os.environ)).known()
     try:

@@ -93,15 +93,15 @@ def trust(
     from datetime import UTC, datetime
 
     from fieldhand.approval.keys.public import parse_fingerprint, parse_public
-    from fieldhand.approval.keys.rights import MAX_BYTES
+    from fieldhand.approval.keys.rights import MAX_BYTES, not_a_key
     from fieldhand.cli import show
     from fieldhand.errors import KeyFileError
+    from fieldhand.files import FileFault, read_file
 
     try:
-        with file.open("rb") as opened:
-            text = opened.read(MAX_BYTES).decode(errors="replace")
-    except OSError as error:
-        raise KeyFileError(f"cannot be read: {error.strerror}", where=str(file), advice="check the path") from None
+        text = read_file(file, MAX_BYTES).decode(errors="replace")
+    except FileFault as fault:
+        raise not_a_key(file, fault) from None
     public = parse_public(text, source=str(file))
     if fingerprint is not None and parse_fingerprint(fingerprint) != public.fingerprint:
         raise KeyFileError(
@@ -140,9 +140,9 @@ def revoke(
 def _folders() -> tuple[SigningKeys, TrustStore]:
     import os
 
-    from fieldhand.approval.keys.folder import config_folder
     from fieldhand.approval.keys.signing import SigningKeys
     from fieldhand.approval.keys.trust import TrustStore
+    from fieldhand.files import config_folder
 
     folder = config_folder(os.environ)
     return SigningKeys(folder), TrustStore(folder)

@@ -65,16 +65,6 @@ class Part:
             self.path.unlink(missing_ok=True)
 
 
-def sync(folder: Path) -> None:
-    """Wait until the names in a folder are on the disk, where the system knows how."""
-    if os.name == "posix":
-        descriptor = os.open(folder, os.O_RDONLY)
-        try:
-            os.fsync(descriptor)
-        finally:
-            os.close(descriptor)
-
-
 def unwritable(path: Path, error: OSError) -> StoreError:
     """That the disk is full, or that nobody may write there."""
     return StoreError(f"cannot be written: {error.strerror or error}", where=str(path), advice="free some space")

@@ -21,10 +21,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldhand import missions
-from fieldhand.delivery.arriving import Part, sync, unwritable
+from fieldhand.delivery.arriving import Part, unwritable
 from fieldhand.delivery.ledger import Held, Ledger
 from fieldhand.delivery.verified import Accept
 from fieldhand.errors import BundleError, ExecutionError, StoreError
+from fieldhand.files import move_whole
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
@@ -124,8 +125,7 @@ class Depot:
     def _put(self, part: Part, sha256: str) -> None:
         path = self._path(sha256)
         try:
-            part.path.replace(path)
-            sync(self._bundles)
+            move_whole(part.path, path)
         except OSError as error:
             raise unwritable(path, error) from None
 

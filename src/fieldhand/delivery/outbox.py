@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Literal
 
 from fieldhand.errors import StoreError
+from fieldhand.files import state_folder
 
 #: Of the database; a program that writes another one refuses this.
 FORMAT = 1
@@ -68,10 +69,8 @@ _NEW = _COLUMNS.removeprefix("n, ")
 
 def outbox_folder(environ: Mapping[str, str]) -> Path:
     """Where it is unless the user says otherwise: ``FIELDHAND_OUTBOX``, else in the user's state folder."""
-    from fieldhand import mission
-
     own = environ.get("FIELDHAND_OUTBOX")
-    return Path(own) if own else mission.transcript_path(environ).parent / "outbox"
+    return Path(own) if own else state_folder(environ) / "outbox"
 
 
 class Outbox:

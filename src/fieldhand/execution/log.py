@@ -8,6 +8,7 @@ from types import TracebackType
 from typing import TextIO
 
 from fieldhand.errors import InputError, OutputError, TaskError
+from fieldhand.files import FileFault, read_file
 from fieldhand.task.event_lines import from_json, to_json
 from fieldhand.task.results import Event
 
@@ -89,18 +90,10 @@ def read_events(path: Path, *, whole: bool = True) -> tuple[Event, ...]:
         TaskError: A line is no event; says which.
     """
     try:
-        with path.open("rb") as file:
-            data = file.read(MAX_BYTES + 1)
-        if len(data) > MAX_BYTES:
-            raise InputError(
-                f"is larger than {MAX_BYTES:,} bytes", where=str(path), advice="give a log that --events wrote"
-            )
-        text = data.decode()
-    except (OSError, ValueError) as error:
-        why = error.strerror if isinstance(error, OSError) and error.strerror else "it is not UTF-8 text"
-        raise InputError(
-            f"the event log cannot be read: {why}", where=str(path), advice="give a log that --events wrote"
-        ) from None
+        text = read_file(path, MAX_BYTES).decode()
+    except (FileFault, UnicodeDecodeError) as fault:
+        what = fault.what if isinstance(fault, FileFault) else "cannot be read: it is not UTF-8 text"
+        raise InputError(f"the event log {what}", where=str(path), advice="give a log that --events wrote") from None
     lines = text.split("\n")
     # Every line ends in a line break once it is written whole.
     last = [] if whole else [lines.pop()]

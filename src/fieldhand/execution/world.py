@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from fieldhand.errors import WorldError
+from fieldhand.files import FileFault, read_file
 
 #: A world of a value for each of 3,000 trees is 200 kB; a file beyond this is something else.
 MAX_BYTES = 5_000_000
@@ -181,16 +182,12 @@ def load_world(path: Path) -> World:
     """
     source = str(path)
     try:
-        with path.open("rb") as file:
-            data = file.read(MAX_BYTES + 1)  # a device has no size, and no end
-        if len(data) > MAX_BYTES:
-            raise WorldError(f"is larger than {MAX_BYTES:,} bytes", where=source, advice="is it a world file?")
-        text = data.decode("utf-8-sig")
-    except (OSError, ValueError) as error:
-        if isinstance(error, UnicodeDecodeError):
-            raise WorldError("is not UTF-8 text", where=source, advice="save it as UTF-8") from None
-        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise WorldError(f"cannot be read: {why}", where=source, advice="give the path of a YAML file") from None
+        text = read_file(path, MAX_BYTES).decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise WorldError("is not UTF-8 text", where=source, advice="save it as UTF-8") from None
+    except FileFault as fault:
+        advice = "is it a world file?" if fault.kind == "too large" else "give the path of a YAML file"
+        raise WorldError(fault.what, where=source, advice=advice) from None
     return parse_world(_content(text, source), source=source)
 
 

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from datetime import UTC, datetime
 from pathlib import Path
 
-from fieldhand import mission
 from fieldhand.errors import JournalError
+from fieldhand.files import state_folder
 from fieldhand.missions.folder import ABOUT
 
 
@@ -16,7 +16,7 @@ def missions_folder(environ: Mapping[str, str]) -> Path:
     own = environ.get("FIELDHAND_MISSIONS")
     if own:
         return Path(own)
-    return mission.state_folder(environ) / "missions"
+    return state_folder(environ) / "missions"
 
 
 def find(under: Path, name: str | None) -> Path:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 import secrets
 import shutil
 from collections.abc import Callable, Mapping
@@ -15,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from fieldhand import mission
 from fieldhand.errors import JournalError
+from fieldhand.files import store_names, write_stored, write_whole
 from fieldhand.missions.signed import require_signed
 from fieldhand.task.authorization import Authorization, AuthorizedTask
 
@@ -122,12 +122,12 @@ def begin(under: Path, name: str, inputs: Inputs) -> Path:
         for file in (JOURNAL, f"{JOURNAL}-wal", f"{JOURNAL}-shm", ORDERS, f"{ORDERS}-wal", f"{ORDERS}-shm"):
             (folder / file).unlink(missing_ok=True)
         for file, data in files.items():
-            _write(folder / file, data)
+            write_stored(folder / file, data)
         create(folder / JOURNAL, hashlib.sha256(whole).hexdigest())
         Desk(folder / ORDERS).create()
-        _write(folder / f"{ABOUT}.part", whole)
-        (folder / f"{ABOUT}.part").rename(folder / ABOUT)
-        _sync(folder)
+        store_names(folder / "site")
+        write_whole(folder / ABOUT, whole)
+        store_names(under)
     except OSError as error:
         raise JournalError(
             f"the mission's folder cannot be written: {error.strerror or error}",
@@ -272,24 +272,3 @@ def read_file(folder: Path, file: str, sha256: str) -> bytes:
 
 def _no_mission(folder: Path, why: str) -> JournalError:
     return JournalError(f"this is no mission: {why}", where=str(folder), advice="give the folder that run has made")
-
-
-def _write(path: Path, data: bytes) -> None:
-    """Write a file and wait until it is on the disk."""
-    with path.open("wb") as file:
-        file.write(data)
-        file.flush()
-        os.fsync(file.fileno())
-
-
-def _sync(folder: Path) -> None:
-    """Wait until the names in a folder are on the disk, where the system knows how."""
-    for one in (folder / "site", folder, folder.parent):
-        try:
-            handle = os.open(one, os.O_RDONLY)
-        except OSError:
-            continue  # a folder cannot be opened everywhere
-        try:
-            os.fsync(handle)
-        finally:
-            os.close(handle)

@@ -123,12 +123,12 @@ def compose_agent(
     from fieldhand.agent.app import create_agent
     from fieldhand.agent.routes import Identity
     from fieldhand.api.serving import hosts_for
-    from fieldhand.approval.keys.folder import config_folder
     from fieldhand.approval.keys.trust import TrustStore
     from fieldhand.delivery.crew import Crew
     from fieldhand.delivery.depot import Depot
     from fieldhand.delivery.verified import acceptance
     from fieldhand.execution.world import World, load_world
+    from fieldhand.files import config_folder
     from fieldhand.robot.loader import load_robot
     from fieldhand.site.geojson import open_site
 

@@ -12,6 +12,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from fieldhand.errors import ProfileError
+from fieldhand.files import FileFault, read_file
 from fieldhand.robot.document import (
     ActionDocument,
     LevelDocument,
@@ -82,18 +83,13 @@ def profile_bytes(name_or_path: str) -> tuple[bytes, str]:
         return (resources.files("fieldhand.robot") / "profiles" / f"{name_or_path}.yaml").read_bytes(), name_or_path
     path = Path(name_or_path)
     try:
-        if path.is_file():
-            if path.stat().st_size > MAX_BYTES:
-                raise ProfileError(
-                    f"the file is larger than {MAX_BYTES} bytes", where=str(path), advice="a profile is a page of YAML"
-                )
-            return path.read_bytes(), str(path)
-        found = path.exists()
-    except (OSError, ValueError) as error:
-        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise ProfileError(f"cannot be read: {why}", where=_short(name_or_path)) from None
-    if found:
-        raise ProfileError("is not a file", where=_short(name_or_path), advice="give the path of a YAML file")
+        return read_file(path, MAX_BYTES, plain=True), str(path)
+    except FileFault as fault:
+        if fault.kind != "missing":
+            advice = {"too large": "a profile is a page of YAML", "no file": "give the path of a YAML file"}
+            raise ProfileError(
+                fault.what, where=_short(name_or_path), advice=advice.get(fault.kind, "check the path")
+            ) from None
     near = difflib.get_close_matches(name_or_path.lower(), names, n=1)
     hint = f"did you mean {near[0]!r}? " if near else ""
     raise ProfileError(

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fieldhand.errors import TaskError
+from fieldhand.files import FileFault, read_file
 
 if TYPE_CHECKING:
     from lxml.etree import _Element
@@ -24,14 +25,10 @@ def read_xml(path: Path, *, advice: str = "give an XML file") -> bytes:
         TaskError: It cannot be read, or is too large.
     """
     try:
-        with path.open("rb") as file:
-            data = file.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as error:
-        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise TaskError(f"cannot be read: {why}", where=str(path), advice=advice) from None
-    if len(data) > MAX_BYTES:
-        raise TaskError(f"has more than {MAX_BYTES} bytes", where=str(path), advice="split the mission")
-    return data
+        return read_file(path, MAX_BYTES)
+    except FileFault as fault:
+        advice = "split the mission" if fault.kind == "too large" else advice
+        raise TaskError(fault.what, where=str(path), advice=advice) from None
 
 
 def parse_xml(data: bytes, *, source: str = "") -> _Element:

@@ -16,6 +16,7 @@ from collections.abc import Mapping
 from pathlib import Path, PurePosixPath
 
 from fieldhand.errors import BundleError
+from fieldhand.files import FileFault, read_file
 
 #: Of the whole file: a site of 100 MB, the most that is read, and what belongs to it.
 MAX_BYTES = 128_000_000
@@ -90,20 +91,13 @@ def read_bundle_file(path: Path) -> bytes:
     """
     at = str(path)
     try:
-        if not path.is_file():
-            what = "is not a file" if path.exists() else "there is no such file"
-            raise BundleError(what, where=at, advice="give a file that fieldhand approve wrote")
-        size = path.stat().st_size
-        if size <= MAX_BYTES:
-            with path.open("rb") as file:
-                data = file.read(MAX_BYTES + 1)
-            size = len(data)
-    except (OSError, ValueError) as error:
-        why = error.strerror if isinstance(error, OSError) else str(error)
-        raise BundleError(f"cannot be read: {why}", where=at, advice="check the path and its rights") from None
-    if size > MAX_BYTES:
-        raise too_big(size, at)
-    return data
+        return read_file(path, MAX_BYTES, plain=True)
+    except FileFault as fault:
+        if fault.kind == "too large":
+            raise too_big(fault.size, at) from None
+        found = fault.kind == "unreadable"
+        advice = "check the path and its rights" if found else "give a file that fieldhand approve wrote"
+        raise BundleError(fault.what, where=at, advice=advice) from None
 
 
 def too_big(size: int, source: str) -> BundleError:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import os
 import stat
-from contextlib import suppress
 from pathlib import Path
 
 from fieldhand.errors import KeyFileError, OutputError
+from fieldhand.files import FileFault, read_file, write_stored, write_whole
 
 #: A key is a few lines.
 MAX_BYTES = 64_000
@@ -24,15 +24,15 @@ def read_guarded(path: Path, *, private: bool) -> bytes:
         KeyFileError: It is missing, no file, too large, not the user's own, or others have rights on it.
     """
     try:
-        # The rights are those of the file that is read, even if another is put in its place meanwhile.
-        with path.open("rb") as file:
-            require_own(os.fstat(file.fileno()), path, private=private)
-            data = file.read(MAX_BYTES + 1)
-    except OSError as error:
-        raise KeyFileError(f"cannot be read: {error.strerror}", where=str(path), advice="check the path") from None
-    if len(data) > MAX_BYTES:
-        raise KeyFileError("is no key: it is too large", where=str(path), advice="check the path")
-    return data
+        return read_file(path, MAX_BYTES, look=lambda status: require_own(status, path, private=private))
+    except FileFault as fault:
+        raise not_a_key(path, fault) from None
+
+
+def not_a_key(path: Path, fault: FileFault) -> KeyFileError:
+    """That a file cannot be read, or is too large to hold a key."""
+    what = "is no key: it is too large" if fault.kind == "too large" else fault.what
+    return KeyFileError(what, where=str(path), advice="check the path")
 
 
 def require_own(status: os.stat_result, path: Path, *, private: bool) -> None:
@@ -73,8 +73,7 @@ def write_new(path: Path, data: bytes) -> None:
         OutputError: It cannot be written.
     """
     try:
-        with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:
-            _store(file.fileno(), data)
+        write_stored(path, data, mode=0o600, new=True)
     except FileExistsError:
         raise KeyFileError("there is such a key already", where=str(path), advice="choose another --name") from None
     except OSError as error:
@@ -87,33 +86,10 @@ def replace(path: Path, data: bytes) -> None:
     Raises:
         OutputError: It cannot be written.
     """
-    beside = path.with_name(f".{path.name}.{os.getpid()}")
     try:
-        with os.fdopen(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600), "wb") as file:
-            _store(file.fileno(), data)
-        beside.replace(path)
-        _store_names(path.parent)
+        write_whole(path, data, mode=0o600)
     except OSError as error:
-        with suppress(OSError):
-            beside.unlink(missing_ok=True)
         raise _unwritable(path, error) from None
-
-
-def _store(descriptor: int, data: bytes) -> None:
-    left = memoryview(data)
-    while left:
-        left = left[os.write(descriptor, left) :]
-    os.fsync(descriptor)
-
-
-def _store_names(folder: Path) -> None:
-    """A file that was renamed has its new name after a power cut only once its folder is stored."""
-    if os.name == "posix":
-        descriptor = os.open(folder, os.O_RDONLY)
-        try:
-            os.fsync(descriptor)
-        finally:
-            os.close(descriptor)
 
 
 def _unwritable(path: Path, error: OSError) -> OutputError:

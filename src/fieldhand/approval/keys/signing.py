@@ -47,7 +47,7 @@ class SigningKeys:
     """The folder of a person's own keys.
 
     Args:
-        folder: The user's configuration (:func:`fieldhand.approval.keys.folder.config_folder`).
+        folder: The user's configuration (:func:`fieldhand.files.config_folder`).
     """
 
     def __init__(self, folder: Path) -> None:

@@ -66,7 +66,7 @@ class TrustStore:
     """The folder of the keys that are trusted here.
 
     Args:
-        folder: The user's configuration (:func:`fieldhand.approval.keys.folder.config_folder`).
+        folder: The user's configuration (:func:`fieldhand.files.config_folder`).
     """
 
     def __init__(self, folder: Path) -> None:

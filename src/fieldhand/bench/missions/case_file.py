@@ -29,6 +29,7 @@ from fieldhand.bench.missions.ground import Ground, load_ground
 from fieldhand.bench.missions.places import Attributes, Place, Positions
 from fieldhand.errors import CaseError
 from fieldhand.execution.world import parse_world
+from fieldhand.files import FileFault, read_file
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.geojson import demo_path
@@ -179,16 +180,12 @@ def _fits(expected: Expected, ground: Ground, where: str) -> None:
 
 def _content(path: Path) -> dict[Any, Any]:
     try:
-        if path.stat().st_size > MAX_BYTES:
-            raise CaseError(f"is larger than {MAX_BYTES:,} bytes", where=str(path), advice="is it a file of cases?")
-        text = path.read_text(encoding="utf-8-sig")
+        text = read_file(path, MAX_BYTES).decode("utf-8-sig")
     except UnicodeDecodeError:
         raise CaseError("is not UTF-8 text", where=str(path), advice="save it as UTF-8") from None
-    except (OSError, ValueError) as error:
-        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise CaseError(
-            f"cannot be read: {why}", where=str(path), advice=f"give a YAML file of cases, or '{BUILTIN}'"
-        ) from None
+    except FileFault as fault:
+        advice = "is it a file of cases?" if fault.kind == "too large" else f"give a YAML file of cases, or '{BUILTIN}'"
+        raise CaseError(fault.what, where=str(path), advice=advice) from None
     try:
         content = read_yaml(text, aliases=True)
     except YamlFault as fault:

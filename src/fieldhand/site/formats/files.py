@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Literal
 
 from fieldhand.errors import SiteError
+from fieldhand.files import FileFault, read_file
 from fieldhand.site.features import clean
 from fieldhand.site.formats.geojson import geojson_records
 from fieldhand.site.formats.records import MAX_BYTES, Records, too_big
@@ -102,20 +103,15 @@ def read_bytes(path: Path, at: str) -> bytes:
         SiteError: It is missing, no file, too big or cannot be read.
     """
     try:
-        if not path.is_file():
-            if path.exists():
-                raise SiteError("this is not a file", where=at, advice="give the file of the site itself")
-            raise SiteError(
-                "there is no such file",
-                where=at,
-                advice="check the path, or use 'demo' for the built-in orchard",
-            )
-        if path.stat().st_size > MAX_BYTES:
-            raise too_big(at, path.stat().st_size)
-        return path.read_bytes()
-    except OSError as fault:
-        reason = fault.strerror or type(fault).__name__
-        raise SiteError(f"the file cannot be read ({reason})", where=at, advice="check its permissions") from None
+        return read_file(path, MAX_BYTES, plain=True)
+    except FileFault as fault:
+        if fault.kind == "too large":
+            raise too_big(at, fault.size) from None
+        what, advice = {
+            "no file": ("this is not a file", "give the file of the site itself"),
+            "missing": ("there is no such file", "check the path, or use 'demo' for the built-in orchard"),
+        }.get(fault.kind, (f"the file {fault.what}", "check its permissions"))
+        raise SiteError(what, where=at, advice=advice) from None
 
 
 def format_of(name: str, data: bytes, at: str) -> Format:
