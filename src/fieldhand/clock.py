@@ -88,3 +88,10 @@ class ScaledClock:
 
     def advance(self, seconds: float) -> None:
         time.sleep(max(0.0, seconds) / self._speed)
+
+
+def clock_time(seconds: float) -> str:
+    """Minutes and seconds since the mission began: "3:07"; from an hour on "1:03:07"."""
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02d}:{rest:02d}" if hours else f"{minutes}:{rest:02d}"

@@ -8,6 +8,7 @@ from rich.table import Table
 from rich.text import Text
 
 from fieldhand.cli import show
+from fieldhand.clock import clock_time
 
 if TYPE_CHECKING:
     from fieldhand.forecast.estimate import BranchEstimate
@@ -66,8 +67,8 @@ def _figures(branch: BranchEstimate) -> tuple[str, ...]:
     return (
         f"{metres.p50:.0f}",
         f"{metres.p90:.0f}",
-        _clock(seconds.p50),
-        _clock(seconds.p90),
+        clock_time(seconds.p50),
+        clock_time(seconds.p90),
         f"{branch.left[0]:.1f} %",
         f"{branch.left[1]:.1f} %",
         ", ".join(shares),
@@ -81,9 +82,3 @@ def _share(chance: float) -> str:
     if chance == 0.0:
         return "0 %"
     return f"{100 * chance:.1f} %" if chance >= 0.001 else "< 0.1 %"
-
-
-def _clock(seconds: float) -> str:
-    minutes, rest = divmod(round(seconds), 60)
-    hours, minutes = divmod(minutes, 60)
-    return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"

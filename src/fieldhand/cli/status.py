@@ -32,7 +32,7 @@ def status(mission: MissionArgument = None, kept: MissionsOption = None, json: J
 
 def _show(found: Status) -> None:
     from fieldhand.cli import show
-    from fieldhand.evaluation.report_facts import clock_time
+    from fieldhand.clock import clock_time
 
     now = found.now
     print_ = show.out.print

@@ -56,13 +56,6 @@ def used(events: Sequence[Event]) -> tuple[float, float, float]:
     return metres, seconds, max(0.0, percent)
 
 
-def clock_time(seconds: float) -> str:
-    """Minutes and seconds since the mission began: "3:07"; from an hour on "1:03:07"."""
-    minutes, rest = divmod(round(seconds), 60)
-    hours, minutes = divmod(minutes, 60)
-    return f"{hours}:{minutes:02d}:{rest:02d}" if hours else f"{minutes}:{rest:02d}"
-
-
 def require_fitting(events: Sequence[Event], task: Task, site: Site, robot: RobotProfile, *, where: str) -> None:
     """See whether a log can be reported as one of this Task, on this site, by this robot.
 

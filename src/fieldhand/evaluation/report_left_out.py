@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from fieldhand.evaluation.report_facts import clock_time, end_of, out_of_reach
+from fieldhand.clock import clock_time
+from fieldhand.evaluation.report_facts import end_of, out_of_reach
 from fieldhand.evaluation.report_places import PlaceNames
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import ForEach, walk

@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from fieldhand.evaluation.report_facts import captures, clock_time
+from fieldhand.clock import clock_time
+from fieldhand.evaluation.report_facts import captures
 from fieldhand.evaluation.report_places import PlaceNames
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.conditions import Between, Compare, Level, walk

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from fieldhand.evaluation.report_facts import clock_time
+from fieldhand.clock import clock_time
 from fieldhand.evaluation.report_places import PlaceNames
 from fieldhand.evaluation.telling import Teller
 from fieldhand.robot.model import RobotProfile

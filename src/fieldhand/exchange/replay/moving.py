@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldhand.clock import clock_time
 from fieldhand.errors import OutputError
 from fieldhand.exchange.replay.film import Capture, Film
 from fieldhand.site.drawing import draw_site, site_figure
@@ -134,10 +135,9 @@ class _Scene:
             flag.set_data([s.x + (1 + s.beside) * self._aside for s in mine], [s.y for s in mine])
         said = signs[-1].words.replace("$", r"\$") if signs else ""
         self._news.set_text(said if len(said) <= _LONGEST else f"{said[: _LONGEST - 1]}\u2026")
-        minutes, rest = divmod(round(t), 60)
         made = sum(c.good and c.t <= t for c in film.captures)
         said = f"{made} capture{'s' * (made != 1)}"
-        self._clock.set_text(f"{minutes}:{rest:02d}   battery {film.charge_at(t):.0f} %   {said}")
+        self._clock.set_text(f"{clock_time(t)}   battery {film.charge_at(t):.0f} %   {said}")
         self._canvas.restore_region(self._ground)
         for artist in self._moving:
             self._ax.draw_artist(artist)
