@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -13,7 +15,7 @@ from lxml import etree
 from fieldhand.errors import TaskError
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import builtin_names, load_robot
-from fieldhand.task.capabilities import ActionCapability, Capabilities
+from fieldhand.task.capabilities import ActionCapability, Capabilities, NumberParameter
 from fieldhand.task.codec import decode, encode
 from fieldhand.task.codec_shapes import all_shapes
 from fieldhand.task.plan import walk
@@ -259,3 +261,22 @@ def test_a_document_is_not_valid_once_it_has_an_attribute_that_no_class_has(task
     element = data.draw(st.sampled_from(list(root.iter())))
     element.set("colour", "1")
     assert validate(etree.tostring(root), ROVER)
+
+
+def test_robots_of_one_name_that_differ_in_a_bound_have_a_schema_each():
+    def rover(most: float) -> Capabilities:
+        probe = ROVER.actions["probe_soil"]
+        parameters = dict(probe.parameters) | {"depth_cm": NumberParameter(minimum=1, maximum=most, unit="cm")}
+        return replace(ROVER, actions=dict(ROVER.actions) | {"probe_soil": replace(probe, parameters=parameters)})
+
+    for _ in range(2):  # the second time from what was kept
+        assert not validate(DOCUMENT, rover(20.0))
+        assert ["20" in str(problem) for problem in validate(DOCUMENT, rover(19.0))] == [True]
+
+
+def test_threads_that_ask_one_schema_hear_of_their_own_document_only():
+    wrong = [DOCUMENT.replace(b'"n5"', f'"n{k}" bad{k}="1"'.encode()) for k in range(10, 18)]
+    alone = [validate(document, ROVER) for document in wrong]
+    assert len({str(problems) for problems in alone}) == len(wrong)
+    with ThreadPoolExecutor(4) as pool:
+        assert list(pool.map(lambda document: validate(document, ROVER), wrong * 2)) == alone * 2

@@ -9,6 +9,9 @@ codec cannot drift apart. What no schema can say (a reading is tested before it 
 from __future__ import annotations
 
 import re
+import threading
+from functools import lru_cache
+from typing import TYPE_CHECKING
 
 from fieldhand.errors import TaskError
 from fieldhand.task.capabilities import Capabilities
@@ -17,7 +20,13 @@ from fieldhand.task.codec_xml import parse_xml
 from fieldhand.task.schema_build import SchemaBuilder
 from fieldhand.task.schema_messages import SchemaProblem, Vocabulary, explain
 
+if TYPE_CHECKING:
+    from lxml.etree import XMLSchema
+
 __all__ = ["SchemaProblem", "require_valid", "schema_xsd", "validate", "vocabulary"]
+
+#: A compiled schema keeps what it found last: two threads must not ask it at once.
+_ALONE = threading.Lock()
 
 
 def schema_xsd(capabilities: Capabilities, *, draft: bool = False) -> bytes:
@@ -43,18 +52,40 @@ def validate(document: bytes, capabilities: Capabilities, *, draft: bool = False
 
     A document that is not well-formed, or that is refused before it is read (entities, size), has that one problem.
     """
-    from lxml import etree
-
     try:
         root = parse_xml(document)
     except TaskError as error:
         line = re.search(r"line (\d+)", error.where)
         message = f"{error.what}; {error.advice}" if error.advice else error.what
         return (SchemaProblem(line=int(line[1]) if line else 1, element="", message=message),)
-    schema = etree.XMLSchema(SchemaBuilder(capabilities=capabilities, draft=draft).root())
-    if schema.validate(root):
-        return ()
-    return explain(root, schema.error_log, vocabulary(capabilities, draft=draft))
+    with _ALONE:
+        schema = _compiled(_Key(capabilities), draft)
+        if schema.validate(root):
+            return ()
+        said = schema.error_log
+    return explain(root, said, vocabulary(capabilities, draft=draft))
+
+
+class _Key:
+    """Capabilities as the key of a cache: by their value and its order, which is that of the schema."""
+
+    def __init__(self, capabilities: Capabilities) -> None:
+        self.capabilities = capabilities
+        actions = [(name, a.measures, tuple(a.parameters.items())) for name, a in capabilities.actions.items()]
+        self._value = (tuple(actions), tuple(capabilities.quantities.items()))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Key) and self._value == other._value
+
+    def __hash__(self) -> int:
+        return hash(self._value)
+
+
+@lru_cache(maxsize=8)
+def _compiled(key: _Key, draft: bool) -> XMLSchema:
+    from lxml import etree
+
+    return etree.XMLSchema(SchemaBuilder(capabilities=key.capabilities, draft=draft).root())
 
 
 def require_valid(document: bytes, capabilities: Capabilities, *, source: str = "", draft: bool = False) -> None:
