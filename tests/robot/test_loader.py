@@ -12,7 +12,7 @@ import pytest
 import yaml
 
 from fieldhand.errors import ProfileError
-from fieldhand.robot.document import Keyed
+from fieldhand.robot.fields import Keyed
 from fieldhand.robot.loader import MAX_BYTES, builtin_names, load_robot, parse_profile
 from fieldhand.robot.model import Level, Parameter
 
@@ -92,16 +92,20 @@ def test_a_profile_of_the_users_own_is_read_from_its_path(tmp_path):
 
 def test_the_profile_in_the_docs_can_be_used():
     page = (Path(__file__).resolve().parents[2] / "docs" / "add-a-robot.md").read_text()
-    robot = parse_profile(re.search(r"```yaml\n(.*?)```", page, re.DOTALL)[1].encode())
-    assert robot.action["read_soil_salinity"].measures == ("soil_salinity",)
+    robot, over_ros2 = re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)
+    assert parse_profile(robot.encode()).action["read_soil_salinity"].measures == ("soil_salinity",)
+    reached = parse_profile(f"{robot}\n{over_ros2}".encode()).ros2
+    assert reached.actions["read_soil_salinity"].call.readings["soil_salinity"].scale == 10
 
 
 def test_every_key_of_a_profile_is_in_the_docs():
     page = (Path(__file__).resolve().parents[2] / "docs" / "formats.md").read_text()
-    table = page.partition("## Robot profile")[2]
-    for document in Keyed.__subclasses__():
+    table = page.partition("## Robot profile")[2].partition("\n## ")[0]
+    documents = Keyed.__subclasses__()
+    for document in documents:
+        documents += document.__subclasses__()
         for key in document.model_fields:
-            assert key in table, key
+            assert re.search(rf"`[^`\n]*\b{key}\b", table), key
 
 
 def test_the_hash_is_of_the_bytes_and_a_comment_changes_it():
@@ -199,11 +203,12 @@ def test_what_is_no_profile_is_refused(data, expected):
     assert expected in refused(data)
 
 
-def test_more_problems_than_one_are_counted():
+def test_more_problems_than_one_are_all_told():
     document = changed("speed_m_s", -1)
     document["width_m"] = -1
-    assert "speed_m_s: must be greater than 0, is -1 (and 1 more after it)" in refused(
-        yaml.safe_dump(document).encode()
+    assert (
+        "speed_m_s: must be greater than 0, is -1 (and 1 more after it: width_m: must be greater than 0, is -1)"
+        in refused(yaml.safe_dump(document).encode())
     )
 
 
@@ -239,8 +244,8 @@ def test_the_builtin_robots_are_those_of_the_design():
 
 def test_labels_are_read_by_language() -> None:
     text = (resources.files("fieldhand.robot") / "profiles" / "husky.yaml").read_text()
-    changed = text.replace("  read_co2:\n", "  read_co2:\n    labels: {es: medir el CO2}\n")
+    changed = text.replace("\n  read_co2:\n", "\n  read_co2:\n    labels: {es: medir el CO2}\n")
     assert parse_profile(changed.encode()).action["read_co2"].labels == {"es": "medir el CO2"}
     for bad in ("{Spanish: x}", '{es: ""}', '{es: "a\\nb"}'):
         with pytest.raises(ProfileError, match="labels"):
-            parse_profile(text.replace("  read_co2:\n", f"  read_co2:\n    labels: {bad}\n").encode())
+            parse_profile(text.replace("\n  read_co2:\n", f"\n  read_co2:\n    labels: {bad}\n").encode())

@@ -61,6 +61,8 @@ def show_robot(
 
 
 def _lines(profile: RobotProfile) -> list[str]:
+    from fieldhand.cli.bindings import binding_lines
+
     energy = profile.energy
     lines = [
         f"{profile.name}: {profile.description}",
@@ -80,4 +82,5 @@ def _lines(profile: RobotProfile) -> list[str]:
     for quantity in profile.quantities:
         levels = ", ".join(f"{w} is {lv.direction} {lv.value:g} {quantity.unit}" for w, lv in quantity.levels.items())
         lines.append(f"  {quantity.name}: {levels or 'none'}")
+    lines.extend(binding_lines(profile))
     return lines

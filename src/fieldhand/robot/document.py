@@ -6,29 +6,15 @@ These models check one file; :mod:`fieldhand.robot.loader` turns what passes int
 
 from __future__ import annotations
 
-import difflib
 import re
-from collections.abc import Mapping
 from typing import Annotated
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
+from fieldhand.robot.bindings_document import Ros2Document
+from fieldhand.robot.fields import Keyed, Name, NotNegative, Number, Positive, Unit, each_once, no_bool
 from fieldhand.robot.model import InDoubtPolicy
 from fieldhand.task.capabilities import RESERVED_ACTIONS
-
-
-def _no_bool(value: object) -> object:
-    if isinstance(value, bool):
-        raise ValueError(f"must be a number, not {str(value).lower()}")
-    return value
-
-
-def _name(value: str) -> str:
-    if not re.fullmatch(r"[a-z][a-z0-9_]*", value):
-        raise ValueError(
-            f"{value!r} is not a name: use lower-case letters, digits and underscores, beginning with a letter"
-        )
-    return value
 
 
 def _word(value: str) -> str:
@@ -40,12 +26,6 @@ def _word(value: str) -> str:
 def _level_word(value: str) -> str:
     if not re.fullmatch(r"[a-z]+(?:[ -][a-z]+)*", value):
         raise ValueError(f"{value!r} is not a level word: use lower-case letters, such as low or very high")
-    return value
-
-
-def _unit(value: str) -> str:
-    if not re.fullmatch(r"\S{1,20}", value) or not value.isprintable():
-        raise ValueError(f"{value!r} is not a unit: at most 20 characters without spaces, such as degC, ppm, percent")
     return value
 
 
@@ -67,58 +47,15 @@ def _label(value: str) -> str:
     return value.strip()
 
 
-def _each_once(values: tuple[str, ...]) -> tuple[str, ...]:
-    twice = sorted({v for v in values if values.count(v) > 1})
-    if twice:
-        raise ValueError(f"{twice[0]!r} stands here twice")
-    return values
-
-
-def _not_tiny(value: float) -> float:
-    if 0 < value < _LEAST:
-        raise ValueError(f"{value:g} is too small: what is not 0 is at least {_LEAST:g} here")
-    return value
-
-
-def _not_huge(value: float) -> float:
-    if abs(value) > _MOST:
-        raise ValueError(f"{value:g} is too large: no number here is beyond {_MOST:g}")
-    return value
-
-
-#: Any unit: beyond these, what is computed with a number overflows or is lost.
-_LEAST, _MOST = 1e-9, 1e12
 #: Metres: no robot is wider, or works farther from a tree.
 _WIDEST = 100.0
 
-Number = Annotated[float, BeforeValidator(_no_bool), Field(allow_inf_nan=False), AfterValidator(_not_huge)]
-Positive = Annotated[Number, Field(gt=0), AfterValidator(_not_tiny)]
 Breadth = Annotated[Positive, Field(le=_WIDEST)]
-NotNegative = Annotated[Number, Field(ge=0)]
-Retries = Annotated[int, BeforeValidator(_no_bool), Field(ge=0, le=10)]
+Retries = Annotated[int, BeforeValidator(no_bool), Field(ge=0, le=10)]
 Wait = Annotated[Number, Field(ge=0, le=3600)]
-Name = Annotated[str, AfterValidator(_name)]
-Words = Annotated[tuple[Annotated[str, AfterValidator(_word)], ...], AfterValidator(_each_once)]
+Words = Annotated[tuple[Annotated[str, AfterValidator(_word)], ...], AfterValidator(each_once)]
 Choice = Annotated[str, AfterValidator(_choice)]
 Labels = dict[Annotated[str, AfterValidator(_code)], Annotated[str, AfterValidator(_label)]]
-
-
-class Keyed(BaseModel):
-    """A part of a profile: it has the keys that are declared and no others."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-    @model_validator(mode="before")
-    @classmethod
-    def _known_keys(cls, data: object) -> object:
-        """Name the nearest right key for a misspelt one, before the right one is reported as missing."""
-        if isinstance(data, Mapping):
-            for key in data:
-                if key not in cls.model_fields:
-                    near = difflib.get_close_matches(str(key), cls.model_fields, n=1)
-                    hint = f"did you mean {near[0]!r}?" if near else f"the keys here are {', '.join(cls.model_fields)}"
-                    raise ValueError(f"unknown key {str(key)!r}; {hint}")
-        return data
 
 
 class LevelDocument(Keyed):
@@ -137,14 +74,14 @@ class LevelDocument(Keyed):
 class QuantityDocument(Keyed):
     """Something that the robot measures."""
 
-    unit: Annotated[str, AfterValidator(_unit)]
+    unit: Unit
     words: Words
-    levels: dict[Annotated[str, AfterValidator(_level_word)], LevelDocument] = {}
+    levels: dict[Annotated[str, AfterValidator(_level_word)], LevelDocument] = Field(default_factory=dict)
     minimum: Number
     maximum: Number
     typical: Number
     spread: NotNegative
-    labels: Labels = {}
+    labels: Labels = Field(default_factory=dict)
 
     @model_validator(mode="after")
     def _ranges(self) -> QuantityDocument:
@@ -164,11 +101,11 @@ class QuantityDocument(Keyed):
 class ParameterDocument(Keyed):
     """A number within bounds, or one of some choices."""
 
-    default: Annotated[float | str, BeforeValidator(_no_bool)]
+    default: Annotated[float | str, BeforeValidator(no_bool)]
     minimum: Number | None = None
     maximum: Number | None = None
-    unit: Annotated[str, AfterValidator(_unit)] | None = None
-    choices: Annotated[tuple[Choice, ...], AfterValidator(_each_once)] = ()
+    unit: Unit | None = None
+    choices: Annotated[tuple[Choice, ...], AfterValidator(each_once)] = ()
 
     @model_validator(mode="after")
     def _kind(self) -> ParameterDocument:
@@ -192,12 +129,12 @@ class ParameterDocument(Keyed):
 class ActionDocument(Keyed):
     """Something that the robot does at a place."""
 
-    labels: Labels = {}
+    labels: Labels = Field(default_factory=dict)
     description: str = ""
     words: Annotated[Words, Field(min_length=1)]
     verbs: Words = ()
-    measures: Annotated[tuple[str, ...], AfterValidator(_each_once)] = ()
-    parameters: dict[Name, ParameterDocument] = {}
+    measures: Annotated[tuple[str, ...], AfterValidator(each_once)] = ()
+    parameters: dict[Name, ParameterDocument] = Field(default_factory=dict)
     duration_s: Positive
     energy_j: NotNegative
     retries: Retries | None = None
@@ -240,8 +177,9 @@ class ProfileDocument(Keyed):
     patience: PatienceDocument = PatienceDocument()
     energy: EnergyDocument
     leg_cost: LegCostDocument
-    quantities: dict[Name, QuantityDocument] = {}
+    quantities: dict[Name, QuantityDocument] = Field(default_factory=dict)
     actions: Annotated[dict[Name, ActionDocument], Field(min_length=1)]
+    ros2: Ros2Document | None = None
 
     @model_validator(mode="after")
     def _stands_beside_the_tree(self) -> ProfileDocument:

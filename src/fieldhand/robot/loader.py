@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import hashlib
+from collections.abc import Sequence
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from pydantic_core import ErrorDetails
 
 from fieldhand.errors import ProfileError
 from fieldhand.files import FileFault, read_file
+from fieldhand.robot.bindings_loader import Mismatch, bindings_of, mismatches
 from fieldhand.robot.document import (
     ActionDocument,
     LevelDocument,
@@ -31,6 +33,8 @@ CANOPY_M = 1.0
 
 #: Of what is said to be wrong, in characters: what is quoted in it may be of any length.
 _LONGEST = 400
+#: How many problems are told beside the first one; the rest is counted.
+_MOST_PROBLEMS = 9
 
 GUIDE = "docs/add-a-robot.md shows a whole profile"
 
@@ -68,7 +72,9 @@ def parse_profile(data: bytes, *, source: str = "profile") -> RobotProfile:
     try:
         document = ProfileDocument.model_validate(content)
     except ValidationError as error:
-        raise _explained(error, source) from None
+        raise _refused([_explained(problem) for problem in error.errors(include_url=False)], source) from None
+    if found := mismatches(document):
+        raise _refused(found, source)
     return _profile(document, sha256=hashlib.sha256(data).hexdigest(), source=source)
 
 
@@ -121,16 +127,26 @@ def _content(data: bytes, source: str) -> dict[Any, Any]:
     return content
 
 
-def _explained(error: ValidationError, source: str) -> ProfileError:
-    """The first problem of a profile as one line: file, key path, what, advice."""
-    problems = error.errors(include_url=False)
-    first = problems[0]
-    path = [str(part) for part in first["loc"] if part != "[key]"]
-    what, advice = _words_for(first, path)
-    more = f" (and {len(problems) - 1} more after it)" if len(problems) > 1 else ""
-    key = _short(".".join(path))
-    what = what if len(what) <= _LONGEST else f"{what[: _LONGEST - 3]}..."
-    return ProfileError(f"{what}{more}", where=f"{source}: {key}" if key else source, advice=advice)
+def _explained(problem: ErrorDetails) -> Mismatch:
+    """A problem of one key, in words."""
+    path = [str(part) for part in problem["loc"] if part != "[key]"]
+    what, advice = _words_for(problem, path)
+    return Mismatch(path=".".join(path), what=what, advice=advice)
+
+
+def _refused(problems: Sequence[Mismatch], source: str) -> ProfileError:
+    """All problems of a profile as one line: of each its key path and what; what to do about the first."""
+    first, *others = [(_short(problem.path), _quoted(problem.what)) for problem in problems]
+    more = "; ".join(f"{key or 'the profile'}: {what}" for key, what in others[:_MOST_PROBLEMS])
+    if others:
+        some = f", of which {_MOST_PROBLEMS} are" if len(others) > _MOST_PROBLEMS else ""
+        more = f" (and {len(others)} more after it{some}: {more})"
+    key, what = first
+    return ProfileError(f"{what}{more}", where=f"{source}: {key}" if key else source, advice=problems[0].advice)
+
+
+def _quoted(what: str) -> str:
+    return what if len(what) <= _LONGEST else f"{what[: _LONGEST - 3]}..."
 
 
 def _words_for(problem: ErrorDetails, path: list[str]) -> tuple[str, str]:
@@ -179,6 +195,7 @@ def _profile(document: ProfileDocument, *, sha256: str, source: str) -> RobotPro
         leg_cost=LegCost(alpha=document.leg_cost.alpha),
         retries=document.retries,
         patience=Patience(**document.patience.model_dump()),
+        ros2=bindings_of(document),
         sha256=sha256,
         source=source,
     )

@@ -1,0 +1,279 @@
+"""The form of the ``ros2`` part of a profile file: what keys it has and what values they may take.
+
+What can be told from this part alone is checked here, what needs actions and quantities in
+:mod:`fieldhand.robot.bindings_loader`. Whether a type has the field that a path names is known only where types are
+(``fieldhand robot check``). docs/formats.md describes the keys for readers.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Annotated, Literal, get_args
+
+from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, model_validator
+
+from fieldhand.robot.bindings import Distro, NavigationFault, NavigationType, RequestValue
+from fieldhand.robot.fields import Keyed, Name, Number, Positive, Unit, no_bool
+
+#: ROS keeps names shorter; what is longer is no name.
+_LONGEST_NAME = 255
+#: Characters of one definition, and how many there may be: a profile is read by people, and goes into every bundle.
+_LONGEST_TEXT, _MOST_INTERFACES = 20_000, 50
+#: How many lines of dashes part the sections of each kind of interface.
+_SECTIONS = {"msg": 0, "srv": 1, "action": 2}
+
+
+def _ros_name(value: str) -> str:
+    if len(value) > _LONGEST_NAME or not re.fullmatch(r"/?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", value):
+        raise ValueError(
+            f"{value[:80]!r} is not a name of ROS; use letters, digits and _, parted by single /, as gps/fix"
+        )
+    return value
+
+
+def _namespace(value: str) -> str:
+    return "" if value in ("", "/") else "/" + _ros_name(value).removeprefix("/")
+
+
+def _path(value: str) -> str:
+    part = r"[a-z][a-z0-9_]*(\[\d{1,5}\])?"
+    if len(value) > _LONGEST_NAME or not re.fullmatch(rf"{part}(\.{part})*", value):
+        raise ValueError(f"{value[:80]!r} is not a path to a field; write it as pose.pose.position.x or cells[0].value")
+    return value
+
+
+def _typed(kind: str, value: str) -> str:
+    if len(value) > _LONGEST_NAME or not re.fullmatch(rf"[a-z][a-z0-9_]*/{kind}/[A-Z][A-Za-z0-9]*", value):
+        raise ValueError(f"{value[:80]!r} is not a type here; write package/{kind}/Name")
+    return value
+
+
+def _navigation(value: object) -> object:
+    """``NavigateToPose`` alone means that of Nav2."""
+    return f"nav2_msgs/action/{value}" if isinstance(value, str) and "/" not in value else value
+
+
+def _only_path(data: object) -> object:
+    """``reading: temperature`` means ``reading: {path: temperature}``."""
+    return {"path": data} if isinstance(data, str) else data
+
+
+def _constant(value: object) -> RequestValue:
+    """Of a request: no list and no mapping; what no type of ROS holds is refused here already."""
+    match value:
+        case bool():
+            return value
+        case str() if len(value) <= _LONGEST_NAME:
+            return value
+        case int() if -(2**63) <= value < 2**64:
+            return value
+        case float() if math.isfinite(value):
+            return value
+    raise ValueError(
+        f"must be a text of at most {_LONGEST_NAME} characters, a number, true or false; correct the value"
+    )
+
+
+def _text(value: str) -> str:
+    if not value.strip() or len(value) > _LONGEST_TEXT or not all(c.isprintable() or c in "\n\r\t" for c in value):
+        raise ValueError(f"is not a definition; give the lines of its file, at most {_LONGEST_TEXT} characters")
+    return value
+
+
+RosName = Annotated[str, AfterValidator(_ros_name)]
+Path = Annotated[str, AfterValidator(_path)]
+MessageType = Annotated[str, AfterValidator(lambda value: _typed("msg", value))]
+ActionType = Annotated[str, AfterValidator(lambda value: _typed("action", value))]
+ServiceType = Annotated[str, AfterValidator(lambda value: _typed("srv", value))]
+AnyType = Annotated[str, AfterValidator(lambda value: _typed("(?:msg|srv|action)", value))]
+Limit = Annotated[Positive, Field(le=3600)]
+#: How old the last message may be; a day where a robot says something only when it changes.
+Stale = Annotated[Positive, Field(le=86_400)]
+Metres = Annotated[Positive, Field(le=100)]
+Code = Annotated[int, BeforeValidator(no_bool), Field(ge=0, le=65_535)]
+Constant = Annotated[RequestValue, PlainValidator(_constant)]
+
+
+class _Valued(Keyed):
+    """A number in a message, and how it becomes the quantity's."""
+
+    path: Path | None = None
+    unit: Unit | None = None
+    scale: Number | None = None
+    offset: Number | None = None
+
+    @model_validator(mode="after")
+    def _converted_once(self) -> _Valued:
+        if self.unit is not None and (self.scale, self.offset) != (None, None):
+            raise ValueError("unit and scale or offset say the same; give the unit, or scale and offset")
+        if self.scale == 0:
+            raise ValueError("scale is 0; every reading would be the same")
+        return self
+
+
+class _Heard(Keyed):
+    """How a topic is read."""
+
+    topic: RosName
+    reliable: bool = False
+    transient: bool = False
+
+    @model_validator(mode="after")
+    def _heard(self) -> _Heard:
+        if self.transient and not self.reliable:
+            raise ValueError("transient needs reliable; add reliable: true")
+        return self
+
+
+class ReadingDocument(_Valued):
+    """``{path: temperature, unit: K}``, or the path alone."""
+
+
+class NextMessageDocument(_Valued):
+    """A reading that is the next message of a topic."""
+
+    topic: RosName
+    type: MessageType
+    within_s: Limit | None = None
+    reliable: bool = False
+
+
+class _Called(Keyed):
+    """What both kinds of calls have."""
+
+    name: RosName
+    request: Annotated[dict[Path, Constant], Field(max_length=100)] = Field(default_factory=dict)
+    readings: dict[str, Annotated[ReadingDocument, BeforeValidator(_only_path)]] = Field(default_factory=dict)
+    success: Path | None = None
+    message: Path | None = None
+    within_s: Limit | None = None
+
+
+class ActionCallDocument(_Called):
+    """A ROS action that makes a capture."""
+
+    type: ActionType
+
+
+class ServiceCallDocument(_Called):
+    """A ROS service that makes a capture."""
+
+    type: ServiceType
+
+
+class ActionBindingDocument(Keyed):
+    """How an action of the profile is carried out."""
+
+    action: ActionCallDocument | None = None
+    service: ServiceCallDocument | None = None
+    topics: dict[str, NextMessageDocument] = Field(default_factory=dict)
+
+    @model_validator(mode="after")
+    def _by_something(self) -> ActionBindingDocument:
+        if self.action is not None and self.service is not None:
+            raise ValueError("an action is carried out by an action of ROS or by a service; give one of them")
+        if self.action is None and self.service is None and not self.topics:
+            raise ValueError("nothing carries it out; give action, service or topics")
+        return self
+
+
+class DatumDocument(Keyed):
+    """The point of the earth at the origin of the map frame."""
+
+    lat: Annotated[Number, Field(ge=-90, le=90)]
+    lon: Annotated[Number, Field(ge=-180, le=180)]
+    heading_deg: Annotated[Number, Field(ge=-360, le=360)] = 90.0
+
+
+class NavigationDocument(Keyed):
+    """How the robot is driven."""
+
+    type: Annotated[NavigationType, BeforeValidator(_navigation)] = "nav2_msgs/action/NavigateToPose"
+    action: RosName | None = None
+    frame: RosName = "map"
+    datum: DatumDocument | None = None
+    from_ll: RosName | None = None
+    tolerance_m: Metres = 0.5
+    behavior_tree: Annotated[str, Field(max_length=1000)] = ""
+    codes: Annotated[dict[Code, NavigationFault], Field(max_length=100)] = Field(default_factory=dict)
+    without_code: NavigationFault = "blocked"
+    accept_s: Limit = 5.0
+    quiet_s: Limit = 15.0
+    slower: Annotated[Number, Field(ge=1, le=100)] = 5.0
+    extra_s: Annotated[Number, Field(ge=0, le=3600)] = 60.0
+
+    @model_validator(mode="after")
+    def _one_map(self) -> NavigationDocument:
+        if self.type.endswith("/FollowGPSWaypoints"):
+            if self.datum is not None or self.from_ll is not None:
+                raise ValueError("FollowGPSWaypoints takes degrees; leave datum and from_ll out")
+        elif (self.datum is None) == (self.from_ll is None):
+            raise ValueError("give either datum (where the map frame lies) or from_ll (the service that knows it)")
+        return self
+
+
+class PositionDocument(_Heard):
+    """Where the robot is."""
+
+    type: Literal["sensor_msgs/msg/NavSatFix"] = "sensor_msgs/msg/NavSatFix"
+    stale_s: Stale = 3.0
+    most_sigma_m: Metres = 1.0
+
+
+class BatteryDocument(_Heard, _Valued):
+    """The battery's charge."""
+
+    type: MessageType = "sensor_msgs/msg/BatteryState"
+    stale_s: Stale = 30.0
+
+
+class OdometryDocument(_Heard):
+    """What counts the metres."""
+
+    type: Literal["nav_msgs/msg/Odometry"] = "nav_msgs/msg/Odometry"
+    stale_s: Stale = 3.0
+
+
+class StopDocument(_Heard):
+    """An emergency stop."""
+
+    type: MessageType = "std_msgs/msg/Bool"
+    path: Path = "data"
+    stopped: bool = True
+    stale_s: Stale = 10.0
+
+
+class Ros2Document(Keyed):
+    """The whole part."""
+
+    distro: Distro
+    namespace: Annotated[str, AfterValidator(_namespace)] = ""
+    use_sim_time: bool = False
+    navigation: NavigationDocument
+    position: PositionDocument
+    battery: BatteryDocument
+    odometry: OdometryDocument | None = None
+    stop: StopDocument | None = None
+    actions: dict[Name, ActionBindingDocument] = Field(default_factory=dict)
+    interfaces: Annotated[dict[AnyType, Annotated[str, AfterValidator(_text)]], Field(max_length=_MOST_INTERFACES)] = (
+        Field(default_factory=dict)
+    )
+
+    @model_validator(mode="after")
+    def _known_there(self) -> Ros2Document:
+        if self.distro == "humble" and self.navigation.type.endswith("/FollowGPSWaypoints"):
+            newer = ", ".join(name for name in get_args(Distro) if name != "humble")
+            raise ValueError(f"Nav2 of humble has no FollowGPSWaypoints; use another type, or one of {newer}")
+        return self
+
+    @model_validator(mode="after")
+    def _whole_definitions(self) -> Ros2Document:
+        for name, text in self.interfaces.items():
+            kind = name.split("/")[1]
+            dashes = sum(line.strip() == "---" for line in text.splitlines())
+            if dashes != _SECTIONS[kind]:
+                raise ValueError(
+                    f"the definition of {name} has {dashes} lines of ---; a .{kind} file has {_SECTIONS[kind]}"
+                )
+        return self

@@ -1,0 +1,238 @@
+"""From the ``ros2`` part of a profile file to :class:`~fieldhand.robot.bindings.Ros2Bindings`.
+
+Here it is held against the actions and quantities of the same profile: every action and parameter that it names is
+one, and every quantity that an action measures has one source.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.robot.bindings import (
+    PLACE_REFERENCES,
+    ActionBinding,
+    BatteryBinding,
+    CallBinding,
+    Datum,
+    FieldBinding,
+    NavigationBinding,
+    NextMessage,
+    PositionBinding,
+    Ros2Bindings,
+    StopBinding,
+    TopicBinding,
+)
+from fieldhand.robot.bindings_document import (
+    ActionBindingDocument,
+    BatteryDocument,
+    NavigationDocument,
+    NextMessageDocument,
+    OdometryDocument,
+    PositionDocument,
+    ReadingDocument,
+    Ros2Document,
+    StopDocument,
+)
+from fieldhand.robot.units import STANDARD_FIELDS, conversion, known_units
+
+if TYPE_CHECKING:
+    from fieldhand.robot.document import ActionDocument, ProfileDocument
+
+#: Where a profile gives no limit: a call may last so many times as long as its action, at least so many seconds.
+_TIMES, _LEAST_S = 3.0, 30.0
+#: And so long the next message of a topic.
+_NEXT_S = 10.0
+
+Valued = ReadingDocument | NextMessageDocument | BatteryDocument
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mismatch:
+    """What does not fit between the bindings and the rest of a profile: where, what, and what to do."""
+
+    path: str
+    what: str
+    advice: str
+
+
+def mismatches(document: ProfileDocument) -> tuple[Mismatch, ...]:
+    """Everything that does not fit."""
+    return () if document.ros2 is None else tuple(_mismatches(document, document.ros2))
+
+
+def bindings_of(document: ProfileDocument) -> Ros2Bindings | None:
+    """The bindings of a profile without mismatches; None where it has none."""
+    ros2 = document.ros2
+    if ros2 is None:
+        return None
+    units = {name: quantity.unit for name, quantity in document.quantities.items()}
+    return Ros2Bindings(
+        distro=ros2.distro,
+        namespace=ros2.namespace,
+        use_sim_time=ros2.use_sim_time,
+        navigation=_navigation(ros2.navigation),
+        position=PositionBinding(fix=_topic(ros2.position), most_sigma_m=ros2.position.most_sigma_m),
+        battery=BatteryBinding(topic=_topic(ros2.battery), value=_field(ros2.battery, ros2.battery.type, "percent")),
+        odometry=None if ros2.odometry is None else _topic(ros2.odometry),
+        stop=None
+        if ros2.stop is None
+        else StopBinding(topic=_topic(ros2.stop), path=ros2.stop.path, stopped=ros2.stop.stopped),
+        actions={name: _action(bound, document.actions[name], units) for name, bound in ros2.actions.items()},
+        interfaces=ros2.interfaces,
+    )
+
+
+def _mismatches(document: ProfileDocument, ros2: Ros2Document) -> Iterator[Mismatch]:
+    units = {name: quantity.unit for name, quantity in document.quantities.items()}
+    yield from _unreadable(ros2.battery, ros2.battery.type, "percent", "ros2.battery")
+    for name, bound in ros2.actions.items():
+        where = f"ros2.actions.{name}"
+        action = document.actions.get(name)
+        if action is None:
+            yield Mismatch(
+                path=where, what=f"the profile has no action {name!r}", advice=_nearest(name, document.actions)
+            )
+            continue
+        yield from _requests(bound, action, where)
+        yield from _sources(bound, action, where)
+        call = bound.action or bound.service
+        for quantity, reading in call.readings.items() if call is not None else ():
+            kind = "action" if bound.action is not None else "service"
+            if quantity in units:
+                yield from _unreadable(reading, "", units[quantity], f"{where}.{kind}.readings.{quantity}")
+        for quantity, message in bound.topics.items():
+            if quantity in units:
+                yield from _unreadable(message, message.type, units[quantity], f"{where}.topics.{quantity}")
+
+
+def _requests(bound: ActionBindingDocument, action: ActionDocument, where: str) -> Iterator[Mismatch]:
+    """What a request refers to that the action does not have."""
+    call = bound.action or bound.service
+    known = [*PLACE_REFERENCES, *(f"${name}" for name in action.parameters)]
+    for path, value in call.request.items() if call is not None else ():
+        if isinstance(value, str) and value.startswith("$") and value not in known:
+            kind = "action" if bound.action is not None else "service"
+            yield Mismatch(
+                path=f"{where}.{kind}.request.{path}",
+                what=f"{value!r} is neither a parameter of the action nor the place",
+                advice=_nearest(value, known),
+            )
+
+
+def _sources(bound: ActionBindingDocument, action: ActionDocument, where: str) -> Iterator[Mismatch]:
+    """Quantities with no source, with two, or that the action does not measure."""
+    call = bound.action or bound.service
+    called = () if call is None else tuple(call.readings)
+    for quantity in action.measures:
+        if quantity not in called and quantity not in bound.topics:
+            yield Mismatch(
+                path=where,
+                what=f"nothing says where {quantity!r} is read",
+                advice="add it to the readings of the action or service, or to topics",
+            )
+    for quantity in dict.fromkeys((*called, *bound.topics)):
+        if quantity in called and quantity in bound.topics:
+            yield Mismatch(path=where, what=f"{quantity!r} is read twice", advice="leave it in readings or in topics")
+        if quantity not in action.measures:
+            measured = f"it measures {', '.join(action.measures)}" if action.measures else "it measures nothing"
+            yield Mismatch(path=where, what=f"the action does not measure {quantity!r}", advice=measured)
+
+
+def _unreadable(valued: Valued, type_name: str, wanted: str, where: str) -> Iterator[Mismatch]:
+    """Why a number cannot be had in the unit that is wanted."""
+    path, given = _place_and_unit(valued, type_name)
+    if not path:
+        yield Mismatch(path=where, what="the key 'path' is missing", advice="say where in the message the value stands")
+    if given and conversion(given, wanted) is None:
+        yield Mismatch(
+            path=where,
+            what=f"{given} cannot be turned into {wanted}",
+            advice=f"give scale and offset, or one of the units {', '.join(known_units())}",
+        )
+
+
+def _field(valued: Valued, type_name: str, wanted: str) -> FieldBinding:
+    path, given = _place_and_unit(valued, type_name)
+    said = (1.0 if valued.scale is None else valued.scale, valued.offset or 0.0)
+    scale, offset = (conversion(given, wanted) if given else None) or said
+    return FieldBinding(path=path, scale=scale, offset=offset)
+
+
+def _place_and_unit(valued: Valued, type_name: str) -> tuple[str, str]:
+    """Where a number stands and in which unit, empty where that is not known; standard types say both by themselves."""
+    path, unit = STANDARD_FIELDS.get(type_name, ("", ""))
+    if valued.unit is not None or (valued.scale, valued.offset) != (None, None):
+        unit = valued.unit or ""
+    elif valued.path not in (None, path):
+        unit = ""
+    return valued.path or path, unit
+
+
+def _topic(document: PositionDocument | BatteryDocument | OdometryDocument | StopDocument) -> TopicBinding:
+    return TopicBinding(
+        topic=document.topic,
+        type=document.type,
+        stale_s=document.stale_s,
+        reliable=document.reliable,
+        transient=document.transient,
+    )
+
+
+def _navigation(document: NavigationDocument) -> NavigationBinding:
+    datum = document.datum
+    values = document.model_dump(exclude={"datum", "action", "from_ll"})
+    return NavigationBinding(
+        **values,
+        action=document.action or _USUAL_NAMES[document.type],
+        datum=None if datum is None else Datum(lat=datum.lat, lon=datum.lon, heading_deg=datum.heading_deg),
+        from_ll=document.from_ll or "",
+    )
+
+
+#: Under which Nav2 serves each.
+_USUAL_NAMES = {
+    "nav2_msgs/action/NavigateToPose": "navigate_to_pose",
+    "nav2_msgs/action/NavigateThroughPoses": "navigate_through_poses",
+    "nav2_msgs/action/FollowGPSWaypoints": "follow_gps_waypoints",
+}
+
+
+def _action(bound: ActionBindingDocument, action: ActionDocument, units: dict[str, str]) -> ActionBinding:
+    return ActionBinding(
+        call=_call(bound, action, units),
+        topics={
+            name: NextMessage(
+                topic=message.topic,
+                type=message.type,
+                value=_field(message, message.type, units[name]),
+                within_s=message.within_s or max(_NEXT_S, _TIMES * action.duration_s),
+                reliable=message.reliable,
+            )
+            for name, message in bound.topics.items()
+        },
+    )
+
+
+def _call(bound: ActionBindingDocument, action: ActionDocument, units: dict[str, str]) -> CallBinding | None:
+    call = bound.action or bound.service
+    if call is None:
+        return None
+    return CallBinding(
+        kind="action" if bound.action is not None else "service",
+        name=call.name,
+        type=call.type,
+        request=call.request,
+        readings={name: _field(reading, "", units[name]) for name, reading in call.readings.items()},
+        success=call.success or "",
+        message=call.message or "",
+        within_s=call.within_s or max(_LEAST_S, _TIMES * action.duration_s),
+    )
+
+
+def _nearest(given: str, known: Iterable[str]) -> str:
+    names = list(known)
+    near = difflib.get_close_matches(given, names, n=1)
+    return f"did you mean {near[0]!r}?" if near else f"known here: {', '.join(names)}"

@@ -1,0 +1,79 @@
+"""Kinds of values that stand in a profile file, whichever part of it, and what every part keeps to."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Mapping
+from typing import Annotated
+
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+
+
+def no_bool(value: object) -> object:
+    """For what takes a number: true and false are none."""
+    if isinstance(value, bool):
+        raise ValueError(f"must be a number, not {str(value).lower()}")
+    return value
+
+
+def _name(value: str) -> str:
+    if not re.fullmatch(r"[a-z][a-z0-9_]*", value):
+        raise ValueError(
+            f"{value!r} is not a name: use lower-case letters, digits and underscores, beginning with a letter"
+        )
+    return value
+
+
+def _unit(value: str) -> str:
+    if not re.fullmatch(r"\S{1,20}", value) or not value.isprintable():
+        raise ValueError(f"{value!r} is not a unit: at most 20 characters without spaces, such as degC, ppm, percent")
+    return value
+
+
+def each_once(values: tuple[str, ...]) -> tuple[str, ...]:
+    """For a list in which nothing stands twice."""
+    twice = sorted({v for v in values if values.count(v) > 1})
+    if twice:
+        raise ValueError(f"{twice[0]!r} stands here twice")
+    return values
+
+
+def _not_tiny(value: float) -> float:
+    if 0 < value < _LEAST:
+        raise ValueError(f"{value:g} is too small: what is not 0 is at least {_LEAST:g} here")
+    return value
+
+
+def _not_huge(value: float) -> float:
+    if abs(value) > _MOST:
+        raise ValueError(f"{value:g} is too large: no number here is beyond {_MOST:g}")
+    return value
+
+
+#: Any unit: beyond these, what is computed with a number overflows or is lost.
+_LEAST, _MOST = 1e-9, 1e12
+
+Number = Annotated[float, BeforeValidator(no_bool), Field(allow_inf_nan=False), AfterValidator(_not_huge)]
+Positive = Annotated[Number, Field(gt=0), AfterValidator(_not_tiny)]
+NotNegative = Annotated[Number, Field(ge=0)]
+Name = Annotated[str, AfterValidator(_name)]
+Unit = Annotated[str, AfterValidator(_unit)]
+
+
+class Keyed(BaseModel):
+    """A part of a profile: it has the keys that are declared and no others."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _known_keys(cls, data: object) -> object:
+        """Name the nearest right key for a misspelt one, before the right one is reported as missing."""
+        if isinstance(data, Mapping):
+            for key in data:
+                if key not in cls.model_fields:
+                    near = difflib.get_close_matches(str(key), cls.model_fields, n=1)
+                    hint = f"did you mean {near[0]!r}?" if near else f"the keys here are {', '.join(cls.model_fields)}"
+                    raise ValueError(f"unknown key {str(key)!r}; {hint}")
+        return data

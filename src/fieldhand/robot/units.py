@@ -1,0 +1,74 @@
+"""Units that a robot's messages come in, and what makes of one the unit of a quantity; which field standard types have.
+
+ROS keeps to SI (REP 103): a temperature sensor's driver may send kelvin or degrees Celsius, a share is mostly 0 to 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+#: For each unit: what it measures, and by what it becomes the first unit of that: times the one, plus the other.
+_UNITS: Mapping[str, tuple[str, float, float]] = {
+    "degC": ("temperature", 1.0, 0.0),
+    "K": ("temperature", 1.0, -273.15),
+    "degF": ("temperature", 5.0 / 9.0, -160.0 / 9.0),
+    "fraction": ("share", 1.0, 0.0),
+    "percent": ("share", 1e-2, 0.0),
+    "ppm": ("share", 1e-6, 0.0),
+    "ppb": ("share", 1e-9, 0.0),
+    "m": ("length", 1.0, 0.0),
+    "cm": ("length", 1e-2, 0.0),
+    "mm": ("length", 1e-3, 0.0),
+    "Pa": ("pressure", 1.0, 0.0),
+    "hPa": ("pressure", 1e2, 0.0),
+    "kPa": ("pressure", 1e3, 0.0),
+    "bar": ("pressure", 1e5, 0.0),
+    "S/m": ("conductivity", 1.0, 0.0),
+    "dS/m": ("conductivity", 1e-1, 0.0),
+    "mS/cm": ("conductivity", 1e-1, 0.0),
+    "uS/cm": ("conductivity", 1e-4, 0.0),
+    "m/s": ("speed", 1.0, 0.0),
+    "km/h": ("speed", 1.0 / 3.6, 0.0),
+    "V": ("voltage", 1.0, 0.0),
+    "mV": ("voltage", 1e-3, 0.0),
+    "lx": ("illuminance", 1.0, 0.0),
+}
+
+#: The one number that a standard message is about, and its unit as the definition has it; empty where it has none.
+STANDARD_FIELDS: Mapping[str, tuple[str, str]] = {
+    "sensor_msgs/msg/BatteryState": ("percentage", "fraction"),
+    "sensor_msgs/msg/Temperature": ("temperature", "degC"),
+    "sensor_msgs/msg/RelativeHumidity": ("relative_humidity", "fraction"),
+    "sensor_msgs/msg/FluidPressure": ("fluid_pressure", "Pa"),
+    "sensor_msgs/msg/Illuminance": ("illuminance", "lx"),
+    "std_msgs/msg/Float32": ("data", ""),
+    "std_msgs/msg/Float64": ("data", ""),
+}
+
+
+def known_units() -> tuple[str, ...]:
+    """Every unit that can be turned into another."""
+    return tuple(_UNITS)
+
+
+def conversion(given: str, wanted: str) -> tuple[float, float] | None:
+    """What a value in one unit is to be multiplied by, and what then added, to have it in another.
+
+    >>> conversion("fraction", "percent")
+    (100.0, 0.0)
+
+    Returns:
+        None where there is no way from one to the other.
+    """
+    if given == wanted:
+        return 1.0, 0.0
+    if given not in _UNITS or wanted not in _UNITS or _UNITS[given][0] != _UNITS[wanted][0]:
+        return None
+    _, scale, offset = _UNITS[given]
+    _, wanted_scale, wanted_offset = _UNITS[wanted]
+    return _tidy(scale / wanted_scale), _tidy((offset - wanted_offset) / wanted_scale)
+
+
+def _tidy(value: float) -> float:
+    """Without the last digits, which binary fractions leave: 1 / 0.01 is 100."""
+    return float(f"{value:.15g}")
