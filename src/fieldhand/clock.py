@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 
 class Clock(Protocol):
@@ -16,6 +16,16 @@ class Clock(Protocol):
 
     def advance(self, seconds: float) -> None:
         """Let ``seconds`` (0 or more) pass."""
+        ...
+
+
+@runtime_checkable
+class PacedClock(Clock, Protocol):
+    """A clock on which time passes by itself, whoever waits."""
+
+    @property
+    def speed(self) -> float:
+        """Seconds that pass here in one second of the wall clock, above 0."""
         ...
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 
-from fieldhand.clock import Clock, ScaledClock
+from fieldhand.clock import Clock, PacedClock
 
 #: Seconds of the wall clock between two looks at the robot, and at what people want.
 LOOK_EVERY_S = 0.1
@@ -26,7 +26,7 @@ class MissionClock:
     @property
     def speed(self) -> float:
         """Seconds that pass here in one second of the wall clock; infinite where time jumps."""
-        return self._source.speed if isinstance(self._source, ScaledClock) else math.inf
+        return self._source.speed if isinstance(self._source, PacedClock) else math.inf
 
     def now(self) -> float:
         return self._now
