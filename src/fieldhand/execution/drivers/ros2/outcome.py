@@ -1,0 +1,69 @@
+"""What is known of one goal of a ROS 2 action, and how it ended."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from fieldhand.execution.drivers.ros2.transport import Message
+
+#: ``action_msgs/msg/GoalStatus``.
+ACCEPTED, EXECUTING, CANCELING, SUCCEEDED, CANCELED, ABORTED = range(1, 7)
+#: ``action_msgs/srv/CancelGoal``.
+CANCEL_REJECTED, CANCEL_UNKNOWN_GOAL, CANCEL_TERMINATED = 1, 2, 3
+
+#: How a goal ended. ``untold``: nobody said; what is known stands in :attr:`Outcome.what`.
+How = Literal["succeeded", "aborted", "cancelled", "rejected", "untold"]
+
+#: What is no more carried out.
+BY_STATUS: Mapping[int, How] = {SUCCEEDED: "succeeded", CANCELED: "cancelled", ABORTED: "aborted"}
+#: What is.
+BUSY = (ACCEPTED, EXECUTING, CANCELING)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """How a goal ended.
+
+    Attributes:
+        result: What the action said; empty where it said nothing.
+        what: Why it did not succeed, where it is not the action that says so.
+        moving: Nobody confirmed that the robot is not at it any more.
+    """
+
+    how: How
+    result: Message = field(default_factory=dict)
+    what: str = ""
+    moving: bool = False
+
+
+@dataclass(kw_only=True)
+class GoalRecord:
+    """What is known of a goal that was begun.
+
+    Attributes:
+        heard_s: When there was a sign of life.
+        absent_s: Since when no server is there.
+        stop_s: When its end was asked for, and why if by a limit.
+        forgotten: The server does not know it any more.
+        ended: Its status, once that is its last.
+    """
+
+    id: bytes
+    message: Message
+    begun_s: float
+    sent_s: float | None = None
+    accepted: bool = False
+    rejected: bool = False
+    heard_s: float = 0.0
+    asked_result_s: float | None = None
+    asked_cancel_s: float | None = None
+    absent_s: float | None = None
+    stop_s: float | None = None
+    why: str = ""
+    refused: bool = False
+    forgotten: bool = False
+    ended: int | None = None
+    ended_s: float = 0.0
+    result: Message | None = None
