@@ -8,8 +8,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
+from fieldhand.cli.outputs import unwritable
 from fieldhand.cli.show import note
-from fieldhand.errors import OutputError
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
@@ -52,9 +52,7 @@ def write_file(path: Path, data: bytes) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)
     except OSError as error:
-        raise OutputError(
-            f"cannot write: {error.strerror}", where=str(path), advice="choose a folder that you may write to"
-        ) from None
+        raise unwritable(str(path), error) from None
 
 
 def write_whole(path: Path, data: bytes) -> None:
@@ -74,9 +72,7 @@ def write_whole(path: Path, data: bytes) -> None:
     except OSError as error:
         with suppress(OSError):
             beside.unlink(missing_ok=True)
-        raise OutputError(
-            f"cannot write: {error.strerror}", where=str(path), advice="choose a folder that you may write to"
-        ) from None
+        raise unwritable(str(path), error) from None
 
 
 def may_ask() -> bool:
