@@ -1,5 +1,6 @@
 """The budget guard over missions driven on paper: budgets kept, what must be done protected, reasons in words."""
 
+import re
 from dataclasses import replace
 from functools import cache
 from itertools import pairwise
@@ -10,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fieldhand.evaluation.telling import Teller
 from fieldhand.execution.guard import Guard
 from fieldhand.forecast.routes import drives_for, visits_in_order
 from fieldhand.forecast.state import Spent, Visit
@@ -18,6 +20,7 @@ from fieldhand.orienteering.tail import exceeding
 from fieldhand.site.geojson import load_site
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, Repeat, Sequence
+from fieldhand.task.results import Shed
 from fieldhand.task.selectors import TreeIs, Trees
 from orchards import block, husky, orchard, task_for
 from paper import Paper
@@ -279,6 +282,19 @@ def test_trees_that_cannot_be_reached_are_given_up_and_named():
     only = paper.guard.choose(paper.state("n1"), visits[:1])
     assert (only.index, only.shed) == (None, (0,))
     assert only.reason == "there is no way to tree 13"
+
+
+def test_the_line_of_a_mission_under_way_names_what_is_left_out_once():
+    paper, _ = optional_mission(SITE, 0, limited(60.0))
+    by_reason = {why: tuple(tree for tree, said in paper.shed if said == why) for _, why in paper.shed}
+    assert by_reason
+    for why, trees in by_reason.items():
+        line = Teller(ROBOT).tell(Shed(t=1.0, node="n1", places=trees, optional=True, reason=why))
+        named = line.removeprefix("    0:01").partition(":")[0]
+        assert len(re.findall(rf"\b{trees[0]}\b", named)) == 1
+        assert line.count("skipped") + line.count("left out") == 1
+    other = Shed(t=1.0, node="n1", places=("7",), optional=True, reason="too far")
+    assert Teller(ROBOT).tell(other) == "    0:01     left out: 7 (too far)"
 
 
 def test_overspent_the_guard_sends_nobody_anywhere():

@@ -7,10 +7,13 @@ from pathlib import Path
 from typing import get_args
 
 import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
 
 from fieldhand.errors import WorldError
 from fieldhand.execution import world as w
 from fieldhand.execution.world import World, load_world
+from fieldhand.strict_yaml import read_yaml
 
 
 def write(tmp_path: Path, text: str) -> Path:
@@ -146,6 +149,55 @@ def test_a_mistake_is_one_line_that_says_where_and_what(tmp_path: Path, text: st
     assert says in line
     assert "\n" not in line
     assert caught.value.advice
+
+
+#: Lines of a file, and what is said of them where they are wrong.
+LINES = (
+    ("seed: -1", "seed: must be greater than or equal to 0, is -1"),
+    ("begins: yesterday", "begins: must be"),
+    ("chare: 3", "chare: there is no key 'chare' here (known here:"),
+    ("charge_percent: 0", "charge_percent: must be greater than 0, is 0"),
+)
+READINGS = (
+    ("co2: lots", "readings.co2: must be a number, true or false, is lots"),
+    ("wet: {defalt: 3, default: x}", "readings.wet.defalt: there is no key 'defalt' here (did you mean 'default'?)"),
+    ("ph: {trees: [{id: 4}]}", "readings.ph.trees[0]: the key 'value' is missing"),
+)
+FAULTS = (
+    ("{fault: fly}", "there is no fault 'fly'"),
+    ("{fault: blocked}", "give the tree that it stands at"),
+    ("{fault: robot_stops, at_s: -1}", "at_s: must be greater than or equal to 0, is -1"),
+)
+
+
+@given(st.sets(st.sampled_from(LINES)), st.sets(st.sampled_from(READINGS)), st.lists(st.sampled_from(FAULTS)))
+def test_every_mistake_of_a_file_is_said_at_once_with_its_place(
+    lines: set[tuple[str, str]], readings: set[tuple[str, str]], faults: list[tuple[str, str]]
+) -> None:
+    says = [said for _, said in (*lines, *readings)] + [f"faults[{n}" for n, _ in enumerate(faults)]
+    says += [said for _, said in faults]
+    count = len(lines) + len(readings) + len(faults) + ("wet: {defalt: 3, default: x}" in dict(readings))
+    assume(2 <= count <= 10)
+    text = [line for line, _ in lines] + ["readings:", "  co: 400", *(f"  {line}" for line, _ in readings)]
+    content = read_yaml(
+        "\n".join([*text, "faults:", *(f"- {line}" for line, _ in faults), "- {fault: disk_full, at_s: 3}"])
+    )
+    with pytest.raises(WorldError) as caught:
+        w.parse_world(content, source="w.yaml")
+    line = str(caught.value)
+    assert line.startswith(f"w.yaml: {count} mistakes: ")
+    for said in says:
+        assert said in line
+    assert "\n" not in line
+    assert f"faults[{len(faults)}" not in line
+
+
+def test_of_very_many_mistakes_ten_are_said_and_the_others_counted() -> None:
+    with pytest.raises(
+        WorldError, match=r"30 mistakes: faults\[0\]: .*faults\[9\]: .*; and 20 more; see docs"
+    ) as caught:
+        w.parse_world({"faults": [3] * 30})
+    assert "faults[10]" not in str(caught.value)
 
 
 def test_files_that_cannot_be_read(tmp_path: Path) -> None:

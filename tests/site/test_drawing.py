@@ -187,9 +187,11 @@ def test_names_with_signs_that_mean_something_to_the_drawing_program_are_drawn(t
 
 
 @pytest.mark.parametrize(
-    ("name", "says"), [("no/such/folder/site.png", "cannot be written"), ("site.xyz", "no kind of picture")]
+    ("name", "says"),
+    [("file/site.png", "cannot be written"), ("site.xyz", "no kind of picture"), ("site", "no ending")],
 )
 def test_a_picture_that_cannot_be_written_is_told(tmp_path, name, says):
+    (tmp_path / "file").touch()
     with pytest.raises(OutputError, match=says):
         save_site_picture(orchard(), tmp_path / name)
 

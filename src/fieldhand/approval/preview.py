@@ -42,7 +42,7 @@ def save_map(
     words = read_back(task, site, robot, estimate)
     plan = plan_of(task, [b.walk for b in estimate.branches], words.lines)
     figure = draw_map(task, site, plan, words, language)
-    save_figure(figure, path, what="map", make_folder=True)
+    save_figure(figure, path, what="map")
 
 
 def draw_map(task: Task, site: Site, plan: Plan, words: ReadBack, language: Language = ENGLISH) -> Figure:

@@ -21,6 +21,7 @@ from fieldhand.cli.options import (
     SiteOption,
     TranscriptOption,
 )
+from fieldhand.cli.outputs import to_whole_file
 
 if TYPE_CHECKING:
     from fieldhand.language import Language
@@ -38,7 +39,10 @@ class _Consent:
 def approve(
     request: Annotated[str, typer.Argument(help="A Task (.xml), or what the robot should do, in plain words.")],
     site: SiteOption,
-    output: Annotated[Path, typer.Option("-o", "--output", help="Where to write the signed mission (.mission).")],
+    output: Annotated[
+        Path,
+        typer.Option("-o", "--output", callback=to_whole_file, help="Where to write the signed mission (.mission)."),
+    ],
     robot: RobotOption = "husky",
     planner: PlannerOption = "auto",
     key: Annotated[str | None, typer.Option("--key", help="Name of the key to sign with, if you have several.")] = None,

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fieldhand.cli.options import JsonOption, PlannerOption, SeedOption, TranscriptOption
+from fieldhand.cli.outputs import to_folder
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -33,7 +34,8 @@ def bench_missions(
         list[str] | None, typer.Option("--only", help="Try the case of this id alone; several may be given.")
     ] = None,
     logs: Annotated[
-        Path | None, typer.Option("--logs", help="Folder for the event logs, CASE.WORLD.jsonl each.")
+        Path | None,
+        typer.Option("--logs", callback=to_folder, help="Folder for the event logs, CASE.WORLD.jsonl each."),
     ] = None,
     transcript: TranscriptOption = None,
     json: JsonOption = False,

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fieldhand.cli.options import JsonOption, SeedOption
+from fieldhand.cli.outputs import to_picture
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -37,7 +38,9 @@ def bench_orienteering(
     certain: Annotated[
         float, typer.Option("--certain", min=0.0, help="Also compare with PyVRP without chance, seconds for each.")
     ] = 0.0,
-    plot: Annotated[Path | None, typer.Option("--plot", help="Draw reward by failures to this file.")] = None,
+    plot: Annotated[
+        Path | None, typer.Option("--plot", callback=to_picture, help="Draw reward by failures to this file.")
+    ] = None,
     engine: Annotated[str, typer.Option("--engine", help="local, or dask://HOST:PORT of a scheduler.")] = "local",
     jobs: Annotated[int, typer.Option("--jobs", help="Processes; -1 for one on each processor.")] = -1,
     seed: SeedOption = 0,

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fieldhand.cli.options import JsonOption
+from fieldhand.cli.outputs import to_file
 
 if TYPE_CHECKING:
     from fieldhand.evaluation.calibration.figures import Fitted
@@ -21,7 +22,9 @@ def calibrate(
     events: Annotated[
         list[Path] | None, typer.Argument(help="Event logs of its missions; else those that were kept.")
     ] = None,
-    output: Annotated[Path | None, typer.Option("-o", "--out", help="Write the new profile (YAML) here.")] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--out", callback=to_file, help="Write the new profile (YAML) here.")
+    ] = None,
     simulated: Annotated[
         bool, typer.Option("--simulated", help="Fit to simulated missions that were kept, not to driven ones.")
     ] = False,

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from fieldhand.cli.options import LangOption, SeedOption
+from fieldhand.cli.outputs import to_folder
 
 REQUEST = (
     "Take a thermal picture at the four corner trees, in any order, and where the canopy is hotter than 34 °C measure"
@@ -17,9 +18,9 @@ REQUEST = (
 
 
 def demo(
-    output: Annotated[Path, typer.Option("-o", "--out", help="Folder for what the mission leaves behind.")] = Path(
-        "out"
-    ),
+    output: Annotated[
+        Path, typer.Option("-o", "--out", callback=to_folder, help="Folder for what the mission leaves behind.")
+    ] = Path("out"),
     seed: SeedOption = 7,
     lang: LangOption = None,
 ) -> None:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fieldhand.cli.options import JsonOption, LenientOption, MissionsOption, RecordedSiteOption
+from fieldhand.cli.outputs import to_file
 from fieldhand.errors import InputError
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ def export(
         ),
     ],
     to: Annotated[str, typer.Option("--to", help=f"Format: {', '.join(FORMATS)}.")],
-    output: Annotated[Path, typer.Option("-o", "--output", help="Where to write.")],
+    output: Annotated[Path, typer.Option("-o", "--output", callback=to_file, help="Where to write.")],
     site: RecordedSiteOption = None,
     robot: Annotated[str | None, typer.Option("--robot", help="The robot; husky if none is given.")] = None,
     lenient: LenientOption = False,

@@ -15,6 +15,7 @@ from fieldhand.cli import show
 from fieldhand.cli.approving import approve_plan, review_plan
 from fieldhand.cli.bundles import say_signature, signer_record
 from fieldhand.cli.inputs import Ground, write_file
+from fieldhand.cli.outputs import left_in
 from fieldhand.cli.show import note
 from fieldhand.errors import InputError, OutputError
 from fieldhand.language import ENGLISH, Language, message
@@ -144,11 +145,11 @@ def leave_plan(ground: Ground, review: mission.Review, document: bytes | None, o
 def _carry_out(
     ground: Ground, authorized: AuthorizedTask, orders: Orders, planner: str
 ) -> tuple[tuple[Event, ...], str]:
-    """The events of a mission, and the name under which it is kept."""
-    if orders.kept is not None:
-        given = _begin(authorized, orders, orders.kept, planner)
-        return go_on(given, orders), given.id
+    """The events of a mission, and the name under which it is kept; none is begun before every log is open."""
     with _taking(ground, orders, ()) as take:
+        if orders.kept is not None:
+            given = _begin(authorized, orders, orders.kept, planner)
+            return missions.carry_out(given, speed=orders.speed, emit=take).events, given.id
         return mission.carry_out(
             authorized,
             ground.site,
@@ -181,7 +182,7 @@ def _begin(authorized: AuthorizedTask, orders: Orders, kept: Kept, planner: str)
 
 
 def go_on(given: missions.Mission, orders: Orders) -> tuple[Event, ...]:
-    """Carry out what is left of a mission that is kept: all of it, or what was not done before a power cut."""
+    """Carry out what is left of a mission that is kept, as after a power cut."""
     before = missions.events_of(given.folder)
     with _taking(Ground(site=given.site, robot=given.robot), orders, before) as take:
         return missions.carry_out(given, speed=orders.speed, emit=take).events
@@ -241,7 +242,7 @@ def conclude(
     ended = next((e for e in reversed(events) if isinstance(e, Ended)), None)
     written: list[Path] = []
     if orders.folder is not None and review.estimate is not None:
-        files = mission.report(
+        mission.report(
             orders.folder,
             authorized,
             ground.site,
@@ -252,7 +253,7 @@ def conclude(
             signed=say_signature(orders.bundle),
             hashes=() if orders.bundle is None else (("signed mission", orders.bundle.hashes["bundle"]),),
         )
-        written = [*(orders.folder / file for file in ("task.xml", "map.png", "events.jsonl")), *files.paths]
+        written = list(left_in(orders.folder))
     if orders.history is not None:
         _keep_history(orders.history, ground, events)
     status = 0 if ended is not None and ended.status == "completed" and assessment.success else 1

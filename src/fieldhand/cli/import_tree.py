@@ -8,11 +8,12 @@ from typing import Annotated
 import typer
 
 from fieldhand.cli.options import JsonOption, LenientOption, RobotOption
+from fieldhand.cli.outputs import to_file
 
 
 def import_tree(
     tree: Annotated[Path, typer.Argument(help="A tree of BehaviorTree.CPP 4 (XML), made of this robot's actions.")],
-    output: Annotated[Path, typer.Option("-o", "--output", help="Where to write the Task (XML).")],
+    output: Annotated[Path, typer.Option("-o", "--output", callback=to_file, help="Where to write the Task (XML).")],
     robot: RobotOption = "husky",
     site: Annotated[str | None, typer.Option("--site", help="Check the Task on this site, too.")] = None,
     request: Annotated[str, typer.Option("--request", help="What was asked, where the tree does not say.")] = "",

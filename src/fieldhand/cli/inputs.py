@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fieldhand import files
+from fieldhand.cli.outputs import unwritable
 from fieldhand.cli.show import note
-from fieldhand.errors import OutputError
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
@@ -65,9 +65,7 @@ def _write(path: Path, data: bytes, how: Callable[[Path, bytes], object]) -> Non
         path.parent.mkdir(parents=True, exist_ok=True)
         how(path, data)
     except OSError as error:
-        raise OutputError(
-            f"cannot write: {error.strerror}", where=str(path), advice="choose a folder that you may write to"
-        ) from None
+        raise unwritable(str(path), error) from None
 
 
 def may_ask() -> bool:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fieldhand.cli.options import JsonOption
+from fieldhand.cli.outputs import to_file
 
 if TYPE_CHECKING:
     from fieldhand.approval.keys.signing import OwnKey, SigningKeys
@@ -22,7 +23,8 @@ keys = typer.Typer(
 def new(
     name: Annotated[str | None, typer.Option("--name", help="Whose key it is; else the user who is logged in.")] = None,
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="Write the public line to this file, too, to be sent.")
+        Path | None,
+        typer.Option("-o", "--output", callback=to_file, help="Write the public line to this file, too, to be sent."),
     ] = None,
     passphrase: Annotated[
         bool, typer.Option("--passphrase", help="Ask for a passphrase (or set FIELDHAND_KEY_PASSPHRASE).")
@@ -34,17 +36,12 @@ def new(
     from fieldhand.cli.approving import user_name
     from fieldhand.cli.inputs import write_file
     from fieldhand.cli.secrets import new_passphrase
-    from fieldhand.errors import OutputError
 
     own, _ = _folders()
     key, file = own.make(name or user_name(), new_passphrase(asked=passphrase))
     public = key.public
     if output is not None:
-        try:
-            write_file(output, f"{public.line()}\n".encode())
-        except OutputError as error:
-            advice = f"the key was made all the same; the line to send stands in {file}"
-            raise OutputError(error.what, where=error.where, advice=advice) from None
+        write_file(output, f"{public.line()}\n".encode())
     if json:
         record = {"name": public.name, "fingerprint": public.fingerprint, "public_key": public.line()}
         show.print_json(record | {"file": str(file)})

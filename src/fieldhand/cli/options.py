@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from fieldhand.cli.outputs import to_file, to_folder, to_picture
+
 SITE_HELP = (
     "File of the site, or 'demo' for the built-in orchard: GeoJSON or CSV; with the extra gis also"
     " Shapefile, GeoPackage, KML, KMZ."
@@ -33,6 +35,7 @@ TranscriptOption = Annotated[
     Path | None,
     typer.Option(
         "--transcript",
+        callback=to_file,
         help="Where to keep what was said to a language model and its answers; else in the user's state folder.",
     ),
 ]
@@ -58,7 +61,19 @@ MissionArgument = Annotated[
 ProductionOption = Annotated[
     bool, typer.Option("--production", help="Run nothing but a mission that a trusted key has signed.")
 ]
-PictureOption = Annotated[Path | None, typer.Option("--picture", help="Draw a map to this PNG file.")]
+PictureOption = Annotated[
+    Path | None, typer.Option("--picture", callback=to_picture, help="Draw a map to this PNG file.")
+]
+EventsOption = Annotated[
+    Path | None, typer.Option("--events", callback=to_file, help="Write the event log (JSON lines) here.")
+]
+McapOption = Annotated[
+    Path | None,
+    typer.Option("--mcap", callback=to_file, help="Write the log as MCAP here, for Foxglove and Lichtblick."),
+]
+LeaveOption = Annotated[
+    Path | None, typer.Option("-o", "--out", callback=to_folder, help="Folder for Task, map, events and report.")
+]
 SeedOption = Annotated[int, typer.Option("--seed", min=0, help="Same seed, same mission.")]
 CpuTimeOption = Annotated[
     bool, typer.Option("--cpu-time", help="Count processor time, where others use the machine as well.")

@@ -20,6 +20,7 @@ from fieldhand.cli.options import (
     SiteOption,
     TranscriptOption,
 )
+from fieldhand.cli.outputs import to_file
 
 
 def plan(
@@ -27,7 +28,9 @@ def plan(
     site: SiteOption,
     robot: RobotOption = "husky",
     planner: PlannerOption = "auto",
-    output: Annotated[Path | None, typer.Option("-o", "--output", help="Where to write the Task (XML).")] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", callback=to_file, help="Where to write the Task (XML).")
+    ] = None,
     picture: PictureOption = None,
     answer: AnswerOption = None,
     assume: AssumeOption = False,

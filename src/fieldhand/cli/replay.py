@@ -8,13 +8,15 @@ from typing import Annotated
 import typer
 
 from fieldhand.cli.options import JsonOption, LenientOption, MissionsOption, RecordedSiteOption
+from fieldhand.cli.outputs import to_file
 
 _ENDINGS = (".html", ".gif", ".mp4")
 
 
 def replay(
     output: Annotated[
-        Path, typer.Option("-o", "--output", help="Where to write: .html, .gif, or .mp4 (needs ffmpeg).")
+        Path,
+        typer.Option("-o", "--output", callback=to_file, help="Where to write: .html, .gif, or .mp4 (needs ffmpeg)."),
     ],
     given: Annotated[
         str | None,

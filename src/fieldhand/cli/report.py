@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from fieldhand.cli.options import JsonOption, LenientOption, MissionsOption, RecordedSiteOption
+from fieldhand.cli.outputs import to_folder
 
 
 def report(
@@ -24,7 +25,9 @@ def report(
     ] = None,
     site: RecordedSiteOption = None,
     robot: Annotated[str | None, typer.Option("--robot", help="Of a log: the robot; husky if none is given.")] = None,
-    output: Annotated[Path, typer.Option("-o", "--out", help="Folder for the report.")] = Path("report"),
+    output: Annotated[Path, typer.Option("-o", "--out", callback=to_folder, help="Folder for the report.")] = Path(
+        "report"
+    ),
     lenient: LenientOption = False,
     kept: MissionsOption = None,
     json: JsonOption = False,

@@ -3,24 +3,30 @@
 from __future__ import annotations
 
 import os
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from fieldhand.cli.options import JsonOption, LangOption, MissionArgument, MissionsOption, ProductionOption
+from fieldhand.cli.options import (
+    EventsOption,
+    JsonOption,
+    LangOption,
+    LeaveOption,
+    McapOption,
+    MissionArgument,
+    MissionsOption,
+    ProductionOption,
+)
 
 
 def resume(
     mission: MissionArgument = None,
-    events: Annotated[Path | None, typer.Option("--events", help="Write the event log (JSON lines) here.")] = None,
-    output: Annotated[Path | None, typer.Option("-o", "--out", help="Folder for Task, map, events and report.")] = None,
+    events: EventsOption = None,
+    output: LeaveOption = None,
     speed: Annotated[
         str, typer.Option("--speed", help="max, or simulated seconds in a second (1 is real time).")
     ] = "max",
-    mcap: Annotated[
-        Path | None, typer.Option("--mcap", help="Write the log as MCAP here, for Foxglove and Lichtblick.")
-    ] = None,
+    mcap: McapOption = None,
     production: ProductionOption = False,
     lang: LangOption = None,
     kept: MissionsOption = None,

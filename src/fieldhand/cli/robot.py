@@ -10,6 +10,7 @@ from typer.core import TyperGroup
 
 from fieldhand.cli.calibrate import calibrate
 from fieldhand.cli.options import JsonOption
+from fieldhand.cli.outputs import to_file
 
 if TYPE_CHECKING:
     from fieldhand.robot.model import RobotProfile
@@ -35,7 +36,9 @@ robot.command("calibrate")(calibrate)
 @robot.command("show")
 def show_robot(
     name: Annotated[str, typer.Argument(help="Built-in robot (husky, amiga) or a profile file (YAML).")],
-    xsd: Annotated[Path | None, typer.Option("--xsd", help="Write the schema of this robot's Tasks here.")] = None,
+    xsd: Annotated[
+        Path | None, typer.Option("--xsd", callback=to_file, help="Write the schema of this robot's Tasks here.")
+    ] = None,
     json: JsonOption = False,
 ) -> None:
     """Say what a robot can do and measure; --xsd writes the schema that its Tasks must satisfy."""

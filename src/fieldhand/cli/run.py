@@ -12,9 +12,12 @@ from fieldhand.cli.options import (
     AssumeOption,
     ByOption,
     ConfirmOption,
+    EventsOption,
     JsonOption,
     LangOption,
+    LeaveOption,
     LenientOption,
+    McapOption,
     MissionRobotOption,
     MissionSiteOption,
     MissionsOption,
@@ -36,11 +39,9 @@ def run(
     seed: Annotated[
         int | None, typer.Option("--seed", min=0, help="Same seed, same mission; else the world's, else 0.")
     ] = None,
-    events: Annotated[Path | None, typer.Option("--events", help="Write the event log (JSON lines) here.")] = None,
-    mcap: Annotated[
-        Path | None, typer.Option("--mcap", help="Write the log as MCAP here, for Foxglove and Lichtblick.")
-    ] = None,
-    output: Annotated[Path | None, typer.Option("-o", "--out", help="Folder for Task, map, events and report.")] = None,
+    events: EventsOption = None,
+    mcap: McapOption = None,
+    output: LeaveOption = None,
     speed: Annotated[
         str, typer.Option("--speed", help="max, or simulated seconds in a second (1 is real time).")
     ] = "max",
@@ -69,6 +70,7 @@ def run(
     from fieldhand.cli.bundles import is_bundle, open_mission, require_site, tell_signer
     from fieldhand.cli.flight import Kept, Orders, fly, parse_speed
     from fieldhand.cli.inputs import Ground, open_ground
+    from fieldhand.cli.outputs import require_folder
     from fieldhand.execution.world import World, load_world
     from fieldhand.language import spoken
     from fieldhand.robot.loader import profile_bytes
@@ -76,6 +78,8 @@ def run(
 
     language = spoken(lang, os.environ)
     pace = parse_speed(speed)
+    under = kept or missions.missions_folder(os.environ)
+    require_folder(under, f"--missions {under}")
     bundle = open_mission(request, site, robot, lenient=lenient) if is_bundle(request) else None
     if bundle is None:
         require_unsigned_allowed(os.environ, asked=production)
@@ -106,7 +110,7 @@ def run(
         quiet=json,
         language=language,
         kept=Kept(
-            under=kept or missions.missions_folder(os.environ),
+            under=under,
             site=(site_files(require_site(site)) if bundle is None else bundle.files).parts,
             robot=profile_bytes(robot or "husky")[0] if bundle is None else bundle.profile,
             world=None if world is None else world.read_bytes(),

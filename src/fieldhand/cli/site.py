@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from fieldhand.cli.options import SITE_HELP, JsonOption, LenientOption, PictureOption, RobotOption
+from fieldhand.cli.outputs import to_file
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -20,7 +21,11 @@ def site(
     all_rows: Annotated[bool, typer.Option("--rows", help="List every row, however many there are.")] = False,
     geojson: Annotated[
         Path | None,
-        typer.Option("--geojson", help="Write the site with rows, aisles and drivable lines to this GeoJSON file."),
+        typer.Option(
+            "--geojson",
+            callback=to_file,
+            help="Write the site with rows, aisles and drivable lines to this GeoJSON file.",
+        ),
     ] = None,
     robot: RobotOption = "husky",
     lenient: LenientOption = False,

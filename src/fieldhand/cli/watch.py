@@ -17,6 +17,7 @@ from fieldhand.cli.links import (
     UrlArgument,
 )
 from fieldhand.cli.options import JsonOption
+from fieldhand.cli.outputs import to_file
 
 if TYPE_CHECKING:
     from fieldhand.delivery.wire import EventLine
@@ -28,7 +29,7 @@ def watch(
     mission: MissionOfRobot = None,
     once: Annotated[bool, typer.Option("--once", help="Fetch what is there, and wait for nothing.")] = False,
     events: Annotated[
-        Path | None, typer.Option("--events", help="Write the event log (JSON lines) here, whole.")
+        Path | None, typer.Option("--events", callback=to_file, help="Write the event log (JSON lines) here, whole.")
     ] = None,
     token_file: TokenFileOption = None,
     ca: CaOption = None,

@@ -18,6 +18,7 @@ Floats = NDArray[np.float64]
 
 #: Places beyond this many are counted, not named.
 MAX_NAMED = 6
+_SKIPPED, _NO_WAY = "skipped", "there is no way to"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,7 +51,7 @@ def left_out(
     average)".
     """
     binding = _binding(means, chances)
-    words = f"skipped {named(visits, indices)}: {100 * chances[binding]:.0f} % chance of running short"
+    words = f"{_SKIPPED} {named(visits, indices)}: {100 * chances[binding]:.0f} % chance of running short"
     return f"{words} ({_amounts(means, state, errand, binding)})"
 
 
@@ -71,7 +72,12 @@ def _amounts(means: Means, state: MissionState, errand: Errand, binding: int) ->
 
 def no_way(visits: Sequence[Visit], indices: Sequence[int]) -> str:
     """ "there is no way to trees 3 and 4"."""
-    return f"there is no way to {named(visits, indices)}"
+    return f"{_NO_WAY} {named(visits, indices)}"
+
+
+def names_places(reason: str) -> bool:
+    """Whether a reason says itself what was left out, so that who tells it need not name that again."""
+    return reason.startswith((f"{_SKIPPED} ", f"{_NO_WAY} "))
 
 
 def named(visits: Sequence[Visit], indices: Sequence[int]) -> str:

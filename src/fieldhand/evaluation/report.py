@@ -26,6 +26,13 @@ class ReportFiles:
     csv: Path
     geojson: Path
 
+    @classmethod
+    def within(cls, folder: Path) -> ReportFiles:
+        """Those of a report in this folder."""
+        return cls(
+            page=folder / "report.html", csv=folder / "observations.csv", geojson=folder / "observations.geojson"
+        )
+
     @property
     def paths(self) -> tuple[Path, ...]:
         """All of them, the one to read first first."""
@@ -60,9 +67,7 @@ def write_report(
     Raises:
         OutputError: The folder or a file in it cannot be written.
     """
-    files = ReportFiles(
-        page=folder / "report.html", csv=folder / "observations.csv", geojson=folder / "observations.geojson"
-    )
+    files = ReportFiles.within(folder)
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as fault:

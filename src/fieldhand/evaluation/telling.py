@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from fieldhand.clock import clock_time
+from fieldhand.evaluation.reasons import names_places
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.frames import Task
 from fieldhand.task.results import (
@@ -71,6 +72,8 @@ class Teller:
                 return "continued"
             case Decided():
                 return f"   {capitalised(event.why)}."
+            case Shed(optional=True) if names_places(event.reason):
+                return f"   {event.reason}"
             case Shed(optional=True):
                 return f"   left out: {_names(event.places)} ({event.reason})"
             case Shed():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from datetime import datetime
 from typing import Annotated, Any, get_args
 
@@ -24,6 +24,10 @@ from fieldhand.execution.world import Truth, World
 from fieldhand.execution.world_faults import AnyFault, FaultModel, SpotModel, Strict
 
 GUIDE = "see docs/formats.md, 'World file'"
+_CORRECT = "correct the value"
+
+#: Mistakes that are told one by one.
+_MOST_NAMED = 10
 
 _KINDS: dict[type, str] = {dict: "a mapping", list: "a list", type(None): "empty"}
 
@@ -95,20 +99,49 @@ def world_of(content: Mapping[str, Any], *, source: str) -> World:
 
 
 def _explained(error: ValidationError, source: str) -> WorldError:
-    """The mistake that says most, as one line: the file, the key's path, what is wrong, what to do."""
-    problems = error.errors(include_url=False, include_context=True)
-    # A reading may be a value or a mapping; pydantic blames it for being neither. The deepest blame is the one meant.
-    first = max(problems, key=lambda p: (p["type"] == "extra_forbidden", len(p["loc"])))
-    path = _path(first)
-    if first["type"] == "missing" and path[-1].isdigit():
-        what, where = f"has {path[-1]} of its entries, and needs more", ": ".join([source, *_dotted(path[:-1])])
-        return WorldError(what, where=where, advice=GUIDE)
-    if first["type"] == "missing":
-        return WorldError(
-            f"the key '{path[-1]}' is missing", where=": ".join([source, *_dotted(path[:-1])]), advice=GUIDE
-        )
-    what, advice = _words_for(first, path)
-    return WorldError(what, where=": ".join([source, *_dotted(path)]), advice=advice)
+    """Every mistake in one line: the file, and of each the key's path, what is wrong, and what to do."""
+    mistakes = [_mistake(problem) for problem in _meant(error.errors(include_url=False, include_context=True))]
+    if len(mistakes) == 1:
+        where, what, advice = mistakes[0]
+        return WorldError(what, where=": ".join([source, *where]), advice=advice)
+    said = [f"{': '.join([*where, what])}{_hint(advice)}" for where, what, advice in mistakes[:_MOST_NAMED]]
+    more = f"; and {len(mistakes) - _MOST_NAMED} more" if len(mistakes) > _MOST_NAMED else ""
+    return WorldError(f"{len(mistakes)} mistakes: {'; '.join(said)}{more}", where=source, advice=GUIDE)
+
+
+def _meant(problems: Sequence[ErrorDetails]) -> list[ErrorDetails]:
+    """The mistakes that a person would count, those of one reading or fault together, its stray keys first.
+
+    Where a value may be of several kinds, pydantic blames it for being none of them, once for each; and a misspelt key
+    for being there and the right one for missing.
+    """
+    strays = [p["loc"] for p in problems if p["type"] == "extra_forbidden"]
+    mappings = {p["loc"][1] for p in problems if p["loc"][0] == "readings" and len(p["loc"]) > 3}
+    found: dict[tuple[str, ...], ErrorDetails] = {}
+    for problem in sorted(problems, key=lambda p: p["type"] != "extra_forbidden"):
+        loc = problem["loc"]
+        if loc[0] == "readings" and len(loc) == 3 and loc[1] in mappings:
+            continue  # a mapping is no number, and was not meant as one
+        if problem["type"] == "missing" and any(s[:-1] == loc[:-1] and _near(s[-1], [str(loc[-1])]) for s in strays):
+            continue
+        found.setdefault(tuple(_path(problem)), problem)
+    places = list(dict.fromkeys(tuple(map(str, p["loc"][:2])) for p in problems))
+    return sorted(found.values(), key=lambda p: places.index(tuple(map(str, p["loc"][:2]))))
+
+
+def _hint(advice: str) -> str:
+    """What to do about one of several mistakes, where that is its own; where to read is said once, at the end."""
+    return "" if advice in (GUIDE, _CORRECT) else f" ({advice})"
+
+
+def _mistake(problem: ErrorDetails) -> tuple[list[str], str, str]:
+    """Where a mistake stands, what is wrong, and what to do."""
+    path = _path(problem)
+    if problem["type"] == "missing" and path[-1].isdigit():
+        return _dotted(path[:-1]), f"has {path[-1]} of its entries, and needs more", GUIDE
+    if problem["type"] == "missing":
+        return _dotted(path[:-1]), f"the key '{path[-1]}' is missing", GUIDE
+    return _dotted(path), *_words_for(problem, path)
 
 
 def _path(problem: ErrorDetails) -> list[str]:
@@ -153,9 +186,9 @@ def _words_for(problem: ErrorDetails, path: list[str]) -> tuple[str, str]:
         case "tuple_type":
             return f"must be a list, is {shown}", "begin each entry with a dash"
         case "bool_type" | "float_type" | "float_parsing" if path[:1] == ["readings"]:
-            return f"must be a number, true or false, is {shown}", "correct the value"
+            return f"must be a number, true or false, is {shown}", _CORRECT
         case _:
-            return f"{problem['msg'].replace('Input should be', 'must be')}, is {shown}", "correct the value"
+            return f"{problem['msg'].replace('Input should be', 'must be')}, is {shown}", _CORRECT
 
 
 def _keys_at(problem: ErrorDetails, path: list[str]) -> list[str]:
@@ -169,8 +202,12 @@ def _keys_at(problem: ErrorDetails, path: list[str]) -> list[str]:
 
 
 def _nearest(given: object, known: list[str]) -> str:
-    near = difflib.get_close_matches(str(given).lower(), known, n=1)
+    near = _near(given, known)
     return f"did you mean '{near[0]}'?" if near else f"known here: {', '.join(known)}"
+
+
+def _near(given: object, known: list[str]) -> list[str]:
+    return difflib.get_close_matches(str(given).lower(), known, n=1)
 
 
 def _short(text: str) -> str:

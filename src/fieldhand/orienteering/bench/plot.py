@@ -39,6 +39,7 @@ def plot(rows: Sequence[Row], file: Path) -> None:
         shown |= {label: handle for handle, label in zip(*panel.get_legend_handles_labels(), strict=True)}
     figure.legend(shown.values(), shown.keys(), loc="outside lower center", ncols=5, fontsize="small")
     try:
+        file.parent.mkdir(parents=True, exist_ok=True)
         figure.savefig(file)
     except (OSError, ValueError) as error:
         raise OutputError(f"the plot cannot be written: {error}", where=str(file)) from error

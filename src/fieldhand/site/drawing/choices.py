@@ -42,7 +42,7 @@ def save_choices_picture(
         OutputError: The file cannot be written, or its ending is of no kind of picture.
     """
     figure = choices_picture(site, question, choices, places)
-    save_figure(figure, path, make_folder=True)
+    save_figure(figure, path)
 
 
 def choices_picture(site: Site, question: str, choices: Sequence[str], places: Sequence[Sequence[Place]]) -> Figure:

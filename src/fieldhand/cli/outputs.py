@@ -1,0 +1,145 @@
+"""Where commands write: whether they can is found out before anything is asked, planned or driven.
+
+Options that name a file or a folder to write have a function of here for their ``callback``: it is called while the
+command line is read. It tries, and leaves nothing behind.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+
+import typer
+
+from fieldhand.errors import OutputError
+
+_OPTIONS = "fieldhand.outputs"
+
+
+def to_file(ctx: typer.Context, param: typer.CallbackParam, path: Path | None) -> Path | None:
+    """Of an option that names a file; one that is there is replaced.
+
+    Raises:
+        OutputError: It cannot be written, or another option names the same.
+    """
+    if path is not None:
+        _require_file(path, f"{_name(param)} {path}")
+        _require_own(ctx, param, path)
+    return path
+
+
+def to_whole_file(ctx: typer.Context, param: typer.CallbackParam, path: Path | None) -> Path | None:
+    """Of an option that names a file which is written beside its place and then put there, as a whole or not at all.
+
+    Raises:
+        OutputError: As :func:`to_file`.
+    """
+    if path is not None:
+        where = f"{_name(param)} {path}"
+        require_folder(path.parent, where)
+        _require_no_folder(path, where)
+        _require_own(ctx, param, path)
+    return path
+
+
+def to_picture(ctx: typer.Context, param: typer.CallbackParam, path: Path | None) -> Path | None:
+    """Of an option that names a picture.
+
+    Raises:
+        OutputError: As :func:`to_file`, or its ending is of no kind of picture.
+    """
+    if path is not None:
+        from fieldhand.site.drawing.saving import require_picture
+
+        to_file(ctx, param, path)
+        require_picture(path)
+    return path
+
+
+def to_folder(ctx: typer.Context, param: typer.CallbackParam, path: Path | None) -> Path | None:
+    """Of an option that names the folder of what a mission leaves behind; what is there of the same names is replaced.
+
+    Raises:
+        OutputError: It cannot be written, or another option names the same.
+    """
+    if path is not None:
+        require_folder(path, f"{_name(param)} {path}")
+        for file in left_in(path):
+            if file.exists():
+                _require_file(file, f"{_name(param)} {file}")
+        _require_own(ctx, param, path)
+    return path
+
+
+def left_in(folder: Path) -> tuple[Path, ...]:
+    """What a mission leaves behind in a folder: Task, map, events, and the report, its page first."""
+    from fieldhand.evaluation.report import ReportFiles
+
+    return (*(folder / name for name in ("task.xml", "map.png", "events.jsonl")), *ReportFiles.within(folder).paths)
+
+
+def require_folder(path: Path, where: str) -> None:
+    """Refuse a folder in which nothing can be written; one that is not there yet is made later.
+
+    Args:
+        where: What to call it.
+
+    Raises:
+        OutputError: It is a file, or may not be written or made.
+    """
+    try:
+        folder = Path(os.path.realpath(path))
+        there = next(f for f in (folder, *folder.parents) if f.exists())
+        if not there.is_dir():
+            what = f"cannot write: {there.name} is a file, not a folder"
+            raise OutputError(what, where=where, advice="choose a folder that you may write to")
+        with tempfile.TemporaryFile(dir=there):  # rights alone do not say it on every system
+            pass
+    except OSError as error:
+        raise unwritable(where, error) from None
+
+
+def unwritable(where: str, error: OSError) -> OutputError:
+    """What is said of what cannot be written."""
+    return OutputError(
+        f"cannot write: {error.strerror or error}", where=where, advice="choose a folder that you may write to"
+    )
+
+
+def _require_file(path: Path, where: str) -> None:
+    try:
+        _require_no_folder(path, where)
+        if path.is_file():
+            with path.open("ab"):
+                pass
+        elif not path.exists():
+            require_folder(Path(os.path.realpath(path)).parent, where)
+        elif not os.access(path, os.W_OK):  # a pipe or a device, which may wait for its reader when it is opened
+            raise PermissionError(13, "Permission denied")
+    except OSError as error:
+        raise unwritable(where, error) from None
+
+
+def _require_no_folder(path: Path, where: str) -> None:
+    if path.is_dir():
+        raise OutputError("is a folder, not a file", where=where, advice="give the name of a file in it")
+
+
+def _require_own(ctx: typer.Context, param: typer.CallbackParam, path: Path) -> None:
+    """Refuse what another option names as well: the one would overwrite the other.
+
+    Raises:
+        OutputError: It does.
+    """
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        return  # a device takes whatever it is given
+    option = _name(param)
+    other = ctx.meta.setdefault(_OPTIONS, {}).setdefault(os.path.realpath(path), option)
+    if other != option:
+        raise OutputError(f"is given for {other} and for {option}", where=str(path), advice="give each its own")
+
+
+def _name(param: typer.CallbackParam) -> str:
+    """An option by its long name."""
+    return max(param.opts, key=len)
