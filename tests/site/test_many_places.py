@@ -105,7 +105,8 @@ def over(roads: Roads) -> np.ndarray:
 @settings(max_examples=50, deadline=None)
 @given(any_site)
 @example(generated(38))  # a stand beside a row in an aisle that something else stands in
-def test_over_the_roads_hardly_any_way_is_shorter_than_the_drive_or_longer(site):
+@example(generated(210))  # a turn around a short row between two such aisles
+def test_over_the_roads_no_way_is_shorter_than_the_drive_and_hardly_any_is_longer(site):
     drives = drives_on(site)
     assume(not drives.problem(site.start))
     places = [p for p in places_of(site) if not drives.problem(p)]
@@ -116,10 +117,7 @@ def test_over_the_roads_hardly_any_way_is_shorter_than_the_drive_or_longer(site)
     assert (roads.lengths > 0.0).all()
     assert len(roads.ways) <= 40 * len(places) + len(drives.layout.graph.ways(0)[0])
     lengths, found = drives.lengths(roads.places), over(roads)
-    # Corners may be cut by a millionth of a metre. A drive is smoothed and not sought anew: on rare sites it goes round
-    # something on the side that is half a per cent longer, and the way over the roads on the other.
-    assert (found >= 0.99 * lengths - 1e-5).all()
-    assert np.mean(found >= lengths * (1.0 - 1e-9) - 1e-5) >= 0.98
+    assert (found >= lengths * (1.0 - 1e-9) - 1e-5).all()  # corners may be cut by a millionth of a metre
     apart = lengths > 1e-6
     stretch = found[apart] / lengths[apart] - 1.0
     if stretch.size:

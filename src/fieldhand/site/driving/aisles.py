@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
@@ -70,8 +71,8 @@ class Aisle:
     def sides(self) -> tuple[Points, Points, Points]:
         """u, and the least and greatest v there at which the robot is clear of the rows; whole length of the aisle."""
         (lu, lv), (hu, hv) = self.below.upper, self.above.lower
-        (_, start), (_, end) = self.body.start_outline, self.body.end_outline
-        u = np.unique(np.concatenate([[start.min()], lu, hu, [end.max()]]))
+        first, last = self._span
+        u = np.unique(np.concatenate([[first], lu, hu, [last]]))
         return u, np.interp(u, lu, lv), np.interp(u, hu, hv)
 
     def bounds(self, u: Points) -> tuple[Points, Points]:
@@ -84,9 +85,8 @@ class Aisle:
 
     def middle(self, u: Points | float) -> Points:
         """v halfway between the rows at each u."""
-        return np.asarray(
-            (np.interp(u, self.above.u, self.above.low) + np.interp(u, self.below.u, self.below.high)) / 2.0
-        )
+        low, high = np.interp(u, self.below.u, self.below.high), np.interp(u, self.above.u, self.above.low)
+        return np.asarray((low + high) / 2.0)
 
     @property
     def middle_line(self) -> Points:
@@ -221,9 +221,8 @@ class Aisle:
 
     @cached_property
     def _ground(self) -> Ground:
-        clearance = self.free.clearance_m
-        hard = self.between_rows(clear=False).intersection(self.free.hard)
-        return Ground(hard, self.soft, clearance)
+        hard = unary_union([self.between_rows(clear=False), self.corridor]).intersection(self.free.hard)
+        return Ground(_areas(hard), self.soft, self.free.clearance_m)
 
     @cached_property
     def soft(self) -> BaseGeometry:
@@ -238,6 +237,13 @@ class Aisle:
     def corridor(self) -> BaseGeometry:
         """Where the robot is clear of both rows, in metres east and north, whatever else stands there.
 
+        Past the end of a row it reaches to the row's line, so that a turn into the next aisle is on it like a mouth.
+        """
+        return _areas(unary_union([self._beside_rows(), *self._past_rows()]))
+
+    def _beside_rows(self) -> BaseGeometry:
+        """Where the robot is clear of both rows as if they went on level.
+
         Sides with very many corners give up a little room: straight from mouth to mouth where that leaves most of it.
         """
         many = len(self.below.u) + len(self.above.u) > _MANY_CORNERS / 2
@@ -251,6 +257,22 @@ class Aisle:
                 break
         return corridor
 
+    def _past_rows(self) -> Iterator[BaseGeometry]:
+        """Beyond the clearance from either end of each row: from its line to where the robot is clear of the other."""
+        clearance, (first, last) = self.free.clearance_m, self._span
+        for row in (self.below, self.above):
+            for k, u0, u1 in ((0, first, row.u[0] - clearance), (-1, row.u[-1] + clearance, last)):
+                line = row.u[[k]], (row.low[[k]] + row.high[[k]]) / 2.0
+                sides = (line, self.above.lower) if row is self.below else (self.below.upper, line)
+                if u0 < u1:
+                    yield self._between(*sides, u0, u1)
+
+    @property
+    def _span(self) -> tuple[float, float]:
+        """The least and the greatest u of the body."""
+        (_, start), (_, end) = self.body.start_outline, self.body.end_outline
+        return float(start.min()), float(end.max())
+
     @property
     def hull(self) -> Polygon:
         """A four-cornered area in which the whole aisle lies."""
@@ -258,8 +280,7 @@ class Aisle:
 
     def _strip(self, low: float, high: float) -> Polygon:
         """Between two v, as long as the body."""
-        (_, start), (_, end) = self.body.start_outline, self.body.end_outline
-        u0, u1 = float(start.min()), float(end.max())
+        u0, u1 = self._span
         return Polygon(self.body.frame.world(np.array([(u0, low), (u1, low), (u1, high), (u0, high)])))
 
     def between_rows(self, *, clear: bool, tolerance: float = 0.0) -> BaseGeometry:
@@ -269,14 +290,17 @@ class Aisle:
             clear: Of the rows by the robot's clearance.
             tolerance: Part of the width that may be left out where that makes the sides simpler.
         """
-        (_, start), (_, end) = self.body.start_outline, self.body.end_outline
         below, above = (self.below.u, self.below.high), (self.above.u, self.above.low)
         if clear:
             below, above = self.below.upper, self.above.lower
         if tolerance > 0.0:
             below, above = self._simplified(below, above, tolerance)
-        u = np.unique(np.concatenate([[start.min()], below[0], above[0], [end.max()]]))
-        u = u[(u >= start.min()) & (u <= end.max())]
+        return self._between(below, above, *self._span)
+
+    def _between(self, below: Line, above: Line, u0: float, u1: float) -> BaseGeometry:
+        """From line to line and from u to u, within the body; in metres east and north."""
+        u = np.unique(np.concatenate([[u0], below[0], above[0], [u1]]))
+        u = u[(u >= u0) & (u <= u1)]
         low, high = np.interp(u, *below), np.interp(u, *above)
         parts = []
         runs = np.flatnonzero(np.diff(np.concatenate([[False], high > low, [False]]).astype(int)))
