@@ -1,0 +1,76 @@
+"""What other processes have on the graph, whether it fits us or not."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from cyclonedds.builtin import BuiltinDataReader, BuiltinTopicDcpsPublication, BuiltinTopicDcpsSubscription
+from cyclonedds.core import InstanceState
+from cyclonedds.domain import DomainParticipant
+
+from fieldhand.execution.drivers.ros2.dds.names import reply_name, request_name, rmw_of, ros_type, topic_name
+from fieldhand.execution.drivers.ros2.dds.quality import quality_of, said_by
+from fieldhand.execution.drivers.ros2.transport import Peer
+
+_AT_ONCE = 256
+#: Endpoints that are remembered; a large robot has some hundreds.
+_MOST = 20_000
+
+
+class Discovery:
+    """Follows DDS's own topics on which endpoints say that they are there.
+
+    Args:
+        participant: Ours; its own endpoints are not told.
+    """
+
+    def __init__(self, participant: DomainParticipant) -> None:
+        self._own = participant.get_guid().bytes
+        self._writers = _Seen(BuiltinDataReader(participant, BuiltinTopicDcpsPublication))
+        self._readers = _Seen(BuiltinDataReader(participant, BuiltinTopicDcpsSubscription))
+
+    def writers_of(self, topic: str) -> tuple[Peer, ...]:
+        """Everything that writes a topic."""
+        return self._peers(self._writers, topic_name(topic))
+
+    def servers_of(self, service: str) -> tuple[Peer, ...]:
+        """Everything that reads the requests of a service."""
+        return self._peers(self._readers, request_name(service))
+
+    def repliers_of(self, service: str) -> tuple[Peer, ...]:
+        """Everything that writes the replies of a service."""
+        return self._peers(self._writers, reply_name(service))
+
+    def _peers(self, seen: _Seen, wire_name: str) -> tuple[Peer, ...]:
+        there = seen.now(wire_name)
+        return tuple(_peer(e) for e in there if e.participant_key.bytes != self._own)
+
+
+class _Seen:
+    """The endpoints of one direction."""
+
+    def __init__(self, reader: BuiltinDataReader) -> None:
+        self._reader = reader
+        self._endpoints: dict[str, Any] = {}
+
+    def now(self, wire_name: str) -> list[Any]:
+        while True:
+            news = self._reader.take(N=_AT_ONCE)
+            for each in news:
+                there = each.sample_info.instance_state == InstanceState.Alive and each.qos is not None
+                if not there:
+                    self._endpoints.pop(each.key.hex, None)
+                elif each.key.hex in self._endpoints or len(self._endpoints) < _MOST:
+                    self._endpoints[each.key.hex] = each
+            if len(news) < _AT_ONCE:
+                return [e for e in self._endpoints.values() if e.topic_name == wire_name]
+
+
+def _peer(endpoint: Any) -> Peer:
+    return Peer(
+        participant=endpoint.participant_key.hex,
+        rmw=rmw_of(endpoint.participant_key.bytes),
+        type=ros_type(endpoint.type_name),
+        quality=quality_of(endpoint.qos),
+        type_hash=said_by(endpoint.qos).values.get("typehash", ""),
+    )

@@ -1,0 +1,146 @@
+"""Endpoints of services: one topic of requests, one of replies."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+from typing import Any
+
+from cyclonedds.pub import DataWriter
+from cyclonedds.sub import DataReader
+
+from fieldhand.execution.drivers.ros2.dds.quality import said_by
+from fieldhand.execution.drivers.ros2.dds.topics import close, samples, write
+from fieldhand.execution.drivers.ros2.dds.wire import Header, Unreadable, Wire
+from fieldhand.execution.drivers.ros2.transport import Message, Quality
+
+#: Of both topics: reliable, volatile, keep the last 10 (measured).
+SERVICE = Quality()
+
+#: Replies that wait for their client to be found; of more, the oldest are given up.
+_MOST_WAITING = 100
+#: How often a reply is tried before its client is taken to be gone.
+_TRIES = 200
+
+
+class DdsClient:
+    """A :class:`~fieldhand.execution.drivers.ros2.transport.Client`.
+
+    Args:
+        writer: Of requests.
+        reader: Of replies; it hears those to other clients, too.
+    """
+
+    def __init__(self, wire: Wire, service_type: str, writer: DataWriter[Any], reader: DataReader[Any]) -> None:
+        self._wire, self._type, self._writer, self._reader = wire, service_type, writer, reader
+        self._number = 0
+        self._client = writer.get_instance_handle() & 0xFFFF_FFFF_FFFF_FFFF
+        self.open = True
+
+    def servers(self) -> int:
+        if not self.open:
+            return 0
+        hear = _ids(self._writer.get_matched_subscriptions(), self._writer.get_matched_subscription_data)
+        answer = _ids(self._reader.get_matched_publications(), self._reader.get_matched_publication_data)
+        return len(hear & answer)
+
+    def ask(self, request: Message) -> int:
+        self._number += 1
+        sample = self._wire.packed(f"{self._type}_Request", request, Header(self._client, self._number))
+        if self.open:
+            write(self._writer, sample)
+        return self._number
+
+    def replies(self) -> tuple[tuple[int, Message], ...]:
+        if not self.open:
+            return ()
+        mine = (s for s in samples(self._reader, SERVICE.depth) if not isinstance(s, Unreadable))
+        return tuple(
+            (sample.seq, self._wire.unpacked(f"{self._type}_Response", sample))
+            for sample in mine
+            if sample.guid == self._client and 0 < sample.seq <= self._number
+        )
+
+    def close(self) -> None:
+        if self.open:
+            self.open = False
+            close(self._writer, self._reader)
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """Whom a reply is for: what the request said, and the endpoint that it came from."""
+
+    header: Header
+    writer: int
+
+
+@dataclass
+class _Waiting:
+    asked: _Asked
+    sample: Any
+    tries: int = 0
+
+
+class DdsServer:
+    """A :class:`~fieldhand.execution.drivers.ros2.transport.Server`.
+
+    A client that has just come may be heard before it can hear: its reply then waits until it is found. Whoever asks
+    for requests sends what has waited.
+    """
+
+    def __init__(self, wire: Wire, service_type: str, reader: DataReader[Any], writer: DataWriter[Any]) -> None:
+        self._wire, self._type, self._reader, self._writer = wire, service_type, reader, writer
+        self._waiting: deque[_Waiting] = deque(maxlen=_MOST_WAITING)
+        self.open = True
+
+    def requests(self) -> tuple[tuple[object, Message], ...]:
+        if not self.open:
+            return ()
+        self._send_waiting()
+        taken = (s for s in samples(self._reader, SERVICE.depth) if not isinstance(s, Unreadable))
+        return tuple(
+            (
+                _Asked(Header(sample.guid, sample.seq), sample.sample_info.publication_handle),
+                self._wire.unpacked(f"{self._type}_Request", sample),
+            )
+            for sample in taken
+        )
+
+    def reply(self, to: object, response: Message) -> None:
+        if not isinstance(to, _Asked):
+            raise TypeError("answer what requests() gave")
+        sample = self._wire.packed(f"{self._type}_Response", response, to.header)
+        if self.open:
+            self._waiting.append(_Waiting(to, sample))
+            self._send_waiting()
+
+    def close(self) -> None:
+        if self.open:
+            self.open = False
+            close(self._reader, self._writer)
+
+    def _send_waiting(self) -> None:
+        for _ in range(len(self._waiting)):
+            reply = self._waiting.popleft()
+            reply.tries += 1
+            if self._found(reply.asked.writer):
+                write(self._writer, reply.sample)
+            elif reply.tries < _TRIES:
+                self._waiting.append(reply)
+
+    def _found(self, asker: int) -> bool:
+        """Whether the client's reader is matched, or nothing tells which it is."""
+        client = _id_of(self._reader.get_matched_publication_data(asker), "clientid")
+        readers = (self._writer.get_matched_subscription_data(r) for r in self._writer.get_matched_subscriptions())
+        return client is None or any(_id_of(reader, "clientid") == client for reader in readers)
+
+
+def _ids(handles: list[int], data_of: Any) -> set[str]:
+    """Who stands behind endpoints: by what they say, else by their process."""
+    endpoints = [e for e in map(data_of, handles) if e is not None]
+    return {_id_of(e, "serviceid") or e.participant_key.hex for e in endpoints}
+
+
+def _id_of(endpoint: Any, key: str) -> str | None:
+    return said_by(endpoint.qos).values.get(key) if endpoint is not None and endpoint.qos is not None else None

@@ -1,0 +1,83 @@
+"""Endpoints of topics."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from cyclonedds.core import DDSException
+from cyclonedds.pub import DataWriter
+from cyclonedds.sub import DataReader
+
+from fieldhand.execution.drivers.ros2.dds.wire import Unreadable, Wire
+from fieldhand.execution.drivers.ros2.transport import Message
+
+
+def samples(reader: Any, most: int) -> list[Any]:
+    """What has arrived and holds data: not what only says that a writer has gone."""
+    return [s for s in reader.take(N=most) if s.sample_info is not None and s.sample_info.valid_data]
+
+
+def write(writer: Any, sample: Any) -> None:
+    """Send. Where the other end does not keep up the message is lost; whoever waits for an answer has a time limit."""
+    try:
+        writer.write(sample)
+    except DDSException as error:
+        if error.code != DDSException.DDS_RETCODE_TIMEOUT:
+            raise
+
+
+def close(*entities: Any) -> None:
+    """Take endpoints off the network now, not when memory is tidied up."""
+    for entity in entities:
+        entity.__del__()
+
+
+class DdsSubscription:
+    """A :class:`~fieldhand.execution.drivers.ros2.transport.Subscription`."""
+
+    def __init__(self, wire: Wire, message: str, reader: DataReader[Any], depth: int) -> None:
+        self._wire, self._message, self._reader, self._depth = wire, message, reader, depth
+        self.open = True
+        #: Why the last message that could not be read could not, and how many there were.
+        self.unreadable = ""
+        self.unread = 0
+
+    def take(self) -> tuple[Message, ...]:
+        if not self.open:
+            return ()
+        taken = []
+        for sample in samples(self._reader, self._depth):
+            if isinstance(sample, Unreadable):
+                self.unread, self.unreadable = self.unread + 1, sample.why
+            else:
+                taken.append(self._wire.unpacked(self._message, sample))
+        return tuple(taken)
+
+    def publishers(self) -> int:
+        return len(self._reader.get_matched_publications()) if self.open else 0
+
+    def close(self) -> None:
+        if self.open:
+            self.open = False
+            close(self._reader)
+
+
+class DdsPublisher:
+    """A :class:`~fieldhand.execution.drivers.ros2.transport.Publisher`."""
+
+    def __init__(self, wire: Wire, message: str, writer: DataWriter[Any]) -> None:
+        self._wire, self._message, self._writer = wire, message, writer
+        self.open = True
+
+    def send(self, message: Message) -> None:
+        sample = self._wire.packed(self._message, message)
+        if self.open:
+            write(self._writer, sample)
+
+    def subscribers(self) -> int:
+        return len(self._writer.get_matched_subscriptions()) if self.open else 0
+
+    def close(self) -> None:
+        if self.open:
+            self.open = False
+            close(self._writer)

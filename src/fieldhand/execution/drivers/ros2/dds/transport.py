@@ -1,0 +1,151 @@
+"""A node of a ROS 2 graph over DDS."""
+
+from __future__ import annotations
+
+import os
+import secrets
+from functools import cache
+from typing import Any, TypeVar
+
+from cyclonedds.core import DDSException
+from cyclonedds.domain import Domain, DomainParticipant
+from cyclonedds.pub import DataWriter, Publisher
+from cyclonedds.sub import DataReader, Subscriber
+from cyclonedds.topic import Topic
+
+from fieldhand.errors import InputError, Ros2Error
+from fieldhand.execution.drivers.ros2.dds import names
+from fieldhand.execution.drivers.ros2.dds.discovery import Discovery
+from fieldhand.execution.drivers.ros2.dds.names import UserData
+from fieldhand.execution.drivers.ros2.dds.quality import qos_of
+from fieldhand.execution.drivers.ros2.dds.services import SERVICE, DdsClient, DdsServer
+from fieldhand.execution.drivers.ros2.dds.topics import DdsPublisher, DdsSubscription, close
+from fieldhand.execution.drivers.ros2.dds.wire import Wire
+from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.transport import SENSOR, Peer, Quality
+
+#: Of domains, where ports are left for 120 processes (RTPS 9.6.1).
+_MOST_DOMAIN = 232
+#: What DDS takes off the network before we see it: more than a picture of a good camera has.
+_MOST_RECEIVED = "32 MiB"
+
+_End = TypeVar("_End", DdsSubscription, DdsPublisher, DdsClient, DdsServer)
+
+
+class DdsTransport:
+    """A :class:`~fieldhand.execution.drivers.ros2.transport.Transport` over Cyclone DDS.
+
+    No thread of ours, no callback: what has arrived lies with DDS until it is taken.
+
+    Args:
+        interfaces: All types that can be sent and read.
+        domain: Of DDS; None means ``ROS_DOMAIN_ID`` of the environment, else 0.
+
+    Raises:
+        InputError: The domain is none.
+        Ros2Error: The network cannot be used.
+    """
+
+    def __init__(self, interfaces: Interfaces, domain: int | None = None) -> None:
+        self.domain = _domain(domain)
+        self.interfaces = interfaces
+        self._wire = Wire(interfaces)
+        self._ends: list[Any] = []
+        self._open = True
+        try:
+            _bounded(self.domain)
+            self._participant = DomainParticipant(self.domain)
+            self._publisher, self._subscriber = Publisher(self._participant), Subscriber(self._participant)
+            self._discovery = Discovery(self._participant)
+        except DDSException as error:
+            raise Ros2Error(
+                f"no node can be made on DDS domain {self.domain} ({error.msg.strip()})",
+                advice="look at the network's interfaces and at CYCLONEDDS_URI, if it is set",
+            ) from error
+
+    @property
+    def name(self) -> str:
+        return "dds"
+
+    def subscribe(self, topic: str, type_name: str, quality: Quality = SENSOR) -> DdsSubscription:
+        reader = self._reader(names.topic_name(topic), type_name, quality, {})
+        return self._kept(DdsSubscription(self._wire, type_name, reader, quality.depth))
+
+    def publish(self, topic: str, type_name: str, quality: Quality = Quality()) -> DdsPublisher:  # noqa: B008 - frozen
+        writer = self._writer(names.topic_name(topic), type_name, quality, {})
+        return self._kept(DdsPublisher(self._wire, type_name, writer))
+
+    def client(self, service: str, type_name: str) -> DdsClient:
+        me = {"clientid": _new_id()}
+        reader = self._reader(names.reply_name(service), f"{type_name}_Response", SERVICE, me, headed=True)
+        writer = self._writer(names.request_name(service), f"{type_name}_Request", SERVICE, me, headed=True)
+        return self._kept(DdsClient(self._wire, type_name, writer, reader))
+
+    def serve(self, service: str, type_name: str) -> DdsServer:
+        me = {"serviceid": _new_id()}
+        writer = self._writer(names.reply_name(service), f"{type_name}_Response", SERVICE, me, headed=True)
+        reader = self._reader(names.request_name(service), f"{type_name}_Request", SERVICE, me, headed=True)
+        return self._kept(DdsServer(self._wire, type_name, reader, writer))
+
+    def writers_of(self, topic: str) -> tuple[Peer, ...]:
+        return self._discovery.writers_of(topic)
+
+    def servers_of(self, service: str) -> tuple[Peer, ...]:
+        return self._discovery.servers_of(service)
+
+    def close(self) -> None:
+        for end in self._ends:
+            end.close()
+        self._ends.clear()
+        if self._open:
+            self._open = False
+            close(self._participant)
+
+    def _kept(self, end: _End) -> _End:
+        self._ends = [*(e for e in self._ends if e.open), end]
+        return end
+
+    def _reader(self, name: str, message: str, quality: Quality, said: dict[str, str], *, headed: bool = False) -> Any:
+        topic, user = self._topic(name, message, headed=headed), self._said(message, said)
+        return DataReader(self._subscriber, topic, qos=qos_of(quality, user))
+
+    def _writer(self, name: str, message: str, quality: Quality, said: dict[str, str], *, headed: bool = False) -> Any:
+        topic, user = self._topic(name, message, headed=headed), self._said(message, said)
+        return DataWriter(self._publisher, topic, qos=qos_of(quality, user))
+
+    def _topic(self, name: str, message: str, *, headed: bool) -> Topic[Any]:
+        try:
+            return Topic(self._participant, name, self._wire.type_of(message, headed=headed))
+        except DDSException as error:
+            raise Ros2Error(f"{name[2:]} cannot be used as {message} ({error.msg.strip()})") from error
+
+    def _said(self, message: str, said: dict[str, str]) -> UserData:
+        return UserData(values=said | {"typehash": self.interfaces.type_hash(message)})
+
+
+@cache
+def _bounded(domain: int) -> Domain | None:
+    """Let DDS drop what is larger than anything that is read here. Whoever has made the domain before keeps it."""
+    configured = os.environ.get("CYCLONEDDS_URI", "")
+    if not configured.isascii():  # the library takes no other
+        return None
+    limit = f"<CycloneDDS><Domain><Internal><MaxSampleSize>{_MOST_RECEIVED}</MaxSampleSize></Internal></Domain>"
+    try:
+        return Domain(domain, f"{configured}{',' if configured else ''}{limit}</CycloneDDS>")
+    except DDSException as error:
+        if error.code == DDSException.DDS_RETCODE_PRECONDITION_NOT_MET:
+            return None
+        raise
+
+
+def _domain(given: int | None) -> int:
+    text = str(given) if given is not None else os.environ.get("ROS_DOMAIN_ID", "").strip() or "0"
+    if not text.isascii() or not text.isdigit() or int(text) > _MOST_DOMAIN:
+        where = "" if given is not None else "ROS_DOMAIN_ID"
+        raise InputError(f"{text!r} is no DDS domain", where=where, advice=f"give a number from 0 to {_MOST_DOMAIN}")
+    return int(text)
+
+
+def _new_id() -> str:
+    """Who a client or a server is, among all of them: sixteen bytes, as ROS writes them."""
+    return ".".join(f"{byte:x}" for byte in secrets.token_bytes(16))

@@ -1,0 +1,18 @@
+"""Waiting for what another process does."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TypeVar
+
+_Seen = TypeVar("_Seen")
+
+
+def until(seen: Callable[[], _Seen], within_s: float = 20.0) -> _Seen:
+    """What is seen, as soon as it is something; fails where it stays nothing."""
+    end = time.monotonic() + within_s
+    while not (found := seen()):
+        assert time.monotonic() < end, "it did not come"
+        time.sleep(0.002)
+    return found
