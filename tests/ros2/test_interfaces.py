@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from examples import examples
 from fieldhand.errors import ProfileError, Ros2Error
-from fieldhand.execution.drivers.ros2.interfaces import Interfaces, read_path, value_at, with_value
+from fieldhand.execution.drivers.ros2.fields import value_at
+from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.robot.bindings import Distro, NavigationType
 
 DISTROS: tuple[Distro, ...] = get_args(Distro)
@@ -147,23 +148,3 @@ def test_a_path_that_leads_nowhere_says_where_it_ends(jazzy: Interfaces, path: s
     assert jazzy.field_at("nav_msgs/msg/Odometry", "pose.covariance[35]").base == "float64"
     with pytest.raises(Ros2Error, match=says):
         jazzy.field_at("nav_msgs/msg/Odometry", path)
-
-
-_PATHS = st.lists(
-    st.builds(lambda n, places: n + "".join(f"[{p}]" for p in places), st.sampled_from("abc"), st.lists(st.just(0))),
-    min_size=1,
-    max_size=4,
-).map(".".join)
-
-
-@settings(max_examples=examples(20, thorough=200))
-@given(_PATHS, st.integers())
-def test_what_is_put_at_a_path_is_found_there(path: str, value: int) -> None:
-    assert value_at(with_value({}, path, value), path) == value
-    assert len(read_path(path)) == path.count(".") + path.count("[") + 1
-
-
-@pytest.mark.parametrize("path", ["a.x", "a[2].x", "b.c", "s[0]"])
-def test_a_value_that_is_not_there_is_an_error_in_words(path: str) -> None:
-    with pytest.raises(Ros2Error, match="on the way of"):
-        value_at({"a": ({"x": 1},), "b": 3, "s": "text"}, path)

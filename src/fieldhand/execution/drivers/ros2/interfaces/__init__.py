@@ -8,13 +8,11 @@ is written twice: what goes over the wire is made from these by the transports.
 - ``definitions``: what a text says, as data; the parts of services and actions as messages of their own.
 - ``store``: :class:`Interfaces`, all of them for one robot.
 - ``values``: messages held against their definition, and completed by defaults.
-- ``paths``: ``pose.pose.position.x``, ``cells[0].value``: ways to a value in a message.
 """
 
 from __future__ import annotations
 
 from fieldhand.execution.drivers.ros2.interfaces.definitions import Definition, FieldType
-from fieldhand.execution.drivers.ros2.interfaces.paths import read_path, value_at, with_value
 from fieldhand.execution.drivers.ros2.interfaces.store import Interfaces
 
-__all__ = ["Definition", "FieldType", "Interfaces", "read_path", "value_at", "with_value"]
+__all__ = ["Definition", "FieldType", "Interfaces"]

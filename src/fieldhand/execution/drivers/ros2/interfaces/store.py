@@ -8,6 +8,7 @@ from importlib.resources import files
 from importlib.resources.abc import Traversable
 
 from fieldhand.errors import ProfileError, Ros2Error
+from fieldhand.execution.drivers.ros2.fields import steps_of
 from fieldhand.execution.drivers.ros2.interfaces import values
 from fieldhand.execution.drivers.ros2.interfaces.definitions import (
     Definition,
@@ -17,7 +18,6 @@ from fieldhand.execution.drivers.ros2.interfaces.definitions import (
     read_definitions,
     to_rosbags,
 )
-from fieldhand.execution.drivers.ros2.interfaces.paths import read_path
 from fieldhand.execution.drivers.ros2.transport import Message
 from fieldhand.robot.bindings import Distro
 
@@ -102,7 +102,7 @@ class Interfaces:
             Ros2Error: The path does not lead anywhere in this message; what stands there instead is named.
         """
         at, kind = message, FieldType(base=message)
-        for step in read_path(path):
+        for step in steps_of(path):
             if isinstance(step, int):
                 if kind.many == "one":
                     raise Ros2Error(f"{path} of {message}: {kind} is a single value, [{step}] leads nowhere")
