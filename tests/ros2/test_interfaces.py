@@ -5,10 +5,7 @@ from __future__ import annotations
 from typing import get_args
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from examples import examples
 from fieldhand.errors import ProfileError, Ros2Error
 from fieldhand.execution.drivers.ros2.fields import value_at
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces

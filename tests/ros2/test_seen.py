@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from ros2.in_memory import Graph, Node
 
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.seen import Unusable, action_unusable, service_unusable, topic_unusable
 from fieldhand.execution.drivers.ros2.transport import SENSOR, STATUS, Peer, Quality, Rmw
+from ros2.in_memory import Graph, Node
 
 FIX, TRIGGER, NAVIGATE = "sensor_msgs/msg/NavSatFix", "std_srvs/srv/Trigger", "nav2_msgs/action/NavigateToPose"
 
