@@ -172,3 +172,14 @@ def test_without_the_extra_it_says_what_to_install(monkeypatch: pytest.MonkeyPat
         Interfaces.of("humble")
     with pytest.raises(InputError, match=r'pip install "fieldhand\[ros2-dds\]"'):
         open_dds(interfaces)
+
+
+def test_no_call_and_no_goal_is_lost(domain: int) -> None:
+    """Some of those that the script makes; it makes a thousand and two hundred where it is run by itself."""
+    script = Path(__file__).parents[2] / "scripts/ros2_latency.py"
+    search = {"PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
+    words = [sys.executable, script, "--calls", "100", "--goals", "20", "--domain", str(domain)]
+    ran = subprocess.run(words, capture_output=True, text=True, env=os.environ | search, timeout=120, check=False)
+    assert (ran.returncode, ran.stderr) == (0, "")
+    assert "100 calls of a service, 0 lost" in ran.stdout
+    assert "20 goals of 5 feedback each, 0 lost" in ran.stdout

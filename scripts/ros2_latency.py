@@ -1,0 +1,163 @@
+"""Call a service over DDS many times, and send many goals: how long each takes, and that none is lost.
+
+    python scripts/ros2_latency.py --calls 1000 --goals 200
+
+The other process answers both ends of what a mission uses: ``robot_localization/srv/FromLL``, which it answers with
+the latitude and longitude as metres, and ``nav2_msgs/action/NavigateToPose``, each goal of which takes some
+messages of feedback and then succeeds. A call is lost where no reply, or a wrong one, comes within 10 s. Only this machine's
+loopback interface is used, unless CYCLONEDDS_URI says another.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import platform
+import select
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterable
+from contextlib import closing
+from typing import TypeVar
+
+from fieldhand.execution.drivers.ros2.dds import open_dds
+from fieldhand.execution.drivers.ros2.dds.transport import DdsTransport
+from fieldhand.execution.drivers.ros2.fields import value_at
+from fieldhand.execution.drivers.ros2.goal import ActionClient
+from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.outcome import EXECUTING, SUCCEEDED
+from fieldhand.execution.drivers.ros2.transport import STATUS, Message
+
+FROM_LL, NAVIGATE = "robot_localization/srv/FromLL", "nav2_msgs/action/NavigateToPose"
+DISTRO, LIMIT_S, LOOK_S = "humble", 10.0, 0.0005
+LOOPBACK = (
+    "<CycloneDDS><Domain><General><Interfaces>"
+    '<NetworkInterface name="lo"/>'
+    "</Interfaces></General></Domain></CycloneDDS>"
+)
+
+_Seen = TypeVar("_Seen")
+
+
+def main() -> int:
+    """Start the other process, measure, and say what was found."""
+    options = _options()
+    os.environ.setdefault("CYCLONEDDS_URI", LOOPBACK)
+    os.environ["ROS_DOMAIN_ID"] = str(options.domain)
+    if options.answer:
+        answer(options.feedback)
+        return 0
+    own = [sys.executable, __file__, "--answer", "--domain", str(options.domain), "--feedback", str(options.feedback)]
+    with (
+        subprocess.Popen(own, stdin=subprocess.PIPE) as other,
+        closing(open_dds(Interfaces.of(DISTRO))) as node,
+    ):
+        assert other.stdin is not None  # noqa: S101 - it is a pipe
+        calls, lost_calls = measure(range(options.calls), _caller(node))
+        goals, lost_goals = measure(range(options.goals), _goal_sender(node))
+        other.stdin.close()
+    print(f"{platform.node()}: {os.cpu_count()} cores, {platform.machine()}, Python {platform.python_version()}")
+    _say("calls of a service", calls, lost_calls)
+    _say(f"goals of {options.feedback} feedback each", goals, lost_goals)
+    return 1 if lost_calls or lost_goals else 0
+
+
+def measure(numbers: Iterable[int], done: Callable[[int], bool]) -> tuple[list[float], int]:
+    """Seconds of each that was done, and how many were lost."""
+    took, lost = [], 0
+    for number in numbers:
+        begun = time.perf_counter()
+        if done(number):
+            took.append(time.perf_counter() - begun)
+        else:
+            lost += 1
+    return took, lost
+
+
+def answer(feedback: int) -> None:
+    """Be the robot until the standard input ends."""
+    with closing(open_dds(Interfaces.of(DISTRO))) as node:
+        from_ll = node.serve("/fromLL", FROM_LL)
+        send = node.serve("/navigate/_action/send_goal", f"{NAVIGATE}_SendGoal")
+        result = node.serve("/navigate/_action/get_result", f"{NAVIGATE}_GetResult")
+        node.serve("/navigate/_action/cancel_goal", "action_msgs/srv/CancelGoal")
+        progress = node.publish("/navigate/_action/feedback", f"{NAVIGATE}_FeedbackMessage")
+        status = node.publish("/navigate/_action/status", "action_msgs/msg/GoalStatusArray", STATUS)
+        running: dict[bytes, object] = {}
+        while not select.select([sys.stdin], [], [], LOOK_S)[0]:
+            for asked, request in from_ll.requests():
+                place = {"x": value_at(request, "ll_point.latitude"), "y": value_at(request, "ll_point.longitude")}
+                from_ll.reply(asked, {"map_point": place})
+            for asked, request in send.requests():
+                goal_id = value_at(request, "goal_id.uuid")
+                running[goal_id] = value_at(request, "goal.pose.pose.position.x")
+                send.reply(asked, {"accepted": True})
+                status.send(_status(goal_id, EXECUTING))
+                for left in range(feedback, 0, -1):
+                    progress.send({"goal_id": {"uuid": goal_id}, "feedback": {"distance_remaining": left}})
+                status.send(_status(goal_id, SUCCEEDED))
+            for asked, request in result.requests():
+                known = running.pop(value_at(request, "goal_id.uuid"), None) is not None
+                result.reply(asked, {"status": SUCCEEDED if known else 0})
+
+
+def _caller(node: DdsTransport) -> Callable[[int], bool]:
+    client = node.client("/fromLL", FROM_LL)
+    _until(lambda: client.servers() == 1)
+
+    def call(number: int) -> bool:
+        asked = client.ask({"ll_point": {"latitude": number, "longitude": -number}})
+        replies = _until(client.replies)
+        return replies == ((asked, {"map_point": {"x": float(number), "y": float(-number), "z": 0.0}}),)
+
+    return call
+
+
+def _goal_sender(node: DdsTransport) -> Callable[[int], bool]:
+    client = ActionClient(node, "/navigate", NAVIGATE, steady=time.monotonic, accept_s=LIMIT_S, quiet_s=LIMIT_S)
+    _until(lambda: client.servers() == 1)
+
+    def send(number: int) -> bool:
+        client.start({"pose": {"header": {"frame_id": "map"}, "pose": {"position": {"x": number}}}})
+        outcome = _until(client.step)
+        return outcome is not None and outcome.how == "succeeded"
+
+    return send
+
+
+def _status(goal_id: object, code: int) -> Message:
+    return {"status_list": [{"goal_info": {"goal_id": {"uuid": goal_id}}, "status": code}]}
+
+
+def _until(seen: Callable[[], _Seen]) -> _Seen | None:
+    end = time.perf_counter() + LIMIT_S
+    while time.perf_counter() < end:
+        if found := seen():
+            return found
+        time.sleep(LOOK_S)
+    return None
+
+
+def _say(what: str, took: list[float], lost: int) -> None:
+    ordered = sorted(took) or [float("nan")]
+    figures = (statistics.median(ordered), ordered[int(0.99 * (len(ordered) - 1))], ordered[-1])
+    median, most, last = (1000 * s for s in figures)
+    print(
+        f"{len(took)} {what}, {lost} lost: median {median:.1f} ms, 99 % within {most:.1f} ms, all within {last:.1f} ms"
+    )
+
+
+def _options() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--calls", type=int, default=1000)
+    parser.add_argument("--goals", type=int, default=200)
+    parser.add_argument("--feedback", type=int, default=5, help="messages of feedback of each goal")
+    parser.add_argument("--domain", type=int, default=99, help="ROS_DOMAIN_ID of both processes")
+    parser.add_argument("--answer", action="store_true", help=argparse.SUPPRESS)
+    return parser.parse_args()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
