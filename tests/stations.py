@@ -56,6 +56,7 @@ class Station:
     sites: tuple[Site, ...] = ()
     robot: str = "husky"
     carry: Carry = fly
+    conclude: Carry = lambda _: None
     uploads: Uploads = field(default_factory=Uploads)
     token: str | None = TOKEN
     slept: list[float] = field(default_factory=list)
@@ -71,7 +72,7 @@ class Station:
         profile = load_robot(self.robot)
         accept = acceptance(robot=profile, sites=self.sites, trusted=self.trusted, now=lambda: self.now())
         self.depot = Depot(self.store, accept=accept, now=lambda: self.now())
-        self.crew = Crew(self.depot, carry=lambda given: self.carry(given))
+        self.crew = Crew(self.depot, carry=lambda given: self.carry(given), conclude=lambda given: self.conclude(given))
         self.app: FastAPI = create_agent(
             self.depot,
             self.crew,

@@ -1,6 +1,6 @@
 """What is done with missions that are over: judge and report one from its log, keep what it cost, fit a robot to that.
 
-log ──report_log──▶ report      events ──keep_history──▶ history ──calibrate──▶ Calibration ──calibrated_profile──▶ YAML
+log ──report_log──▶ report  events ──conclude──▶ report, history ──calibrate──▶ Calibration ──calibrated_profile──▶ YAML
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldhand import mission
-from fieldhand.errors import InputError
+from fieldhand.errors import InputError, OutputError
 from fieldhand.files import state_folder
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -20,10 +20,12 @@ from fieldhand.task.frames import Task
 from fieldhand.task.results import Event
 
 if TYPE_CHECKING:
+    from fieldhand.approval.bundle.opening import Bundle
     from fieldhand.evaluation.calibration.fit import Calibration
     from fieldhand.evaluation.calibration.steps import Driven
     from fieldhand.evaluation.report import ReportFiles
-    from fieldhand.task.authorization import Authorization
+    from fieldhand.forecast.estimate import Estimate
+    from fieldhand.task.authorization import Authorization, AuthorizedTask
 
 
 def history_folder(environ: Mapping[str, str]) -> Path:
@@ -114,6 +116,71 @@ def report_log(
         hashes=rests,
     )
     return files, assessment
+
+
+@dataclass(frozen=True, kw_only=True)
+class Conclusion:
+    """What came of a mission.
+
+    Attributes:
+        files: Of its report; None where none was to be written.
+        not_kept: Why what it cost could not be kept; empty where it was, or was not to be.
+    """
+
+    assessment: mission.Assessment
+    files: ReportFiles | None
+    not_kept: str
+
+
+def conclude(
+    authorized: AuthorizedTask,
+    site: Site,
+    robot: RobotProfile,
+    events: Sequence[Event],
+    *,
+    estimate: Estimate | None,
+    folder: Path | None,
+    history: Path | None,
+    at: datetime,
+    bundle: Bundle | None = None,
+) -> Conclusion:
+    """Judge a mission that was carried out, report it, and keep what it cost.
+
+    A mission is not lost because what it cost cannot be kept: that is said in what comes back.
+
+    Args:
+        authorized, site, robot: What was carried out, where and with what.
+        events: What happened.
+        estimate: What it was expected to take.
+        folder: Where to write the report; None to write none.
+        history: Where to keep what it cost, for :func:`calibrate`; None to keep nothing.
+        at: When.
+        bundle: The signed mission, if it was one.
+
+    Raises:
+        OutputError: The report cannot be written.
+    """
+    assessment = mission.assess(authorized.task, events)
+    not_kept = ""
+    if history is not None:
+        try:
+            keep_history(history, robot, events, at)
+        except OutputError as error:
+            not_kept = str(error)
+    files = None
+    if folder is not None:
+        files = mission.report(
+            folder,
+            authorized,
+            site,
+            robot,
+            events,
+            assessment,
+            estimate,
+            signed="" if bundle is None else bundle.signer.in_words,
+            hashes=() if bundle is None else (("signed mission", bundle.hashes["bundle"]),),
+        )
+    return Conclusion(assessment=assessment, files=files, not_kept=not_kept)
 
 
 def keep_history(folder: Path, robot: RobotProfile, events: Sequence[Event], at: datetime) -> bool:

@@ -11,11 +11,12 @@ from pathlib import Path
 import pytest
 
 from fieldhand import missions
-from fieldhand.delivery.crew import Crew, Standing, said_of
+from fieldhand.delivery.crew import Crew, said_of
 from fieldhand.delivery.depot import Depot
 from fieldhand.delivery.ledger import Ledger
+from fieldhand.delivery.standing import Standing
 from fieldhand.delivery.verified import sha256_of
-from fieldhand.errors import ExecutionError, FieldhandError, InputError, StoreError
+from fieldhand.errors import ExecutionError, FieldhandError, InputError, OutputError, StoreError
 from fieldhand.execution.journal import store
 from signed import NOW, good
 from stations import Station, fly, other_mission, patient
@@ -161,6 +162,58 @@ def test_an_agent_that_ends_lets_its_robot_stand_still(station: Station) -> None
     tell(station, good(), "abort")
     station.crew.join(30)
     station.crew.rest(lambda: pytest.fail("nothing is under way"))
+
+
+def test_what_has_ended_is_reported_once_before_the_next_begins(station: Station) -> None:
+    gate, reported = threading.Event(), list[str]()
+
+    def conclude(given: missions.Mission) -> None:
+        assert gate.wait(30)
+        (given.folder / "report.html").write_text("done")
+        reported.append(given.id)
+
+    station.conclude = conclude
+    first, second = (station.depot.folder_of(station.depot.get(sha256_of(d))) for d in (good(), other_mission()))
+    tell(station, good(), "start")
+    while standing(station, good()).state != "ended":
+        threading.Event().wait(0.01)
+    assert standing(station, good()).report == ""
+    assert not station.call("GET", f"/agent/missions/{sha256_of(good())}/events").json()["idle"]
+    threading.Timer(0.05, gate.set).start()
+    tell(station, other_mission(), "start")
+    assert standing(station, good()).report == str(first / "report.html")
+    station.crew.join(30)
+    station.again()
+    station.crew.make_up()
+    assert reported == [first.name, second.name]
+
+
+@pytest.mark.parametrize("cut", ["power", "disk"])
+def test_a_report_that_could_not_be_written_is_made_up_for(station: Station, cut: str) -> None:
+    def full(_: missions.Mission) -> None:
+        if cut == "disk":
+            raise OutputError("the disk is full")
+
+    station.conclude = full
+    tell(station, good(), "start")
+    station.crew.join(30)
+    found = standing(station, good())
+    assert (found.state, found.status, found.report) == ("ended", "completed", "")
+    assert ("the disk is full" in found.fault) == (cut == "disk")
+    station.conclude = lambda given: (given.folder / "report.html").write_text("done")
+    station.again()
+    assert standing(station, good()).report == ""
+    station.crew.make_up()
+    assert standing(station, good()).report.endswith("report.html")
+
+
+def test_an_agent_on_which_nothing_ran_has_nothing_to_make_up_for(station: Station) -> None:
+    station.conclude = lambda _: pytest.fail("there is nothing to report")
+    station.crew.make_up()
+    station.carry = lambda _: None
+    tell(station, good(), "start")
+    station.again()
+    station.crew.make_up()
 
 
 @pytest.mark.parametrize("said", ["pause", "resume", "return", "abort"])

@@ -27,6 +27,7 @@ from cryptography.x509.oid import NameOID
 
 from command import Run, fieldhand
 from fieldhand.delivery.verified import sha256_of
+from fieldhand.evaluation.calibration.history import kept
 from signed import good
 
 TOKEN = "a-token-that-nobody-guesses-0123456789"
@@ -67,7 +68,7 @@ def test_every_command_of_the_page(tmp_path: Path) -> None:
     """In the order in which they stand, robot and laptop on one machine; and what nobody should be able to do."""
     port, lines = str(free_port()), "\n".join(re.findall(r"^```sh\n(.*?)^```", PAGE.read_text(), re.M | re.S))
     env = os.environ | {"FIELDHAND_CONFIG": str(tmp_path / "config"), "FIELDHAND_OUTBOX": str(tmp_path / "outbox")}
-    url, agents = f"https://localhost:{port}", list[subprocess.Popen[str]]()
+    watched, url, agents = "", f"https://localhost:{port}", list[subprocess.Popen[str]]()
 
     def run(*words: str) -> Run:
         return fieldhand(*words, cwd=tmp_path, env=env)
@@ -80,11 +81,13 @@ def test_every_command_of_the_page(tmp_path: Path) -> None:
                 assert waits.status == 1
                 assert "waiting" in waits.out
                 command = [sys.executable, "-m", *words, "--store", "store", "--speed", "8"]
-                agents.append(subprocess.Popen(command, cwd=tmp_path, env=env, stderr=subprocess.PIPE, text=True))
+                of_robot = env | {"XDG_STATE_HOME": str(tmp_path / "robot")}
+                agents.append(subprocess.Popen(command, cwd=tmp_path, env=of_robot, stderr=subprocess.PIPE, text=True))
                 _await(agents[0], int(port))
                 _try_what_is_refused(tmp_path, url, run)
             elif line.startswith("fieldhand "):
                 done = run(*words[1:])
+                watched = done.out if line.startswith("fieldhand watch ") else watched
                 assert done.status == 0, f"{line}\n{done.out[-2000:]}\n{done.err[-2000:]}"
             else:
                 subprocess.run(line, shell=True, cwd=tmp_path, check=True, capture_output=True)
@@ -97,6 +100,10 @@ def test_every_command_of_the_page(tmp_path: Path) -> None:
             agent.communicate(timeout=60)
     (log,) = (tmp_path / "store" / "missions").glob("*/events.jsonl")
     assert (tmp_path / "events.jsonl").read_bytes() == log.read_bytes()
+    page = log.parent / "report.html"
+    assert "Take a thermal picture of tree 4" in page.read_text()
+    assert f"its report on the robot: {Path('store', *page.parts[-3:])}" in " ".join(watched.split())
+    assert [mission.simulated for mission in kept(tmp_path / "robot" / "fieldhand" / "history", "husky")] == [True]
     kinds = [json.loads(line)["event"] for line in log.read_text().splitlines()]
     assert {"paused", "continued"} <= set(kinds)
     assert kinds[-1] == "mission"

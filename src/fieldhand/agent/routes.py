@@ -13,9 +13,10 @@ from starlette.concurrency import run_in_threadpool
 from fieldhand import __version__
 from fieldhand.agent.uploads import Entrance, Uploads, receive, size_of
 from fieldhand.api.problems import Turned
-from fieldhand.delivery.crew import Crew, Line
+from fieldhand.delivery.crew import Crew
 from fieldhand.delivery.depot import Depot
 from fieldhand.delivery.ledger import Held
+from fieldhand.delivery.standing import Line
 from fieldhand.delivery.wire import (
     LONGEST_WAIT_S,
     MOST_EVENTS,

@@ -14,7 +14,6 @@ from fieldhand.errors import BundleError, InputError
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle, Content
     from fieldhand.approval.keys.public import PublicKey
-    from fieldhand.approval.keys.trust import KnownKey
     from fieldhand.task.authorization import Authorization
 
 ENDING = ".mission"
@@ -98,18 +97,9 @@ def read_unverified(data: bytes, source: str) -> Unverified:
     if key is None:
         signed = f"a key that is not trusted here ({fingerprint})"
     else:
-        signed = _whose(key) + ("" if key.revoked is None else f", revoked on {key.revoked}")
+        signed = key.in_words + ("" if key.revoked is None else f", revoked on {key.revoked}")
     content = content_of(sealed, now=datetime.now(UTC))
     return Unverified(content=content, document=sealed.members[TASK], sha256=sealed.hashes["bundle"], signed=signed)
-
-
-def say_signature(bundle: Bundle | None) -> str:
-    """Whose signature a mission has, in words; empty where it has none."""
-    return "" if bundle is None else _whose(bundle.signer)
-
-
-def _whose(key: KnownKey) -> str:
-    return f"the key of {key.name} ({key.fingerprint})"
 
 
 def require_ending(path: Path) -> None:
@@ -148,7 +138,7 @@ def signer_record(bundle: Bundle) -> dict[str, Any]:
 def tell_signer(bundle: Bundle) -> str:
     """Who approved a mission, and with which key, in a line."""
     approved = bundle.manifest.approved
-    return f"Approved by {approved.by} at {approved.at}, signed with {_whose(bundle.signer)}"
+    return f"Approved by {approved.by} at {approved.at}, signed with {bundle.signer.in_words}"
 
 
 def require_site(site: str | None) -> str:

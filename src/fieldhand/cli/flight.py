@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING
 from fieldhand import mission, missions, past
 from fieldhand.cli import show
 from fieldhand.cli.approving import approve_plan, review_plan
-from fieldhand.cli.bundles import say_signature, signer_record
+from fieldhand.cli.bundles import signer_record
 from fieldhand.cli.inputs import Ground, write_file
 from fieldhand.cli.outputs import left_in
 from fieldhand.cli.show import note
-from fieldhand.errors import InputError, OutputError
+from fieldhand.errors import InputError
 from fieldhand.language import ENGLISH, Language, message
 from fieldhand.task.frames import Task
 from fieldhand.task.results import Ended, Event
@@ -238,24 +238,24 @@ def conclude(
     """
     from fieldhand.evaluation.telling import goal_names
 
-    assessment = mission.assess(review.task, events)
+    done = past.conclude(
+        authorized,
+        ground.site,
+        ground.robot,
+        events,
+        estimate=review.estimate,
+        folder=orders.folder,
+        history=orders.history,
+        at=datetime.now(UTC),
+        bundle=orders.bundle,
+    )
+    if done.not_kept:
+        note(done.not_kept)
+    assessment = done.assessment
     ended = next((e for e in reversed(events) if isinstance(e, Ended)), None)
     written: list[Path] = []
-    if orders.folder is not None and review.estimate is not None:
-        mission.report(
-            orders.folder,
-            authorized,
-            ground.site,
-            ground.robot,
-            events,
-            assessment,
-            review.estimate,
-            signed=say_signature(orders.bundle),
-            hashes=() if orders.bundle is None else (("signed mission", orders.bundle.hashes["bundle"]),),
-        )
+    if orders.folder is not None:
         written = list(left_in(orders.folder))
-    if orders.history is not None:
-        _keep_history(orders.history, ground, events)
     status = 0 if ended is not None and ended.status == "completed" and assessment.success else 1
     if orders.quiet:
         record = show.mission_record(review.task, planner, ended, assessment.outcomes, written)
@@ -273,11 +273,3 @@ def conclude(
         for path in written:
             show.out.print(f"  {path}")
     return status
-
-
-def _keep_history(folder: Path, ground: Ground, events: Sequence[Event]) -> None:
-    """A mission that was flown is not lost because what it cost cannot be kept: that is said, and no more."""
-    try:
-        past.keep_history(folder, ground.robot, events, datetime.now(UTC))
-    except OutputError as error:
-        note(str(error))

@@ -125,4 +125,5 @@ def state_line(mission: Shown) -> str:
     ended = f": {mission.status}{f' ({mission.reason})' if mission.reason else ''}" if mission.status else ""
     doing = f", {mission.doing}" if mission.doing and not ended else ""
     fault = f"; {mission.fault}" if mission.fault else ""
-    return f"mission {mission.mission} {mission.state}{ended}{doing}, {mission.events} events{fault}"
+    report = f"; its report on the robot: {mission.report}" if mission.report else ""
+    return f"mission {mission.mission} {mission.state}{ended}{doing}, {mission.events} events{fault}{report}"

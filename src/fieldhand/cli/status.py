@@ -54,6 +54,8 @@ def _show(found: Status) -> None:
         print_(f"  in doubt  {now.in_doubt}")
     if found.last_event_at:
         print_(f"  last      event {now.events} at {found.last_event_at}")
+    if found.report:
+        print_(f"  report    {found.report}")
     if found.order:
         print_(f"  order     {found.order}, not heard yet")
     if now.state == "interrupted":

@@ -8,12 +8,12 @@ from __future__ import annotations
 import logging
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, get_args
 
 from fieldhand import missions
 from fieldhand.delivery.depot import Depot
 from fieldhand.delivery.ledger import Held
+from fieldhand.delivery.standing import Line, Standing, State
 from fieldhand.errors import ExecutionError, FieldhandError, InputError, NotTrustedError
 
 if TYPE_CHECKING:
@@ -25,51 +25,10 @@ log = logging.getLogger("fieldhand.agent")
 
 #: Carries a mission out to its end, in the thread that calls it: the simulation, or the driver of a robot.
 Carry = Callable[[missions.Mission], object]
-#: ``waiting``: it has arrived and was never begun. ``lost``: it was begun, and its folder is gone
-#: or cannot be read.
-State = Literal["waiting", "running", "paused", "interrupted", "ended", "lost"]
+#: Seconds for which the next mission waits until the report of the one before is written.
+REPORTED_WITHIN_S = 60.0
 Said = Literal["start", "pause", "resume", "return", "abort"]
 ORDERS: tuple[Said, ...] = get_args(Said)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Standing:
-    """How a mission stands.
-
-    Attributes:
-        status: How it ended (``completed``, ...); empty before.
-        reason: Why.
-        doing: What it does, in words; empty before it was begun.
-        events: How many are safe on the disk.
-        fault: Why it could not be gone on with, if that was so.
-    """
-
-    held: Held
-    state: State
-    status: str = ""
-    reason: str = ""
-    doing: str = ""
-    lat: float | None = None
-    lon: float | None = None
-    charge_percent: float | None = None
-    travelled_m: float = 0.0
-    events: int = 0
-    fault: str = ""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Line:
-    """An event as its mission's log has it.
-
-    Attributes:
-        n: Its number, from 1, without a gap.
-        at: When it was written, ISO 8601.
-        line: JSON.
-    """
-
-    n: int
-    at: str
-    line: str
 
 
 class Crew:
@@ -80,6 +39,7 @@ class Crew:
         carry: Who carries one out.
         world: The world file of a simulation.
         check: Refuses a mission that this world, or this robot, does not fit.
+        conclude: Judges and reports a mission that has ended.
         seed: Of the simulation and of the guard.
     """
 
@@ -90,9 +50,11 @@ class Crew:
         carry: Carry,
         world: bytes | None = None,
         check: Callable[[Bundle], None] = lambda _: None,
+        conclude: Callable[[missions.Mission], object] = lambda _: None,
         seed: int = 0,
     ) -> None:
         self._depot, self._carry, self._world, self._check, self._seed = depot, carry, world, check, seed
+        self._conclude = conclude
         self._guard = threading.Lock()
         self._active: str | None = None
         self._thread: threading.Thread | None = None
@@ -115,9 +77,10 @@ class Crew:
         if not missions.exists(folder):
             return Standing(held=held, state="waiting" if held.begun_at is None else "lost", fault=fault)
         try:
-            found = missions.status(folder).now
+            status = missions.status(folder)
         except FieldhandError as error:
             return Standing(held=held, state="lost", fault=fault or str(error))
+        found = status.now
         state: State = "running" if found.state == "interrupted" and self.active == held.sha256 else found.state
         standing = Standing(
             held=held,
@@ -130,9 +93,10 @@ class Crew:
             charge_percent=found.charge_percent,
             travelled_m=found.travelled_m,
             events=found.events,
-            fault="" if state == "ended" else fault,
+            fault=fault,
+            report=status.report,
         )
-        if state == "ended":
+        if state == "ended" and self.active != held.sha256:
             self._ended[held.sha256] = standing
         return standing
 
@@ -204,15 +168,32 @@ class Crew:
                 return None
         return cut.sha256
 
+    def make_up(self) -> None:
+        """Report the mission that was begun last, if it has ended and the power went before its report was written."""
+        held = self._depot.last_begun()
+        standing = None if held is None else self.standing(held)
+        if standing is None or standing.state != "ended" or standing.report:
+            return
+        self._ended.pop(standing.held.sha256, None)
+        try:
+            self._conclude(self._read(standing.held))
+        except FieldhandError as error:
+            log.warning("mission %s: %s", standing.held.name, error)
+
     def rest(self, wait: Callable[[], bool]) -> None:
         """Let the mission under way stand still, because the program ends; ``resume`` goes on with it."""
         active = self.active
         if active is None:
             return
+        held = self._depot.get(active)
         try:
-            self.tell(self._depot.get(active), "pause", "the agent ends", wait=wait)
+            if self.standing(held).state != "ended":
+                self.tell(held, "pause", "the agent ends", wait=wait)
         except FieldhandError as error:
             log.warning("%s", error)
+        # An order is heard a moment before the pause is on the disk; and one that has ended only writes its report.
+        while self.active is not None and self.standing(held).state != "paused" and wait():
+            pass
 
     def join(self, timeout_s: float | None = None) -> None:
         """Wait until no mission is under way."""
@@ -258,6 +239,9 @@ class Crew:
 
     def _require_free(self, held: Held) -> None:
         under_way = self.active
+        if under_way is not None and self.standing(self._depot.get(under_way)).state == "ended":
+            self.join(REPORTED_WITHIN_S)  # it only writes its report
+            under_way = self.active
         other = self._cut_off() if under_way is None else self._depot.get(under_way)
         if other is not None and other.sha256 != held.sha256:
             how = "was cut off" if under_way is None else "is under way"
@@ -285,6 +269,8 @@ class Crew:
         def carry() -> None:
             try:
                 self._carry(given)
+                if missions.status(given.folder).now.state == "ended":
+                    self._conclude(given)
             except FieldhandError as error:
                 self._faults[held.sha256] = str(error)
                 log.warning("mission %s: %s", held.name, error)

@@ -9,7 +9,8 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from fieldhand.delivery.crew import Line, Said, Standing, State
+from fieldhand.delivery.crew import Said
+from fieldhand.delivery.standing import Line, Standing, State
 
 #: Events in one answer.
 MOST_EVENTS = 500
@@ -43,6 +44,7 @@ class Shown(_Answer):
     travelled_m: float
     events: int
     fault: str
+    report: str = ""  # agents before it wrote none
 
 
 class Receipt(_Answer):
@@ -121,6 +123,7 @@ def shown(standing: Standing) -> Shown:
         travelled_m=standing.travelled_m,
         events=standing.events,
         fault=standing.fault,
+        report=standing.report,
     )
 
 

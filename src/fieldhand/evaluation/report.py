@@ -10,6 +10,7 @@ from fieldhand.errors import OutputError
 from fieldhand.evaluation.report_data import observations_csv, observations_geojson
 from fieldhand.evaluation.report_left_out import not_reached
 from fieldhand.evaluation.report_text import tell
+from fieldhand.files import write_whole
 from fieldhand.forecast.estimate import Estimate
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -95,7 +96,7 @@ def write_report(
 def _write(path: Path, text: str) -> None:
     try:
         # No translation of line ends: CSV has its own.
-        path.write_bytes(text.encode("utf-8", errors="replace"))
+        write_whole(path, text.encode("utf-8", errors="replace"))
     except OSError as fault:
         raise _cannot_write(path, fault) from None
 

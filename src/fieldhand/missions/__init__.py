@@ -6,6 +6,7 @@ begin ──▶ folder ──carry_out──▶ events          status and order
 
     task.xml, site/…, robot.yaml, world.yaml, mission.json    what the mission is
     journal.sqlite, events.jsonl                              what was done
+    report.html, observations.csv, observations.geojson       what came of it, where a robot's agent carried it out
     orders.sqlite, lock                                       what people want; who carries it out
 """
 

@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 FORMAT = 1
 
 LOCK, JOURNAL, ORDERS, LOG, ABOUT = "lock", "journal.sqlite", "orders.sqlite", "events.jsonl", "mission.json"
+#: The page of its report, once one was written here.
+REPORT = "report.html"
 _SIGNED = "signed.mission"
 
 

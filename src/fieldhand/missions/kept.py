@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from fieldhand import mission
 from fieldhand.errors import ExecutionError
-from fieldhand.missions.folder import JOURNAL, LOCK, LOG, ORDERS, Mission, read_about, read_file
+from fieldhand.missions.folder import JOURNAL, LOCK, LOG, ORDERS, REPORT, Mission, read_about, read_file
 from fieldhand.task.event_lines import from_json
 from fieldhand.task.results import Event
 
@@ -29,6 +29,7 @@ class Status:
         request: What was asked.
         last_event_at: When its last event was written, ISO 8601; empty before the first.
         order: An order that it has not heard yet.
+        report: The page of its report in its folder; empty where none was written there.
     """
 
     mission: str
@@ -36,6 +37,7 @@ class Status:
     now: Standing
     last_event_at: str
     order: str = ""
+    report: str = ""
 
 
 def carry_out(
@@ -125,6 +127,7 @@ def status(folder: Path) -> Status:
         now=now,
         last_event_at=lines[-1][0] if lines else "",
         order=said if waiting > number and now.state != "ended" else "",
+        report=str(folder / REPORT) if (folder / REPORT).is_file() else "",
     )
 
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from fieldhand.delivery.crew import Crew
     from fieldhand.delivery.depot import Depot
     from fieldhand.execution.world import World
+    from fieldhand.missions import Mission
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,6 +91,7 @@ def agent(
         lenient=lenient,
     )
     try:
+        station.crew.make_up()
         if resume and (cut := station.crew.go_on()):
             print(f"going on with mission {cut[:16]}", file=sys.stderr)  # noqa: T201
         _serve(station, host, port, tls, token)
@@ -119,7 +121,7 @@ def compose_agent(
     """
     from functools import partial
 
-    from fieldhand import missions
+    from fieldhand import missions, past
     from fieldhand.agent.app import create_agent
     from fieldhand.agent.routes import Identity
     from fieldhand.api.serving import hosts_for
@@ -147,6 +149,7 @@ def compose_agent(
         carry=partial(missions.carry_out, speed=speed, emit=lambda _: None),
         world=None if world is None else world.read_bytes(),
         check=partial(_require_sound, here),
+        conclude=partial(_conclude, past.history_folder(environ)),
         seed=seed,
     )
     who = Identity(robot=profile.name, robot_sha256=profile.sha256, sites=tuple(place.name for place in places))
@@ -155,6 +158,25 @@ def compose_agent(
 
 def _now() -> datetime:
     return datetime.now(UTC)
+
+
+def _conclude(history: Path, given: Mission) -> None:
+    """Leave the report of a mission in its folder, and keep what it cost."""
+    from fieldhand import mission, missions, past
+
+    done = past.conclude(
+        given.authorized,
+        given.site,
+        given.robot,
+        missions.events_of(given.folder),
+        estimate=mission.review(given.authorized.task, given.site, given.robot).estimate,
+        folder=given.folder,
+        history=history,
+        at=_now(),
+        bundle=given.bundle,
+    )
+    if done.not_kept:
+        print(f"warning: {done.not_kept}", file=sys.stderr)  # noqa: T201
 
 
 def _require_sound(world: World, bundle: Bundle) -> None:

@@ -61,6 +61,11 @@ class KnownKey:
         """Whether what it signs may run."""
         return "trusted" if self.revoked is None and self.public is not None else "revoked"
 
+    @property
+    def in_words(self) -> str:
+        """Whose it is, and which."""
+        return f"the key of {self.name} ({self.fingerprint})"
+
 
 class TrustStore:
     """The folder of the keys that are trusted here.

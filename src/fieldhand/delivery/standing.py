@@ -1,0 +1,54 @@
+"""How a mission at a robot stands, and the lines of its log."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from fieldhand.delivery.ledger import Held
+
+#: ``waiting``: it has arrived and was never begun. ``lost``: it was begun, and its folder is gone
+#: or cannot be read.
+State = Literal["waiting", "running", "paused", "interrupted", "ended", "lost"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Standing:
+    """How a mission stands.
+
+    Attributes:
+        status: How it ended (``completed``, ...); empty before.
+        reason: Why.
+        doing: What it does, in words; empty before it was begun.
+        events: How many are safe on the disk.
+        fault: Why it could not be gone on with, or not reported, if that was so.
+        report: Where its report lies on this machine; empty before it was written.
+    """
+
+    held: Held
+    state: State
+    status: str = ""
+    reason: str = ""
+    doing: str = ""
+    lat: float | None = None
+    lon: float | None = None
+    charge_percent: float | None = None
+    travelled_m: float = 0.0
+    events: int = 0
+    fault: str = ""
+    report: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Line:
+    """An event as its mission's log has it.
+
+    Attributes:
+        n: Its number, from 1, without a gap.
+        at: When it was written, ISO 8601.
+        line: JSON.
+    """
+
+    n: int
+    at: str
+    line: str
