@@ -123,12 +123,10 @@ class Conclusion:
     """What came of a mission.
 
     Attributes:
-        files: Of its report; None where none was to be written.
         not_kept: Why what it cost could not be kept; empty where it was, or was not to be.
     """
 
     assessment: mission.Assessment
-    files: ReportFiles | None
     not_kept: str
 
 
@@ -167,9 +165,8 @@ def conclude(
             keep_history(history, robot, events, at)
         except OutputError as error:
             not_kept = str(error)
-    files = None
     if folder is not None:
-        files = mission.report(
+        mission.report(
             folder,
             authorized,
             site,
@@ -180,7 +177,7 @@ def conclude(
             signed="" if bundle is None else bundle.signer.in_words,
             hashes=() if bundle is None else (("signed mission", bundle.hashes["bundle"]),),
         )
-    return Conclusion(assessment=assessment, files=files, not_kept=not_kept)
+    return Conclusion(assessment=assessment, not_kept=not_kept)
 
 
 def keep_history(folder: Path, robot: RobotProfile, events: Sequence[Event], at: datetime) -> bool:

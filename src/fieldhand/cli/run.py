@@ -113,7 +113,7 @@ def run(
             under=under,
             site=(site_files(require_site(site)) if bundle is None else bundle.files).parts,
             robot=profile_bytes(robot or "husky")[0] if bundle is None else bundle.profile,
-            world=None if world is None else world.read_bytes(),
+            world=given.data,
             lenient=lenient if bundle is None else bundle.manifest.site.lenient,
             signed=None if bundle is None else bundle.data,
         ),

@@ -7,7 +7,7 @@ Whether it fits a site and a robot is checked where it is used (:mod:`fieldhand.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -164,6 +164,7 @@ class World:
         charge_percent: Of the battery at the start.
         begins: The time of day when a mission begins, with its zone; None for a robot without a wall clock.
         source: File, for messages.
+        data: What the file held, byte by byte; None for a world from no file.
     """
 
     readings: Mapping[str, Truth] = field(default_factory=dict)
@@ -172,6 +173,7 @@ class World:
     charge_percent: float = 100.0
     begins: datetime | None = None
     source: str = "world"
+    data: bytes | None = field(default=None, repr=False, compare=False)
 
 
 def load_world(path: Path) -> World:
@@ -182,13 +184,14 @@ def load_world(path: Path) -> World:
     """
     source = str(path)
     try:
-        text = read_file(path, MAX_BYTES).decode("utf-8-sig")
+        data = read_file(path, MAX_BYTES)
+        text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
         raise WorldError("is not UTF-8 text", where=source, advice="save it as UTF-8") from None
     except FileFault as fault:
         advice = "is it a world file?" if fault.kind == "too large" else "give the path of a YAML file"
         raise WorldError(fault.what, where=source, advice=advice) from None
-    return parse_world(_content(text, source), source=source)
+    return replace(parse_world(_content(text, source), source=source), data=data)
 
 
 def parse_world(content: Mapping[str, Any], *, source: str = "world") -> World:

@@ -147,7 +147,7 @@ def compose_agent(
     crew = Crew(
         depot,
         carry=partial(missions.carry_out, speed=speed, emit=lambda _: None),
-        world=None if world is None else world.read_bytes(),
+        world=here.data,
         check=partial(_require_sound, here),
         conclude=partial(_conclude, past.history_folder(environ)),
         seed=seed,
