@@ -167,7 +167,7 @@ def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
         except PlaceError as error:
             yield _of_error(error, node.id)
             continue
-        closed = [(place, reason) for place in places if (reason := drives.problem(place))]
+        closed = [(p, reason) for p, reason in zip(places, drives.problems(places), strict=True) if reason]
         if isinstance(node, ForEach) and node.optional and len(closed) < len(places):
             yield from _left_out(node, closed, site)
             continue

@@ -13,7 +13,7 @@ from fieldhand.forecast.possible import Readings
 from fieldhand.forecast.state import Spent, Work
 from fieldhand.forecast.steps import Answer, Decision, DecisionKind, Failed, Step, StepKind, never
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.context import Context
+from fieldhand.site.context import Context, Visited
 from fieldhand.site.model import Place, Site
 from fieldhand.task import plan
 from fieldhand.task.frames import Task
@@ -83,6 +83,7 @@ class Trail:
         #: Where the walk began.
         self.beginning = context or Context(here=routes.beginning(drives))
         self.context = self.beginning
+        self._visited = Visited(self.beginning.visited)
         #: Where the robot itself is: the place in hand, or where a drive was blocked.
         self._standing = self.context.here
         self._speed = speed_of(task.constraints, robot)
@@ -112,10 +113,9 @@ class Trail:
         else:
             place = self.context.here
         self.stops.append(place)
-        visited = self.context.visited
-        if place.kind == "tree" and place.id not in visited:
-            visited = (*visited, place.id)
-        self._stand(Context(here=place, visited=visited, bound=self.context.bound))
+        if place.kind == "tree":
+            self._visited = self._visited.plus(place.id)
+        self._stand(Context(here=place, visited=self._visited, bound=self.context.bound))
 
     def _exit(self, node: Node, home: Place, *, goes: bool) -> None:
         if not goes or (home.xy == self.context.here.xy and not self._stuck):

@@ -75,8 +75,8 @@ class Walker(Trail):
         self._kept = {} if kept is None else kept
         #: What optional visits may still add to the chance of running short; None before the first of them.
         self.allowance: Allowance | None = None
-        #: Places still to come of each for-each under way, outermost first.
-        self.loops: list[tuple[ForEach, tuple[Place, ...]]] = []
+        #: Of each for-each under way the places that must be visited, and how many of them were begun; outermost first.
+        self.loops: list[tuple[ForEach, tuple[Place, ...], int]] = []
         #: Further rounds of each repeat under way, by node id.
         self.rounds: dict[str, int] = {}
 
@@ -245,9 +245,9 @@ class Walker(Trail):
     def to_come(self) -> tuple[Visit, ...]:
         """The visits that are still to come of the loops under way, in their order."""
         found = []
-        for node, places in reversed(self.loops):
+        for node, places, begun in reversed(self.loops):
             work = work_of(node.body, self.robot)
-            found += [Visit(place=p, service_s=work.seconds, service_j=work.joules) for p in places]
+            found += [Visit(place=p, service_s=work.seconds, service_j=work.joules) for p in places[begun:]]
         return tuple(found)
 
     def _visit_all(self, node: ForEach, places: tuple[Place, ...]) -> None:
@@ -257,7 +257,7 @@ class Walker(Trail):
         self._inside_optional += node.optional
         try:
             for at, place in enumerate(places):
-                self.loops[around:] = [(node, () if node.optional else places[at + 1 :])]
+                self.loops[around:] = [(node, () if node.optional else places, at + 1)]
                 self._drive_to(node, place)
                 self._bind(node.label, place)
                 self._node(node.body)

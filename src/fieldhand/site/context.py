@@ -2,10 +2,54 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import itertools
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from fieldhand.site.model import Place
+
+
+class Visited(Collection[str]):
+    """Ids in their order, each once. Never changed: what is one longer is another, and both share the ids.
+
+    A walk over thousands of trees keeps one of these for each of its steps.
+
+    Args:
+        ids: Each once.
+    """
+
+    def __init__(self, ids: Collection[str] = ()) -> None:
+        #: At which position each id stands; beyond the count they are those of longer ones.
+        self._at = {name: k for k, name in enumerate(ids)}
+        self._count = len(self._at)
+
+    def plus(self, name: str) -> Visited:
+        """These and one more, unless it is among them."""
+        if name in self:
+            return self
+        longer = Visited()
+        longer._at = self._at if len(self._at) == self._count else {one: k for k, one in enumerate(self)}
+        longer._at[name] = self._count
+        longer._count = self._count + 1
+        return longer
+
+    def __contains__(self, name: object) -> bool:
+        return self._at.get(name, self._count) < self._count  # type: ignore[call-overload, no-any-return]
+
+    def __iter__(self) -> Iterator[str]:
+        return itertools.islice(self._at, self._count)
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Visited | tuple) and tuple(self) == tuple(other)
+
+    def __hash__(self) -> int:
+        return hash(tuple(self))
+
+    def __repr__(self) -> str:
+        return repr(tuple(self))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -19,5 +63,5 @@ class Context:
     """
 
     here: Place
-    visited: tuple[str, ...] = ()
+    visited: Collection[str] = ()
     bound: Mapping[str, tuple[Place, ...]] = field(default_factory=dict)

@@ -74,6 +74,7 @@ class Drives:
         self.clearance_m = clearance_m
         self.layout = Layout(site, clearance_m, standoff_m)
         self._stands = Stands(site, self.layout, clearance_m, standoff_m)
+        self._ables: dict[Key, list[Candidate]] = {}
         self._closed: dict[Key, str] = {}
         self._problems: dict[Key, str] = {}
         self._ways: dict[tuple[XY, XY], tuple[tuple[XY, ...], float] | None] = {}
@@ -218,11 +219,15 @@ class Drives:
         return self._able_of((place,))[0]
 
     def _able_of(self, places: Sequence[Place]) -> list[list[Candidate]]:
-        """For each place the candidates for its stand at which the robot can be."""
-        options = self._stands.of_all(places)
-        able = [c.xy for option in options for c in option if not c.why_not]
-        free = iter(self.layout.are_free(np.array(able).reshape(-1, 2)).tolist())
-        return [[c for c in option if not c.why_not and next(free)] for option in options]
+        """For each of the places the candidates for its stand at which the robot can be; remembered."""
+        new = list({_key(p): p for p in places if _key(p) not in self._ables}.values())
+        if new:
+            options = self._stands.of_all(new)
+            able = [c.xy for option in options for c in option if not c.why_not]
+            free = iter(self.layout.are_free(np.array(able).reshape(-1, 2)).tolist())
+            found = [[c for c in option if not c.why_not and next(free)] for option in options]
+            self._ables.update(zip(map(_key, new), found, strict=True))
+        return [self._ables[_key(p)] for p in places]
 
     def network(self) -> Network:
         """Aisles, headlands, gates and the links between them, as lines."""

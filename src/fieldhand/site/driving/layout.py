@@ -25,6 +25,9 @@ from fieldhand.site.model import Site
 #: Spots whose ways to all nodes are kept.
 _REMEMBERED = 64
 
+#: A way this part longer than the straight line is the straight line.
+_ROUNDING = 1e-12
+
 
 class Layout:
     """Open ground, aisles and the graph that joins them.
@@ -91,6 +94,10 @@ class Layout:
 
     def way(self, a: Spot, b: Spot) -> tuple[XY, ...] | None:
         """The points of the shortest way from a spot to another; None if there is none."""
+        if a.aisle is not None and a.aisle is b.aisle:
+            direct, points = self._direct(a, b, math.inf)
+            if direct <= math.dist(a.xy, b.xy) * (1.0 + _ROUNDING):  # nothing is shorter than straight
+                return _points(a, b, [points])
         rows = self._rows(a)
         around = float(between(rows.metres, [b.links])[0, 0])
         direct, points = self._direct(a, b, around)
