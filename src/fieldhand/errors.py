@@ -1,6 +1,6 @@
 """Every failure that Fieldhand raises, as one tree.
 
-    FieldhandError                  exit status 1: the mission or a check failed
+    FieldhandError                  exit status 1: the mission or a check failed, or it could not be told
     ├── InputError                  exit status 2: what was given cannot be used
     │   ├── RequestError            the words of the request
     │   ├── SiteError               the site file

@@ -8,6 +8,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Literal
 
+from fieldhand.errors import InputError
+
 
 class FileFault(Exception):
     """Why a file is not read; whoever asks for it makes a message of their own of it.
@@ -123,16 +125,47 @@ def store_names(folder: Path) -> None:
 
 
 def state_folder(environ: Mapping[str, str]) -> Path:
-    """Where Fieldhand keeps what it has done for its user."""
+    """Where Fieldhand keeps what it has done for its user.
+
+    Raises:
+        InputError: What the environment names is a file, or the user has no home.
+    """
     return _user_folder(environ, "XDG_STATE_HOME", ".local/state")
 
 
 def config_folder(environ: Mapping[str, str]) -> Path:
-    """Where keys are kept and what is trusted: ``FIELDHAND_CONFIG``, else in the user's folder for configuration."""
-    own = environ.get("FIELDHAND_CONFIG")
-    return Path(own) if own else _user_folder(environ, "XDG_CONFIG_HOME", ".config")
+    """Where keys are kept and what is trusted: ``FIELDHAND_CONFIG``, else in the user's folder for configuration.
+
+    Raises:
+        InputError: What the environment names is a file, or the user has no home.
+    """
+    return named_folder(environ, "FIELDHAND_CONFIG") or _user_folder(environ, "XDG_CONFIG_HOME", ".config")
+
+
+def named_folder(environ: Mapping[str, str], variable: str) -> Path | None:
+    """The folder that a variable names; None where it names none. It may be one that is not there yet.
+
+    Raises:
+        InputError: It names something else.
+    """
+    named = environ.get(variable)
+    if not named:
+        return None
+    path = Path(named)
+    try:
+        other = path.exists() and not path.is_dir()
+    except OSError:
+        other = False  # whoever opens it says what is wrong
+    if other:
+        raise InputError(f"{named} is a file, not a folder", where=variable, advice="name a folder")
+    return path
 
 
 def _user_folder(environ: Mapping[str, str], variable: str, else_in_home: str) -> Path:
-    given = environ.get(variable)
-    return (Path(given) if given else Path(environ.get("HOME") or "~").expanduser() / else_in_home) / "fieldhand"
+    named = named_folder(environ, variable)
+    if named is None:
+        try:
+            named = (named_folder(environ, "HOME") or Path.home()) / else_in_home
+        except RuntimeError:
+            raise InputError("you have no home folder", where="HOME", advice=f"name a folder in {variable}") from None
+    return named / "fieldhand"

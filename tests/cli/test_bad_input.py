@@ -148,11 +148,69 @@ def test_nobody_there_to_approve_is_no_approval() -> None:
     assert "Traceback" not in run.err
 
 
-def test_a_negative_seed_is_no_seed() -> None:
-    run = fieldhand("run", "Take a picture of the first tree.", "--site", "demo", "--yes", "--seed", "-1")
-    assert run.status == 2
-    assert "Traceback" not in run.err
-    assert "--seed" in run.err
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (("run",), "fieldhand: run: missing argument 'request'; fieldhand run --help says more"),
+        (("fly",), "fieldhand: no such command 'fly'; fieldhand --help says more"),
+        (("keys", "lend"), "fieldhand: keys: no such command 'lend'; fieldhand keys --help says more"),
+        (("robot", "husky", "--xml", "a"), "fieldhand: robot show: no such option: --xml"),
+        (("plan", "--site"), "requires an argument"),
+        (("run", "Read CO2 at tree 4.", "--site", "demo", "--seed", "-1"), "invalid value for '--seed'"),
+        (("run", "Read", "CO2", "--site", "demo"), "unexpected extra argument"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, tuple) else "",
+)
+def test_a_command_that_is_called_as_it_cannot_be(words: tuple[str, ...], says: str) -> None:
+    run = fieldhand(*words)
+    assert is_one_clear_line(run, says, "--help says more")
+    assert (run.out, run.err.count("\n")) == ("", 1)
+
+
+def test_without_a_command_the_help_is_shown_and_nothing_else() -> None:
+    run = fieldhand()
+    assert (run.status, run.err) == (2, "")
+    assert "demo" in run.out
+
+
+@pytest.mark.parametrize(
+    ("begins", "says"),
+    [
+        (b"Take a picture.", ["a file", '"$(cat it.txt)"']),
+        (b"", ["a file"]),
+        (b"\xff\x00", ["a file"]),
+        (b"\xef\xbb\xbf <Task/>", ["an XML file", "ends in .xml"]),
+        (b"PK\x03\x04", ["a zip file", "ends in .mission"]),
+        (b'{"type": "FeatureCollection"}', ["a JSON file", "--site", "report"]),
+    ],
+    ids=["words", "empty", "binary", "XML", "zip", "JSON"],
+)
+def test_the_name_of_a_file_is_no_request(begins: bytes, says: list[str], tmp_path: Path) -> None:
+    (tmp_path / "it.txt").write_bytes(begins)
+    for command in ("run", "plan"):
+        run = fieldhand(command, "it.txt", "--site", "demo", cwd=tmp_path)
+        assert is_one_clear_line(run, "it.txt: is ", "not what the robot should do", *says)
+
+
+@pytest.mark.parametrize(
+    ("variable", "words"),
+    [
+        ("FIELDHAND_CONFIG", ("keys", "list")),
+        ("XDG_CONFIG_HOME", ("keys", "new", "--name", "Ada")),
+        ("FIELDHAND_MISSIONS", ("status",)),
+        ("XDG_STATE_HOME", ("run", "Read CO2 at tree 4.", "--site", "demo", "--yes")),
+        ("FIELDHAND_OUTBOX", ("outbox",)),
+    ],
+)
+def test_a_file_where_the_environment_has_to_name_a_folder(
+    variable: str, words: tuple[str, ...], tmp_path: Path
+) -> None:
+    usual = ("FIELDHAND_CONFIG", "XDG_CONFIG_HOME", "FIELDHAND_MISSIONS", "XDG_STATE_HOME", "FIELDHAND_OUTBOX")
+    env = {name: value for name, value in os.environ.items() if name not in usual}
+    (tmp_path / "file").touch()
+    run = fieldhand(*words, cwd=tmp_path, env=env | {variable: "file"})
+    assert is_one_clear_line(run, f"{variable}: file is a file, not a folder", "name a folder")
+    assert run.out == ""
 
 
 def test_a_terminal_that_cannot_show_every_sign_still_gets_an_answer() -> None:

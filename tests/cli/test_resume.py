@@ -76,6 +76,8 @@ def test_paused_killed_twice_and_resumed(missions: Path, tmp_path: Path) -> None
     kill(process)
     assert status()["state"] == "interrupted"
     assert "interrupted" in fieldhand("status").out
+    unheard = fieldhand("pause")
+    assert (unheard.status, "is cut off; the order stands" in unheard.out) == (1, True)
     kill(under_way("resume", "--speed", "40", captures=2))
     done = fieldhand("resume", "--json", "-o", str(tmp_path / "out"), "--events", str(tmp_path / "e.jsonl"))
     assert done.status == 0, (done.out, done.err)
@@ -89,8 +91,10 @@ def test_paused_killed_twice_and_resumed(missions: Path, tmp_path: Path) -> None
     assert len(made) == len(set(made)) == 18
     assert [e["event"] for e in events].count("resumed") == 2
     assert (tmp_path / "out" / "report.html").exists()
-    late = fieldhand("abort")
-    assert (late.status, "has ended" in late.err) == (1, True)
+    for late in (fieldhand(word) for word in ("pause", "return", "abort")):
+        assert (late.status, "has ended" in late.err) == (1, True)
+    again = fieldhand("resume")
+    assert (again.status, "nothing is left to do" in again.out) == (0, True)
 
 
 def test_what_is_no_mission_is_said(missions: Path, tmp_path: Path) -> None:

@@ -325,15 +325,17 @@ def says(*orders: tuple[int, Order | None]) -> Callable[[], Order | None]:
 
 
 def test_a_pause_at_any_look_changes_nothing_but_the_time(tmp_path: Path) -> None:
-    whole = Field(tmp_path / "whole").fly()
+    whole, pauses = Field(tmp_path / "whole").fly(), 0
     for n in range(0, 40, 5):
         field = Field(tmp_path / str(n))
         result = field.fly(orders=says((n, Order(wanted="pause", reason="lunch", number=1)), (n + 9, None)))
         assert captured(result.events) == captured(whole.events)
         assert len(of_type(result.events, Paused)) == len(of_type(result.events, Continued)) <= 1
+        pauses += len(of_type(result.events, Paused))
         again = field.fly()
         assert again.events == result.events
     assert result.status == "completed"
+    assert pauses > 4
 
 
 @pytest.mark.parametrize(("wanted", "then"), [("abort", "stay"), ("return", "return_to_end")])
@@ -359,6 +361,7 @@ def test_a_paused_mission_that_is_cut_off_is_paused_again(tmp_path: Path) -> Non
     with pytest.raises(PowerCut):
         field.fly(cut=4, orders=says((8, pause)))
     result = field.fly(orders=says((0, pause), (5, None)))
+    assert of_type(result.events, Paused)
     assert result.status == "completed"
     assert captured(result.events) == captured(Field(tmp_path / "whole").fly().events)
 

@@ -44,6 +44,10 @@ def test_the_log_says_what_the_page_says(request_: str, world: str, said: str) -
         at = told.index(line, at) + len(line)
 
 
+def test_the_page_has_its_examples() -> None:
+    assert len(EXAMPLES) == (DOCS / "faults.md").read_text().count("```yaml\n# ") > 5
+
+
 def test_the_page_of_formats_lists_every_fault() -> None:
     page = (DOCS / "formats.md").read_text()
     for model in get_args(AnyFault):

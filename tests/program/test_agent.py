@@ -113,10 +113,23 @@ def _await(agent: subprocess.Popen[str], port: int) -> None:
     """Wait until an agent answers."""
     assert agent.stderr is not None
     assert f":{port}" in agent.stderr.readline()
-    for _ in range(400):
+
+    def answers() -> bool:
         with suppress(OSError), closing(socket.create_connection(("127.0.0.1", port), timeout=1)):
+            return True
+        assert agent.poll() is None, "the agent has ended"
+        return False
+
+    _until(answers, "the agent never answered")
+
+
+def _until(so: Callable[[], bool], otherwise: str) -> None:
+    """Wait for another process until something is so; half a minute is far more than it takes."""
+    for _ in range(3000):
+        if so():
             return
-        time.sleep(0.05)
+        time.sleep(0.01)
+    pytest.fail(otherwise)
 
 
 def _try_what_is_refused(folder: Path, url: str, run: Callable[..., Run]) -> None:
@@ -145,10 +158,7 @@ def test_an_agent_that_is_killed_within_an_upload_has_nothing(tmp_path: Path) ->
             head = f"PUT /agent/missions/{sha256_of(good())} HTTP/1.1\r\nHost: localhost\r\n"
             head += f"Authorization: Bearer {TOKEN}\r\nContent-Length: {len(good())}\r\n\r\n"
             link.sendall(head.encode() + good()[:-1])
-            for _ in range(3000):
-                if any((tmp_path / "store" / "incoming").iterdir()):
-                    break
-                time.sleep(0.01)
+            _until(lambda: any((tmp_path / "store" / "incoming").iterdir()), "the upload never began")
             agent.send_signal(signal.SIGKILL)
             agent.wait(60)
     finally:

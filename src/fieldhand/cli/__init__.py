@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import sys
 from collections.abc import Callable
+from typing import Any
 
 
 def main(*others: Callable[..., None]) -> None:
@@ -13,6 +14,8 @@ def main(*others: Callable[..., None]) -> None:
     Args:
         others: Commands beside those of this room, made of rooms that this one does not know.
     """
+    import typer
+
     from fieldhand.cli.app import assemble
     from fieldhand.errors import FieldhandError
 
@@ -20,15 +23,50 @@ def main(*others: Callable[..., None]) -> None:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # a terminal without "°" or "₂" shows a question mark, no traceback
 
+    misused: type[Exception] = typer.BadParameter.__mro__[1]  # the library hands out its children alone
     try:
-        assemble(*others)()
+        # Left to itself, the library says in a box how a command is called, beside our one line for all else.
+        status = assemble(*others)(standalone_mode=False)
+        if status == _INTERRUPTED:
+            raise KeyboardInterrupt
+        sys.exit(status if isinstance(status, int) else 0)
     except FieldhandError as error:
-        print(f"fieldhand: {error}", file=sys.stderr)  # noqa: T201
+        _say(str(error))
         sys.exit(error.exit_status)
+    except misused as error:
+        line = _usage(error)
+        if line:
+            _say(line)
+        sys.exit(2)
+    except typer.Abort:
+        print(file=sys.stderr)  # noqa: T201  behind the question
+        _say("no answer was given")
+        sys.exit(1)
     except KeyboardInterrupt:
-        print("fieldhand: interrupted", file=sys.stderr)  # noqa: T201
-        sys.exit(130)
+        _say("interrupted")
+        sys.exit(_INTERRUPTED)
     except BrokenPipeError:
         # Whoever read our output has gone (a pager, head); say nothing more, not even at exit.
         sys.stderr.close()
         sys.exit(0)
+
+
+#: Exit status after Ctrl-C, as shells have it.
+_INTERRUPTED = 130
+
+
+def _say(line: str) -> None:
+    print(f"fieldhand: {line}", file=sys.stderr)  # noqa: T201
+
+
+def _usage(error: Any) -> str:
+    """What is wrong with how a command was called, as any other error; empty where its help was shown instead."""
+    from fieldhand.errors import InputError
+
+    what = error.format_message().strip().rstrip(".")
+    if not what:
+        return ""
+    context = error.ctx
+    words = context.command_path.removeprefix(context.find_root().command_path).split() if context else []
+    help_of = " ".join(["fieldhand", *words, "--help"])
+    return str(InputError(what[0].lower() + what[1:], where=" ".join(words), advice=f"{help_of} says more"))

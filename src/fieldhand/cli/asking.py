@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -20,6 +21,8 @@ from fieldhand.task.frames import Task
 
 #: A planner that has asked so often about one request goes round in circles.
 MOST_QUESTIONS = 12
+#: Bytes that show what kind of file it is.
+_ENOUGH = 200
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,8 +50,9 @@ def plan_and_ask(request: str, ground: Ground, planner: Planner, replies: Replie
         question, where nobody answers it.
 
     Raises:
-        RequestError: An answer is none, or there was no end of questions.
+        RequestError: It is the name of a file, an answer is none, or there was no end of questions.
     """
+    _require_words(request)
     given = list(replies.given)
     answers: tuple[Answer, ...] = ()
     for _ in range(MOST_QUESTIONS + 1):
@@ -99,6 +103,34 @@ def plan_or_read(
     if not isinstance(outcome, Planned):
         fail_outcome(words, outcome)
     return outcome.task, None, outcome.planner
+
+
+def _require_words(request: str) -> None:
+    """Refuse the name of a file where the words themselves are wanted, and say what it seems to be.
+
+    Raises:
+        RequestError: There is such a file.
+    """
+    path = Path(request)
+    try:
+        if not path.is_file():
+            return
+        with path.open("rb") as file:
+            begins = file.read(_ENOUGH)
+    except (OSError, ValueError):
+        return  # no name that a file can have, or none that may be read: words, then
+    if begins.startswith(b"PK"):
+        what, advice = (
+            "a zip file, perhaps a signed mission",
+            "give a signed mission, whose name ends in .mission, to run",
+        )
+    elif begins.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<"):
+        what, advice = "an XML file", "give a Task, whose name ends in .xml, to check, approve or run"
+    elif begins.lstrip().startswith(b"{"):
+        what, advice = "a JSON file", "give a site with --site, an event log to fieldhand report"
+    else:
+        what, advice = "a file", f'give the words that stand in it: "$(cat {shlex.quote(request)})"'
+    raise RequestError(f"is {what}, not what the robot should do", where=request, advice=advice)
 
 
 def _asked(asked: Clarify, read: Callable[[], str]) -> str:

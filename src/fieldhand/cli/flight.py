@@ -198,7 +198,8 @@ def _taking(ground: Ground, orders: Orders, before: Sequence[Event]) -> Iterator
     if not orders.quiet:
         show.heading("The mission")
         if before:
-            show.out.print(f"          {len(before)} events before the power cut")
+            left = "nothing is left to do" if isinstance(before[-1], Ended) else "it goes on from there"
+            show.out.print(f"          {len(before)} events before; {left}")
     with ExitStack() as stack:
         paths = [orders.log, None if orders.folder is None else orders.folder / "events.jsonl"]
         logs: list[Callable[[Event], None]] = [

@@ -21,7 +21,10 @@ def order(
     insecure: InsecureOption = False,
     json: JsonOption = False,
 ) -> None:
-    """Tell a mission on a robot to start, pause, resume, return (come home) or abort (stop here)."""
+    """Tell a mission on a robot to start, pause, resume, return (come home) or abort (stop here).
+
+    Exit status 1 if it has not heard it yet, or has ended.
+    """
     from contextlib import closing
 
     from fieldhand.cli import show
@@ -37,3 +40,4 @@ def order(
         show.out.print(state_line(heard.mission))
         if not heard.heard:
             show.note("the mission has not answered yet; the order stands")
+    raise SystemExit(0 if heard.heard else 1)

@@ -11,7 +11,7 @@ from fieldhand.cli.options import JsonOption, MissionArgument, MissionsOption
 if TYPE_CHECKING:
     from fieldhand.missions import Status
 
-_UNITS = {"distance": "m", "time": "s", "energy": "% of the battery"}
+_UNITS = {"distance_m": "m", "duration_s": "s", "energy_percent": "% of the battery"}
 
 
 def status(mission: MissionArgument = None, kept: MissionsOption = None, json: JsonOption = False) -> None:
@@ -49,7 +49,7 @@ def _show(found: Status) -> None:
     charge = "" if now.charge_percent is None else f", battery at {now.charge_percent:.0f} %"
     print_(f"  used      {now.travelled_m:.0f} m, {clock_time(now.seconds)}{charge}")
     for kind, limit in now.limits.items():
-        print_(f"  allowed   {limit:g} {_UNITS.get(kind, kind)}")
+        print_(f"  allowed   {limit:g} {_UNITS[kind]}")
     if now.in_doubt:
         print_(f"  in doubt  {now.in_doubt}")
     if found.last_event_at:

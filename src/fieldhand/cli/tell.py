@@ -50,7 +50,11 @@ def come_home(
 
 
 def tell(name: str | None, under: Path | None, said: Said, because: str, done: str, *, json: bool) -> None:
-    """Tell a mission something, and say whether it has heard it."""
+    """Tell a mission something, and say whether it has heard it: exit status 1 where not, or not yet.
+
+    Raises:
+        ExecutionError: It has ended.
+    """
     import time
 
     from fieldhand import missions
@@ -72,3 +76,4 @@ def tell(name: str | None, under: Path | None, said: Said, because: str, done: s
         show.out.print(f"mission {folder.name} has not answered yet; the order stands")
     else:
         show.out.print(f"mission {folder.name} is cut off; the order stands, and holds when it is resumed")
+    raise SystemExit(0 if heard else 1)

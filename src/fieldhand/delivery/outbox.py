@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Literal
 
 from fieldhand.errors import StoreError
-from fieldhand.files import state_folder
+from fieldhand.files import named_folder, state_folder
 
 #: Of the database; a program that writes another one refuses this.
 FORMAT = 1
@@ -68,9 +68,12 @@ _NEW = _COLUMNS.removeprefix("n, ")
 
 
 def outbox_folder(environ: Mapping[str, str]) -> Path:
-    """Where it is unless the user says otherwise: ``FIELDHAND_OUTBOX``, else in the user's state folder."""
-    own = environ.get("FIELDHAND_OUTBOX")
-    return Path(own) if own else state_folder(environ) / "outbox"
+    """Where it is unless the user says otherwise: ``FIELDHAND_OUTBOX``, else in the user's state folder.
+
+    Raises:
+        InputError: What is named there is a file.
+    """
+    return named_folder(environ, "FIELDHAND_OUTBOX") or state_folder(environ) / "outbox"
 
 
 class Outbox:

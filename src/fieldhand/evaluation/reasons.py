@@ -18,7 +18,8 @@ Floats = NDArray[np.float64]
 
 #: Places beyond this many are counted, not named.
 MAX_NAMED = 6
-_SKIPPED, _NO_WAY = "skipped", "there is no way to"
+#: How reasons begin that say themselves what was left out.
+SKIPPED, _NO_WAY = "skipped", "there is no way to"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,7 +52,7 @@ def left_out(
     average)".
     """
     binding = _binding(means, chances)
-    words = f"{_SKIPPED} {named(visits, indices)}: {100 * chances[binding]:.0f} % chance of running short"
+    words = f"{SKIPPED} {named(visits, indices)}: {100 * chances[binding]:.0f} % chance of running short"
     return f"{words} ({_amounts(means, state, errand, binding)})"
 
 
@@ -77,7 +78,7 @@ def no_way(visits: Sequence[Visit], indices: Sequence[int]) -> str:
 
 def names_places(reason: str) -> bool:
     """Whether a reason says itself what was left out, so that who tells it need not name that again."""
-    return reason.startswith((f"{_SKIPPED} ", f"{_NO_WAY} "))
+    return reason.startswith((f"{SKIPPED} ", f"{_NO_WAY} "))
 
 
 def named(visits: Sequence[Visit], indices: Sequence[int]) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from fieldhand.clock import clock_time
-from fieldhand.evaluation.reasons import names_places
+from fieldhand.evaluation.reasons import SKIPPED, names_places
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.frames import Task
 from fieldhand.task.results import (
@@ -73,7 +73,7 @@ class Teller:
             case Decided():
                 return f"   {capitalised(event.why)}."
             case Shed(optional=True) if names_places(event.reason):
-                return f"   {event.reason}"
+                return f"   left out: {event.reason.removeprefix(f'{SKIPPED} ')}"
             case Shed(optional=True):
                 return f"   left out: {_names(event.places)} ({event.reason})"
             case Shed():

@@ -7,16 +7,17 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from fieldhand.errors import JournalError
-from fieldhand.files import state_folder
+from fieldhand.files import named_folder, state_folder
 from fieldhand.missions.folder import ABOUT
 
 
 def missions_folder(environ: Mapping[str, str]) -> Path:
-    """Where missions lie unless the user says otherwise: ``FIELDHAND_MISSIONS``, else in the user's state folder."""
-    own = environ.get("FIELDHAND_MISSIONS")
-    if own:
-        return Path(own)
-    return state_folder(environ) / "missions"
+    """Where missions lie unless the user says otherwise: ``FIELDHAND_MISSIONS``, else in the user's state folder.
+
+    Raises:
+        InputError: What is named there is a file.
+    """
+    return named_folder(environ, "FIELDHAND_MISSIONS") or state_folder(environ) / "missions"
 
 
 def find(under: Path, name: str | None) -> Path:
