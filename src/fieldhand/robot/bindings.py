@@ -132,6 +132,8 @@ class NavigationBinding:
         from_ll: Service of robot_localization that turns degrees into the map frame; empty where ``datum`` says it.
         tolerance_m: The robot has arrived if it stands within that of the goal when navigation says that it has.
         behavior_tree: Handed on to Nav2; empty for its own.
+        speed_limit: Topic by which Nav2's controller is told how fast it may drive (``nav2_msgs/msg/SpeedLimit``);
+            empty where it cannot be: a drive that is to be slower than the robot's speed then fails.
         codes: What failure codes mean, beside those that are known.
         without_code: What a failure without any code means: Humble gives none.
         accept_s: Within that a goal is accepted or rejected.
@@ -146,6 +148,7 @@ class NavigationBinding:
     from_ll: str = ""
     tolerance_m: float = 0.5
     behavior_tree: str = ""
+    speed_limit: str = ""
     codes: Mapping[int, NavigationFault] = field(default_factory=dict)
     without_code: NavigationFault = "blocked"
     accept_s: float = 5.0

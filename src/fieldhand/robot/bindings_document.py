@@ -196,6 +196,7 @@ class NavigationDocument(Keyed):
     from_ll: RosName | None = None
     tolerance_m: Metres = 0.5
     behavior_tree: Annotated[str, Field(max_length=1000)] = ""
+    speed_limit: RosName | None = None
     codes: Annotated[dict[Code, NavigationFault], Field(max_length=100)] = Field(default_factory=dict)
     without_code: NavigationFault = "blocked"
     accept_s: Limit = 5.0

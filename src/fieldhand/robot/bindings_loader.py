@@ -183,12 +183,13 @@ def _topic(document: PositionDocument | BatteryDocument | OdometryDocument | Sto
 
 def _navigation(document: NavigationDocument) -> NavigationBinding:
     datum = document.datum
-    values = document.model_dump(exclude={"datum", "action", "from_ll"})
+    values = document.model_dump(exclude={"datum", "action", "from_ll", "speed_limit"})
     return NavigationBinding(
         **values,
         action=document.action or _USUAL_NAMES[document.type],
         datum=None if datum is None else Datum(lat=datum.lat, lon=datum.lon, heading_deg=datum.heading_deg),
         from_ll=document.from_ll or "",
+        speed_limit=document.speed_limit or "",
     )
 
 
