@@ -93,7 +93,7 @@ class ScriptedAction:
             self._end(served, script.ends)
         elif script.feedback_every_s is not None and now >= served.fed_s + script.feedback_every_s:
             served.fed_s = now
-            self._feedback.send({"goal_id": {"uuid": served.id}, "feedback": {"distance_remaining": 1.0}})
+            self._feedback.send({"goal_id": {"uuid": served.id}, "feedback": {}})
 
     def _cancelling(self, goal_info: Mapping[str, Any], now: float) -> Message:
         goal_id = goal_info.get("goal_id", {}).get("uuid", bytes(16))

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import Any
 
 from fieldhand.errors import Ros2Error
@@ -19,6 +20,7 @@ Step = str | int
 _STEP = re.compile(r"([A-Za-z]\w*)((?:\[\d{1,6}\])*)")
 
 
+@lru_cache(maxsize=1024)
 def steps_of(path: str) -> tuple[Step, ...]:
     """The names and positions that a path goes through.
 

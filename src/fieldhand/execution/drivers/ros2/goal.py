@@ -22,14 +22,13 @@ from fieldhand.execution.drivers.ros2.outcome import (
     CANCEL_REJECTED,
     CANCEL_TERMINATED,
     CANCEL_UNKNOWN_GOAL,
+    GONE_S,
     SUCCEEDED,
     GoalRecord,
     Outcome,
 )
 from fieldhand.execution.drivers.ros2.transport import STATUS, Client, Message, Quality, Transport
 
-#: Seconds without any server after which it is gone: shorter gaps are discovery's.
-GONE_S = 2.0
 #: Seconds without a sign of life, or since the end was told, after which the result is asked for again.
 RESULT_AGAIN_S = 3.0
 #: Seconds until a cancellation that was not answered is repeated.
@@ -80,7 +79,7 @@ class ActionClient:
         self._statuses: dict[bytes, int] = {}
         self._sent: dict[int, bytes] = {}
         self._asked: dict[int, bytes] = {}
-        self._cancelled: dict[int, bytes] = {}
+        self._cancelled: dict[int, tuple[bytes, bool]] = {}
         self._given_up: dict[bytes, float] = {}
 
     # --- what is asked -------------------------------------------------------------------------------------------
@@ -157,8 +156,8 @@ class ActionClient:
         for number, reply in self._result.replies():
             self._hear_result(self._asked.pop(number, b""), reply, now)
         for number, reply in self._cancel.replies():
-            self._hear_cancelled(self._cancelled.get(number, b""), reply, now)
-            self._cancelled[number] = b""
+            self._hear_cancelled(*self._cancelled.get(number, (b"", False)), reply)
+            self._cancelled[number] = b"", False
 
     def _alive(self, goal_id: bytes, now: float, feedback: Message | None = None) -> None:
         """The robot is at a goal."""
@@ -170,7 +169,7 @@ class ActionClient:
                 self.feedback = inner if isinstance(inner, Mapping) else {}
         elif goal_id in self._given_up and now - self._given_up[goal_id] >= CANCEL_AGAIN_S:
             self._given_up[goal_id] = now
-            self._ask_cancel(goal_id)
+            self._ask_cancel(goal_id, settled=True)
 
     def _hear_status(self, message: Message, now: float) -> None:
         listed = message.get("status_list")
@@ -205,15 +204,14 @@ class ActionClient:
         else:
             goal.forgotten = True
 
-    def _hear_cancelled(self, goal_id: bytes, reply: Message, now: float) -> None:
+    def _hear_cancelled(self, goal_id: bytes, settled: bool, reply: Message) -> None:
         goal, code = self._goal, reply.get("return_code")
         if code == CANCEL_TERMINATED:
             self._given_up.pop(goal_id, None)
-        if goal is None or goal_id != goal.id or goal.sent_s is None:
+        if goal is None or goal_id != goal.id:
             return
         goal.refused = code == CANCEL_REJECTED
-        # A request that is still on its way is not known, either.
-        settled = goal.accepted or now - goal.sent_s > self._accept_s
+        # A request that was still on its way was not known then, either.
         goal.forgotten = goal.forgotten or code == CANCEL_TERMINATED or (code == CANCEL_UNKNOWN_GOAL and settled)
 
     # --- what is done --------------------------------------------------------------------------------------------
@@ -232,7 +230,7 @@ class ActionClient:
         if goal.stop_s is None:
             self._mind_limits(goal, goal.sent_s, now)
         if goal.stop_s is not None:
-            return self._stop(goal, goal.stop_s, now)
+            return self._stop(goal, goal.sent_s, goal.stop_s, now)
         self._ask_result(goal, now)
         return None
 
@@ -277,10 +275,10 @@ class ActionClient:
             goal.asked_result_s = now
             self._asked[self._result.ask({"goal_id": {"uuid": goal.id}})] = goal.id
 
-    def _ask_cancel(self, goal_id: bytes) -> None:
-        self._cancelled[self._cancel.ask({"goal_info": {"goal_id": {"uuid": goal_id}}})] = goal_id
+    def _ask_cancel(self, goal_id: bytes, *, settled: bool) -> None:
+        self._cancelled[self._cancel.ask({"goal_info": {"goal_id": {"uuid": goal_id}}})] = goal_id, settled
 
-    def _stop(self, goal: GoalRecord, stop_s: float, now: float) -> Outcome | None:
+    def _stop(self, goal: GoalRecord, sent_s: float, stop_s: float, now: float) -> Outcome | None:
         """Ask for its end until it is confirmed."""
         if goal.forgotten and goal.asked_cancel_s is not None:
             return Outcome(how="cancelled", what=goal.why)
@@ -290,7 +288,7 @@ class ActionClient:
             return Outcome(how="untold", what=f"{begun}{self.name} {said}", moving=True)
         if goal.asked_cancel_s is None or now - goal.asked_cancel_s >= CANCEL_AGAIN_S:
             goal.asked_cancel_s = now
-            self._ask_cancel(goal.id)
+            self._ask_cancel(goal.id, settled=goal.accepted or now - sent_s > self._accept_s)
         self._ask_result(goal, now)
         return None
 

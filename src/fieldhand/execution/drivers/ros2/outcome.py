@@ -1,4 +1,4 @@
-"""What is known of one goal of a ROS 2 action, and how it ended."""
+"""What is known of one goal of a ROS 2 action, how it ended, and what that means to a mission."""
 
 from __future__ import annotations
 
@@ -6,8 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
+from fieldhand.execution.drivers.protocol import GoalFault, GoalState
 from fieldhand.execution.drivers.ros2.transport import Message
 
+#: Seconds without any server after which it is gone: shorter gaps are discovery's.
+GONE_S = 2.0
 #: ``action_msgs/msg/GoalStatus``.
 ACCEPTED, EXECUTING, CANCELING, SUCCEEDED, CANCELED, ABORTED = range(1, 7)
 #: ``action_msgs/srv/CancelGoal``.
@@ -36,6 +39,18 @@ class Outcome:
     result: Message = field(default_factory=dict)
     what: str = ""
     moving: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ending:
+    """What that means to a mission: the end of a drive or a capture, as
+    :class:`~fieldhand.execution.drivers.protocol.Progress` tells it.
+    """
+
+    state: GoalState
+    what: str = ""
+    fault: GoalFault = "none"
+    readings: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(kw_only=True)
