@@ -1,0 +1,255 @@
+"""Captures, as the profile binds them: a ROS action or service that is asked, topics that are listened to.
+
+    request ──▶ call ──▶ readings of its result ──▶ next message of each topic ──▶ the mission
+
+A value that is not there, or is NaN, is a reading that is absent: whether that will do is the mission's to judge. A
+topic on which nothing comes is a failure that says which.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Collection, Generator, Mapping
+from dataclasses import dataclass, field
+
+from fieldhand.errors import Ros2Error
+from fieldhand.execution.drivers.protocol import ActionGoal
+from fieldhand.execution.drivers.ros2.asking import Limit, ask
+from fieldhand.execution.drivers.ros2.fields import message_of, number_at, value_at
+from fieldhand.execution.drivers.ros2.goal import ActionClient
+from fieldhand.execution.drivers.ros2.outcome import Ending, Outcome
+from fieldhand.execution.drivers.ros2.transport import Client, Message, Quality, Subscription, Transport
+from fieldhand.robot.bindings import ActionBinding, CallBinding, NextMessage, RequestValue, Ros2Bindings
+
+#: Seconds in which an action is found, and accepts a goal.
+ACCEPT_S = 5.0
+
+#: Messages of a topic that are kept between two looks.
+_DEPTH = 10
+
+Steps = Generator[None, None, Ending]
+Readings = dict[str, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bound:
+    """An action of the profile, with what is asked and listened to.
+
+    Attributes:
+        action, service: One of them where there is a call.
+    """
+
+    binding: ActionBinding
+    action: ActionClient | None = None
+    service: Client | None = None
+    topics: Mapping[str, tuple[str, Subscription]] = field(default_factory=dict)
+
+    def close(self) -> None:
+        """End it, without a word to the robot."""
+        for end in (self.action, self.service, *(subscription for _, subscription in self.topics.values())):
+            if end is not None:
+                end.close()
+
+
+class Captures:
+    """Everything that the profile binds, ready to be asked.
+
+    Args:
+        transport: Carries its messages.
+        bindings: Of the robot.
+        clock: The mission's: how long a capture may last.
+        steady: Seconds that pass whatever that does: how long an answer may take.
+        new_id: Makes the names of goals.
+        only: The actions that will be asked for; None for all.
+
+    Raises:
+        Ros2Error: A type is not known.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        bindings: Ros2Bindings,
+        *,
+        clock: Callable[[], float],
+        steady: Callable[[], float],
+        new_id: Callable[[], bytes],
+        only: Collection[str] | None = None,
+    ) -> None:
+        self.clock, self.steady, self._bindings = clock, steady, bindings
+        self.bound = {
+            name: self._bind(transport, binding, new_id)
+            for name, binding in bindings.actions.items()
+            if only is None or name in only
+        }
+
+    @property
+    def actions(self) -> tuple[ActionClient, ...]:
+        """The clients of those that are actions of ROS."""
+        return tuple(bound.action for bound in self.bound.values() if bound.action is not None)
+
+    def whole_name(self, name: str) -> str:
+        """A name with the robot's namespace."""
+        return self._bindings.whole_name(name)
+
+    def close(self) -> None:
+        """End it, without a word to the robot."""
+        for bound in self.bound.values():
+            bound.close()
+
+    def _bind(self, transport: Transport, binding: ActionBinding, new_id: Callable[[], bytes]) -> Bound:
+        call, action, service = binding.call, None, None
+        if call is not None and call.kind == "action":
+            action = ActionClient(
+                transport,
+                self.whole_name(call.name),
+                call.type,
+                steady=self.steady,
+                accept_s=min(ACCEPT_S, call.within_s),
+                new_id=new_id,
+            )
+        elif call is not None:
+            service = transport.client(self.whole_name(call.name), call.type)
+        topics = {}
+        for quantity, message in binding.topics.items():
+            name, quality = self.whole_name(message.topic), Quality(reliable=message.reliable, depth=_DEPTH)
+            topics[quantity] = name, transport.subscribe(name, message.type, quality)
+        return Bound(binding=binding, action=action, service=service, topics=topics)
+
+
+class Capture:
+    """One capture, step by step."""
+
+    def __init__(self, captures: Captures, goal: ActionGoal) -> None:
+        self._captures, self._goal = captures, goal
+        self._cancelled = False
+        self._steps = self._carry_out()
+        self._ending: Ending | None = None
+
+    def step(self) -> Ending | None:
+        """Do what is due; None while it goes on."""
+        if self._ending is None:
+            try:
+                next(self._steps)
+            except StopIteration as done:
+                self._ending = done.value
+            except Ros2Error as error:
+                self._ending = _failed(str(error))
+        return self._ending
+
+    def cancel(self) -> None:
+        """Ask for its end; it is over when :meth:`step` says so. A service that was asked does what it was asked."""
+        self._cancelled = True
+
+    def _carry_out(self) -> Steps:
+        bound = self._captures.bound.get(self._goal.action)
+        if bound is None:
+            return _failed(f"the profile does not say how {self._goal.action} is done over ROS 2")
+        ending = Ending(state="succeeded")
+        call = bound.binding.call
+        if call is not None:
+            request = message_of({path: self._value(value) for path, value in call.request.items()})
+            if bound.action is not None:
+                ending = yield from self._act(bound.action, call, request)
+            elif bound.service is not None:
+                ending = yield from self._serve(bound.service, call, request)
+        if ending.state != "succeeded" or not bound.topics:
+            return ending
+        return (yield from self._listen(bound, dict(ending.readings)))
+
+    def _value(self, value: RequestValue) -> RequestValue:
+        """A constant, a parameter, or what stands for the place in hand."""
+        place = self._goal.place
+        if not isinstance(value, str) or not value.startswith("$"):
+            return value
+        known: Mapping[str, RequestValue] = {
+            **self._goal.parameters,
+            "place": place.id,
+            "kind": place.kind,
+            "lat": place.lat,
+            "lon": place.lon,
+        }
+        name = value.removeprefix("$")
+        if name not in known:
+            raise Ros2Error(f"{self._goal.action} has no parameter {name!r}, which its request is to hold")
+        return known[name]
+
+    def _limit(self, seconds: float) -> Limit:
+        return Limit(seconds, self._captures.clock, self._captures.steady)
+
+    def _act(self, client: ActionClient, call: CallBinding, request: Message) -> Steps:
+        limit = self._limit(call.within_s)
+        client.start(request)
+        while (outcome := client.step()) is None:
+            if self._cancelled:
+                client.cancel()
+            elif limit.over:
+                client.cancel(f"{client.name} is not done after {limit.seconds:g} s")
+            yield
+        return self._ending_of(outcome, call, client.name)
+
+    def _ending_of(self, outcome: Outcome, call: CallBinding, name: str) -> Ending:
+        if outcome.how == "succeeded":
+            return judged(outcome.result, call, name)
+        if outcome.moving:
+            return _failed(f"{outcome.what}; see whether it runs on the robot, and what the robot does")
+        if self._cancelled:
+            return Ending(state="cancelled")
+        if outcome.how == "aborted":
+            return _failed(f"{name} failed{_told(outcome.result, call)}")
+        return _failed(outcome.what or f"somebody else cancelled {name}")
+
+    def _serve(self, client: Client, call: CallBinding, request: Message) -> Steps:
+        name, limit = self._captures.whole_name(call.name), self._limit(call.within_s)
+        asking = ask(client, name, [request], limit, self._captures.steady)
+        while not self._cancelled:
+            try:
+                next(asking)
+            except StopIteration as answered:
+                return judged(answered.value[0], call, name)
+            yield
+        return Ending(state="cancelled")
+
+    def _listen(self, bound: Bound, readings: Readings) -> Steps:
+        """The next message of each topic; what has arrived before is none."""
+        wanted: dict[str, tuple[NextMessage, Limit]] = {}
+        for quantity, (_, subscription) in bound.topics.items():
+            subscription.take()
+            message = bound.binding.topics[quantity]
+            wanted[quantity] = message, self._limit(message.within_s)
+        while wanted:
+            yield
+            if self._cancelled:
+                return Ending(state="cancelled")
+            for quantity, (message, limit) in list(wanted.items()):
+                name, subscription = bound.topics[quantity]
+                came = next(iter(subscription.take()), None)
+                if came is not None:
+                    del wanted[quantity]
+                    readings |= _reading(quantity, number_at(came, message.value))
+                elif limit.over:
+                    return _failed(f"nothing came on {name} within {limit.seconds:g} s, so there is no {quantity}")
+        return Ending(state="succeeded", readings=readings)
+
+
+def judged(result: Message, call: CallBinding, name: str) -> Ending:
+    """What an answer means: readings, unless it says itself that it did not succeed."""
+    if call.success and not value_at(result, call.success):
+        return _failed(f"{name} did not succeed{_told(result, call)}")
+    pairs = ((quantity, number_at(result, binding)) for quantity, binding in call.readings.items())
+    readings = dict(itertools.chain.from_iterable(_reading(*pair).items() for pair in pairs))
+    return Ending(state="succeeded", readings=readings)
+
+
+def _reading(quantity: str, value: float | None) -> Readings:
+    return {} if value is None else {quantity: value}
+
+
+def _told(result: Message, call: CallBinding) -> str:
+    """What the action says of why; empty where it says nothing."""
+    words = value_at(result, call.message) if call.message else None
+    return f": {words.strip()}" if isinstance(words, str) and words.strip() else ""
+
+
+def _failed(what: str) -> Ending:
+    return Ending(state="failed", fault="failed", what=what)

@@ -1,0 +1,87 @@
+"""From degrees to the frame in which a robot navigates, and how poses are written there."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Generator, Sequence
+
+import numpy as np
+
+from fieldhand.errors import Ros2Error
+from fieldhand.execution.drivers.protocol import DriveGoal
+from fieldhand.execution.drivers.ros2.asking import Limit, ask
+from fieldhand.execution.drivers.ros2.fields import number_at
+from fieldhand.execution.drivers.ros2.transport import Client, Message
+from fieldhand.robot.bindings import Datum, FieldBinding
+from fieldhand.site.projection import Projection
+
+Point = tuple[float, float]
+
+#: What the robot's map makes of a leg may be so much longer or shorter: in parts, for maps that are scaled, and metres.
+_SCALE, _SLACK_M = 0.01, 0.25
+
+_X, _Y = FieldBinding(path="map_point.x"), FieldBinding(path="map_point.y")
+
+
+def in_map(datum: Datum, degrees: Sequence[Point]) -> tuple[Point, ...]:
+    """Metres along the map's axes of points in (lat, lon); less than 1 cm wrong within 5 km of the datum."""
+    east, north = Projection(datum.lat, datum.lon).metres(*np.asarray(degrees, dtype=float).T).T
+    sin, cos = math.sin(math.radians(datum.heading_deg)), math.cos(math.radians(datum.heading_deg))
+    x, y = east * sin + north * cos, north * sin - east * cos
+    return tuple((float(a), float(b)) for a, b in zip(x, y, strict=True))
+
+
+def asked_for(
+    client: Client, name: str, goal: DriveGoal, limit: Limit, steady: Callable[[], float]
+) -> Generator[None, None, tuple[Point, ...]]:
+    """The corners of a drive, as the robot's own service says (``robot_localization/srv/FromLL``).
+
+    Raises:
+        Ros2Error: It does not answer, or not with this way: one that is not ready says 0, 0 of everything.
+    """
+    requests = [{"ll_point": {"latitude": lat, "longitude": lon, "altitude": 0.0}} for lat, lon in goal.path_degrees]
+    replies = yield from ask(client, name, requests, limit, steady)
+    points: list[Point] = []
+    for reply in replies:
+        x, y = number_at(reply, _X), number_at(reply, _Y)
+        if x is None or y is None:
+            raise Ros2Error(f"{name} gave no point", advice="see whether navsat_transform knows the robot's datum")
+        points.append((x, y))
+    legs = zip(itertools.pairwise(points), itertools.pairwise(goal.path_m), strict=True)
+    for (a, b), (here, there) in legs:
+        long_m, wanted_m = math.dist(a, b), math.dist(here, there)
+        if abs(long_m - wanted_m) > _SCALE * wanted_m + _SLACK_M:
+            raise Ros2Error(
+                f"{name} makes {long_m:.1f} m of a leg of {wanted_m:.1f} m: its points are not those of the way",
+                advice="see whether navsat_transform knows the robot's datum",
+            )
+    return tuple(points)
+
+
+def yaw_of(here: Point, there: Point) -> float:
+    """The heading of a leg: radians from the x axis towards the y axis."""
+    return math.atan2(there[1] - here[1], there[0] - here[0])
+
+
+def orientation(yaw: float) -> Message:
+    """A ``geometry_msgs/msg/Quaternion``."""
+    return {"x": 0.0, "y": 0.0, "z": math.sin(yaw / 2.0), "w": math.cos(yaw / 2.0)}
+
+
+def pose(frame: str, here: Point, there: Point) -> Message:
+    """A ``geometry_msgs/msg/PoseStamped`` at the end of a leg, looking along it.
+
+    Its stamp stays 0: the newest transform is meant, so the clocks of robot and computer need not agree.
+    """
+    position = {"x": there[0], "y": there[1], "z": 0.0}
+    return {
+        "header": {"frame_id": frame},
+        "pose": {"position": position, "orientation": orientation(yaw_of(here, there))},
+    }
+
+
+def geographic_pose(degrees: Point, yaw: float) -> Message:
+    """A ``geographic_msgs/msg/GeoPose``."""
+    position = {"latitude": degrees[0], "longitude": degrees[1], "altitude": 0.0}
+    return {"position": position, "orientation": orientation(yaw)}

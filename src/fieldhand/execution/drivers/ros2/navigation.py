@@ -1,0 +1,285 @@
+"""Drives, as goals of Nav2, and what became of them.
+
+    corners in degrees ──▶ map frame ──▶ NavigateToPose, one corner after the other     ──▶ arrived? ──▶ the mission
+                           (datum or     NavigateThroughPoses, all corners at once
+                            fromLL)      FollowGPSWaypoints, as degrees
+
+At each corner the robot looks along the leg that led there, so that it comes to stand along the aisle. That it has
+arrived it must show: its own position is held against where it was to go.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Generator, Mapping, Sequence
+
+from fieldhand.errors import Ros2Error
+from fieldhand.execution.drivers.protocol import DriveGoal, Position
+from fieldhand.execution.drivers.ros2.asking import Limit
+from fieldhand.execution.drivers.ros2.goal import ActionClient
+from fieldhand.execution.drivers.ros2.map_frame import Point, asked_for, geographic_pose, in_map, pose, yaw_of
+from fieldhand.execution.drivers.ros2.nav2_codes import CODES, MISSED_WAYPOINT
+from fieldhand.execution.drivers.ros2.outcome import Ending, Outcome
+from fieldhand.execution.drivers.ros2.transport import Client, Message, Publisher, Transport
+from fieldhand.robot.bindings import NavigationBinding, NavigationFault, Ros2Bindings
+
+FROM_LL, SPEED_LIMIT = "robot_localization/srv/FromLL", "nav2_msgs/msg/SpeedLimit"
+
+#: Seconds after the end of a goal in which the position must have come within the tolerance: fixes come late.
+SETTLE_S = 3.0
+#: Metres below which a leg has no direction.
+_NO_LEG_M = 0.01
+
+Steps = Generator[None, None, Ending]
+
+
+class Navigation:
+    """Drives a robot through Nav2.
+
+    Args:
+        transport: Carries its messages.
+        bindings: Of the robot.
+        speed_m_s: Of the robot, as Nav2 drives it.
+        position: Where it is, None where it never said.
+        clock: The mission's: how long a drive may last.
+        steady: Seconds that pass whatever that does: how long an answer may take.
+        new_id: Makes the names of goals.
+
+    Raises:
+        Ros2Error: A type is not known.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        bindings: Ros2Bindings,
+        *,
+        speed_m_s: float,
+        position: Callable[[], Position | None],
+        clock: Callable[[], float],
+        steady: Callable[[], float],
+        new_id: Callable[[], bytes],
+    ) -> None:
+        self.binding, self.distro = bindings.navigation, bindings.distro
+        self.position, self.clock, self.steady = position, clock, steady
+        self._speed_m_s = speed_m_s
+        self.client = ActionClient(
+            transport,
+            bindings.whole_name(self.binding.action),
+            self.binding.type,
+            steady=steady,
+            accept_s=self.binding.accept_s,
+            quiet_s=self.binding.quiet_s,
+            new_id=new_id,
+        )
+        self.from_ll_name = bindings.whole_name(self.binding.from_ll) if self.binding.from_ll else ""
+        self.from_ll: Client | None = None
+        self.speed_name = bindings.whole_name(self.binding.speed_limit) if self.binding.speed_limit else ""
+        self.speed: Publisher | None = None
+        if self.speed_name:
+            self.speed = transport.publish(self.speed_name, SPEED_LIMIT)
+        if self.from_ll_name and not self._by_degrees:
+            self.from_ll = transport.client(self.from_ll_name, FROM_LL)
+
+    @property
+    def _by_degrees(self) -> bool:
+        return self.binding.type == "nav2_msgs/action/FollowGPSWaypoints"
+
+    def goals(self, goal: DriveGoal) -> Generator[None, None, list[tuple[Message, Point]]]:
+        """The goals of Nav2 that make up a drive, each with where it ends in the site's metres.
+
+        Raises:
+            Ros2Error: The robot's service that knows its map does not answer, or not rightly.
+        """
+        binding = self.binding
+        if self._by_degrees:
+            return [(_by_degrees(goal), goal.path_m[-1])]
+        if self.from_ll is not None:
+            limit = Limit(binding.accept_s, self.steady, self.steady)
+            points = yield from asked_for(self.from_ll, self.from_ll_name, goal, limit, self.steady)
+        elif binding.datum is not None:
+            points = in_map(binding.datum, goal.path_degrees)
+        else:
+            raise Ros2Error("neither datum nor from_ll says where the map lies", advice="name one in the profile")
+        poses = [pose(binding.frame, points[i], points[j]) for i, j in _legs(goal.path_m)]
+        if binding.type == "nav2_msgs/action/NavigateThroughPoses":
+            # Kilted: nav_msgs/Goals, a header with the poses.
+            header: Message = {"frame_id": binding.frame}
+            listed = {"header": header, "goals": tuple(poses)} if self.distro == "kilted" else tuple(poses)
+            return [({"poses": listed, "behavior_tree": binding.behavior_tree}, goal.path_m[-1])]
+        ends = [goal.path_m[j] for _, j in _legs(goal.path_m)]
+        return [({"pose": p, "behavior_tree": binding.behavior_tree}, end) for p, end in zip(poses, ends, strict=True)]
+
+    def limit_speed(self, speed_m_s: float) -> None:
+        """Let the robot drive no faster.
+
+        Raises:
+            Ros2Error: It cannot be told.
+        """
+        if self.speed is not None:
+            if self.speed.subscribers() == 0:
+                raise Ros2Error(f"nobody hears {self.speed_name}", advice="see whether Nav2's controller is active")
+            self.speed.send({"percentage": False, "speed_limit": speed_m_s})
+        elif speed_m_s < self._speed_m_s:
+            raise Ros2Error(
+                f"the drive is to be no faster than {speed_m_s:g} m/s, and the robot cannot be told",
+                advice="name navigation.speed_limit in the profile",
+            )
+
+    def close(self) -> None:
+        """End it, without a word to the robot."""
+        self.client.close()
+        if self.speed is not None:
+            self.speed.close()
+        if self.from_ll is not None:
+            self.from_ll.close()
+
+
+class Drive:
+    """One drive, step by step."""
+
+    def __init__(self, navigation: Navigation, goal: DriveGoal) -> None:
+        binding = navigation.binding
+        self._navigation, self._goal = navigation, goal
+        self._limit = Limit(
+            binding.slower * goal.length_m / goal.speed_m_s + binding.extra_s, navigation.clock, navigation.steady
+        )
+        self._cancelled = False
+        self._steps = self._carry_out()
+        self._ending: Ending | None = None
+
+    def step(self) -> Ending | None:
+        """Do what is due; None while it goes on."""
+        if self._ending is None:
+            try:
+                next(self._steps)
+            except StopIteration as done:
+                self._ending = done.value
+            except Ros2Error as error:
+                self._ending = Ending(state="failed", fault="failed", what=str(error))
+        return self._ending
+
+    def cancel(self) -> None:
+        """Ask for its end; it is over when :meth:`step` says so."""
+        self._cancelled = True
+
+    def _carry_out(self) -> Steps:
+        self._navigation.limit_speed(self._goal.speed_m_s)
+        planning = self._navigation.goals(self._goal)
+        while True:
+            if self._cancelled:
+                return Ending(state="cancelled")
+            try:
+                next(planning)
+            except StopIteration as planned:
+                goals = planned.value
+                break
+            yield
+        for message, there in goals:
+            ending = yield from self._drive(message, there)
+            if ending.state != "succeeded":
+                return ending
+        return Ending(state="succeeded")
+
+    def _drive(self, message: Message, there: Point) -> Steps:
+        """One goal of Nav2."""
+        client = self._navigation.client
+        client.start(message)
+        while (outcome := client.step()) is None:
+            if self._cancelled:
+                client.cancel()
+            elif self._limit.over:
+                client.cancel(f"the drive is not over after {self._limit.seconds:.0f} s")
+            yield
+        ending = ending_of(outcome, self._navigation.binding, cancelled=self._cancelled)
+        if ending.state == "succeeded":
+            ending = yield from self._arrive(there)
+        return ending
+
+    def _arrive(self, there: Point) -> Steps:
+        """Hold the robot's own position against where it was to go."""
+        navigation = self._navigation
+        tolerance, until = navigation.binding.tolerance_m, navigation.steady() + SETTLE_S
+        while (away := _away(navigation.position(), there)) > tolerance:
+            if self._cancelled:
+                return Ending(state="cancelled")
+            if navigation.steady() >= until:
+                return Ending(
+                    state="failed",
+                    fault="failed",
+                    what=f"{navigation.client.name} says that it has arrived, but the robot stands {away:.1f} m away,"
+                    f" at most {tolerance:g} m are allowed; see whether datum and frame are those of its map",
+                )
+            yield
+        return Ending(state="succeeded")
+
+
+def ending_of(outcome: Outcome, binding: NavigationBinding, *, cancelled: bool) -> Ending:
+    """What the end of a goal of Nav2 means to a mission.
+
+    Args:
+        cancelled: Its end was asked for.
+    """
+    missed = outcome.result.get("missed_waypoints")
+    if outcome.how == "succeeded" and not (isinstance(missed, Sequence) and missed):
+        return Ending(state="succeeded")
+    if outcome.moving:
+        advice = "see whether Nav2 runs on the robot; if it drives still, use its emergency stop"
+        return Ending(state="failed", fault="failed", what=f"{outcome.what}; {advice}")
+    if cancelled and outcome.how != "succeeded":
+        return Ending(state="cancelled")
+    if outcome.how in ("succeeded", "aborted"):
+        return _failed(outcome.result, binding)
+    what = outcome.what or "somebody else cancelled the drive"
+    advice = "; see whether Nav2 is active on the robot" if outcome.how in ("rejected", "untold") else ""
+    return Ending(state="failed", fault="failed", what=f"{what}{advice}")
+
+
+def _failed(result: Message, binding: NavigationBinding) -> Ending:
+    """Why Nav2 failed: by its code, where there is one."""
+    code, words = _code(result), _words(result)
+    fault: NavigationFault
+    if code == 0 or (code == MISSED_WAYPOINT and code not in binding.codes):
+        meaning, fault = "navigation failed without saying why", binding.without_code
+        meaning = "navigation missed a waypoint" if result.get("missed_waypoints") else meaning
+    else:
+        meaning, fault = CODES.get(code, ("navigation failed", "failed"))
+        fault = binding.codes.get(code, fault)
+        meaning = f"{meaning} (code {code} of Nav2)"
+    return Ending(state="failed", fault=fault, what=f"{meaning}: {words}" if words else meaning)
+
+
+def _code(result: Message) -> int:
+    """The failure code; that of the first waypoint that was missed says more than that of the whole."""
+    missed = result.get("missed_waypoints")
+    for entry in missed if isinstance(missed, Sequence) else ():
+        if isinstance(entry, Mapping) and isinstance(code := entry.get("error_code"), int) and code:
+            return code
+    code = result.get("error_code")
+    return code if isinstance(code, int) else 0
+
+
+def _words(result: Message) -> str:
+    said = result.get("error_msg")
+    return said.strip() if isinstance(said, str) else ""
+
+
+def _legs(path: Sequence[Point]) -> list[tuple[int, int]]:
+    """Corners from and to which a leg leads; a way of no length still ends at its last."""
+    corners = [0]
+    for n in range(1, len(path)):
+        if math.dist(path[n], path[corners[-1]]) > _NO_LEG_M:
+            corners.append(n)
+    return list(itertools.pairwise(corners)) or [(0, len(path) - 1)]
+
+
+def _by_degrees(goal: DriveGoal) -> Message:
+    # Nav2 takes the orientation as one in its map, which lies east and north there (REP 105).
+    legs = [(goal.path_degrees[j], yaw_of(goal.path_m[i], goal.path_m[j])) for i, j in _legs(goal.path_m)]
+    poses = [geographic_pose(degrees, yaw) for degrees, yaw in legs]
+    return {"number_of_loops": 0, "goal_index": 0, "gps_poses": tuple(poses)}
+
+
+def _away(position: Position | None, there: Point) -> float:
+    return math.inf if position is None else math.dist((position.x, position.y), there)

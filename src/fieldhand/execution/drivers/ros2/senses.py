@@ -1,0 +1,239 @@
+"""What the robot says of itself without being asked: where it is, its battery, its odometry, its emergency stop.
+
+    NavSatFix ──▶ position, lost          Odometry ──▶ metres (without it, along the fixes)
+    BatteryState ──▶ charge               emergency stop ──▶ stopped, for good
+
+A topic that has been silent for longer than its binding allows is not believed any more. Times are those of the steady
+clock at which messages are taken: the clocks of robot and computer need not agree.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from fieldhand.execution.drivers.protocol import Position
+from fieldhand.execution.drivers.ros2.fields import number_at, value_at
+from fieldhand.execution.drivers.ros2.transport import Message, Quality, Subscription, Transport
+from fieldhand.robot.bindings import FieldBinding, PositionBinding, Ros2Bindings, TopicBinding
+from fieldhand.site.projection import Projection
+
+#: ``sensor_msgs/msg/NavSatStatus``: no fix; below it, the receiver has not said.
+_NO_FIX = -1
+
+#: Metres that two points must be apart for the way between them to count: what is less is noise.
+_ODOMETRY_STEP_M, _FIX_STEP_M = 0.02, 0.25
+#: A step that would have taken more than that many times the robot's speed is no driving: the odometry was set anew.
+_JUMP, _JUMP_M = 5.0, 2.0
+
+#: Where metres are counted.
+_ODOMETRY_X, _ODOMETRY_Y = FieldBinding(path="pose.pose.position.x"), FieldBinding(path="pose.pose.position.y")
+
+
+@dataclass
+class Sense:
+    """A topic, and when it said something.
+
+    Attributes:
+        what: What it is to people.
+        name: Its whole name.
+        heard: A message came.
+        at_s: When the last one came that said something, by the steady clock; None before the first.
+        doubt: Why the last message said nothing.
+    """
+
+    what: str
+    name: str
+    binding: TopicBinding
+    quality: Quality
+    subscription: Subscription
+    heard: bool = False
+    at_s: float | None = None
+    doubt: str = ""
+
+    def known(self) -> bool:
+        """Whether it has said something. What is kept for who comes late, and never was sent, never changed."""
+        return self.at_s is not None or (self.binding.transient and self.subscription.publishers() > 0)
+
+    def take(self) -> tuple[Message, ...]:
+        """What has arrived."""
+        messages = self.subscription.take()
+        self.heard = self.heard or bool(messages)
+        return messages
+
+    def silent(self, now: float) -> str | None:
+        """Why nothing is known any more; None while something is."""
+        if self.at_s is None:
+            return None if self.known() else f"nothing came on {self.name} yet"
+        passed = now - self.at_s
+        return f"nothing came on {self.name} for {passed:.0f} s" if passed > self.binding.stale_s else None
+
+
+class _Way:
+    """Metres along points that follow each other."""
+
+    def __init__(self, step_m: float, speed_m_s: float, clock: Callable[[], float]) -> None:
+        self.metres = 0.0
+        self._step_m, self._speed, self._clock = step_m, speed_m_s, clock
+        self._last: tuple[float, tuple[float, float]] | None = None
+
+    def add(self, xy: tuple[float, float]) -> None:
+        now = self._clock()
+        if self._last is None:
+            self._last = now, xy
+            return
+        since, before = self._last
+        step = math.dist(before, xy)
+        if step < self._step_m:
+            return
+        if step <= _JUMP * self._speed * (now - since) + _JUMP_M:
+            self.metres += step
+        self._last = now, xy
+
+
+class Senses:
+    """Listens to a robot.
+
+    Args:
+        transport: Carries its messages.
+        bindings: Which topics say what.
+        projection: Of the site.
+        speed_m_s: Of the robot: a jump of its odometry is no driving.
+        clock: In whose seconds it drives as fast as that.
+        steady: Seconds that pass whatever the mission's clock does.
+
+    Raises:
+        Ros2Error: A type is not known.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        bindings: Ros2Bindings,
+        projection: Projection,
+        *,
+        speed_m_s: float,
+        clock: Callable[[], float],
+        steady: Callable[[], float],
+    ) -> None:
+        self._projection, self._steady, self._position_binding = projection, steady, bindings.position
+        self._battery_value, self._stop_binding = bindings.battery.value, bindings.stop
+
+        def sense(what: str, topic: TopicBinding) -> Sense:
+            name, quality = (
+                bindings.whole_name(topic.topic),
+                Quality(reliable=topic.reliable, transient=topic.transient),
+            )
+            return Sense(what, name, topic, quality, transport.subscribe(name, topic.type, quality))
+
+        self._fix = sense("the position", bindings.position.fix)
+        self._battery = sense("the battery", bindings.battery.topic)
+        self._odometry = sense("the odometry", bindings.odometry) if bindings.odometry else None
+        self._stop = sense("the emergency stop", bindings.stop.topic) if bindings.stop else None
+        self._way = _Way(_ODOMETRY_STEP_M if self._odometry else _FIX_STEP_M, speed_m_s, clock)
+        self._position: Position | None = None
+        self._charge: float | None = None
+        self._stopped: str | None = None
+
+    @property
+    def metres(self) -> float:
+        """Driven since this was made."""
+        return self._way.metres
+
+    @property
+    def position(self) -> Position | None:
+        """The last that was known; None before the first."""
+        return self._position
+
+    @property
+    def charge_percent(self) -> float | None:
+        """The last that was said, as it was said; None before the first."""
+        return self._charge
+
+    @property
+    def all(self) -> tuple[Sense, ...]:
+        """Every topic that is listened to."""
+        return tuple(s for s in (self._fix, self._battery, self._odometry, self._stop) if s is not None)
+
+    def listen(self) -> None:
+        """Take what has arrived."""
+        now = self._steady()
+        for message in self._fix.take():
+            self._hear_fix(message, now)
+        for message in self._battery.take():
+            # NaN is what a battery says that does not measure: it has said nothing.
+            if (charge := number_at(message, self._battery_value)) is not None:
+                self._charge, self._battery.at_s = charge, now
+            else:
+                self._battery.doubt = f"it says no number at {self._battery_value.path}"
+        for message in self._odometry.take() if self._odometry else ():
+            self._hear_odometry(message, now)
+        for message in self._stop.take() if self._stop else ():
+            self._hear_stop(message, now)
+
+    def lost(self) -> str | None:
+        """Why the robot does not know where it is; None while it does."""
+        return self._fix.doubt or self._fix.silent(self._steady())
+
+    def silent(self) -> str | None:
+        """Why no goal can be carried out: the battery or the emergency stop is silent."""
+        now = self._steady()
+        for sense in (self._battery, self._stop):
+            if sense is not None and (why := sense.silent(now)) is not None:
+                return f"{sense.what} is silent: {why}"
+        return None
+
+    def stopped(self) -> str | None:
+        """Why the robot will not move again: its emergency stop was pressed, even if it was released since."""
+        return self._stopped
+
+    def close(self) -> None:
+        """End it."""
+        for sense in self.all:
+            sense.subscription.close()
+
+    def _hear_fix(self, message: Message, now: float) -> None:
+        doubt = doubt_of(message, self._position_binding)
+        self._fix.doubt = doubt or ""
+        if doubt is not None:
+            return
+        self._fix.at_s = now
+        lat, lon = message["latitude"], message["longitude"]
+        assert isinstance(lat, float)  # noqa: S101  else it was doubted
+        assert isinstance(lon, float)  # noqa: S101
+        x, y = (float(v) for v in self._projection.metres(lat, lon)[0])
+        self._position = Position(x=x, y=y, lat=lat, lon=lon)
+        if self._odometry is None:
+            self._way.add((x, y))
+
+    def _hear_odometry(self, message: Message, now: float) -> None:
+        assert self._odometry is not None  # noqa: S101  asked for by who has one
+        x, y = number_at(message, _ODOMETRY_X), number_at(message, _ODOMETRY_Y)
+        if x is not None and y is not None:
+            self._odometry.at_s = now
+            self._way.add((x, y))
+
+    def _hear_stop(self, message: Message, now: float) -> None:
+        assert self._stop is not None  # noqa: S101  asked for by who has one
+        assert self._stop_binding is not None  # noqa: S101
+        self._stop.at_s = now
+        if value_at(message, self._stop_binding.path) == self._stop_binding.stopped:
+            self._stopped = f"the emergency stop was pressed ({self._stop.name})"
+
+
+def doubt_of(fix: Message, binding: PositionBinding) -> str | None:
+    """Why a ``sensor_msgs/msg/NavSatFix`` does not say where the robot is; None where it does."""
+    lat, lon, status = fix.get("latitude"), fix.get("longitude"), value_at(fix, "status.status")
+    if status == _NO_FIX or not isinstance(lat, float) or not isinstance(lon, float):
+        return "no satellite fix"
+    if not (abs(lat) <= 90.0 and abs(lon) <= 180.0):  # NaN is not, either
+        return "no satellite fix"
+    covariance, known = fix.get("position_covariance"), fix.get("position_covariance_type")
+    if isinstance(covariance, tuple) and len(covariance) == 9 and isinstance(known, int) and known > 0:
+        worse = max(float(covariance[0]), float(covariance[4]))
+        if not worse <= binding.most_sigma_m**2:
+            sigma = f"{math.sqrt(worse):.1f} m" if worse >= 0 else "nobody knows what"
+            return f"the position is uncertain by {sigma}, at most {binding.most_sigma_m:g} m are allowed"
+        return None
+    return None if isinstance(status, int) and status > _NO_FIX else "no satellite fix"
