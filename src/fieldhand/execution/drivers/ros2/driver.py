@@ -1,0 +1,297 @@
+"""A robot over ROS 2 as a :class:`~fieldhand.execution.drivers.protocol.Driver`.
+
+    start_drive  ──▶ Drive   ──▶ Navigation ──▶ goals of Nav2
+    start_action ──▶ Capture ──▶ Captures   ──▶ actions, services, topics
+    position, charge, lost, stopped ◀── Senses ◀── topics
+
+There is no thread and no callback: :meth:`Ros2Driver.poll` takes what has arrived and does what is due. No call raises
+because of the robot; what goes wrong ends the goal in hand, and says why.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import time
+import uuid
+from collections.abc import Callable, Collection
+from typing import Self
+
+from fieldhand.clock import Clock
+from fieldhand.errors import Ros2Error
+from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Position, Progress
+from fieldhand.execution.drivers.ros2.capture import Capture, Captures
+from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.navigation import Drive, Navigation
+from fieldhand.execution.drivers.ros2.outcome import Ending
+from fieldhand.execution.drivers.ros2.senses import Senses
+from fieldhand.execution.drivers.ros2.startup import Startup
+from fieldhand.execution.drivers.ros2.transport import Transport
+from fieldhand.robot.bindings import Ros2Bindings
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+
+#: Seconds of the wall clock between two looks at the robot.
+LOOK_EVERY_S = 0.05
+#: Seconds until all of the robot must be there.
+READY_WITHIN_S = 20.0
+#: Seconds for which a robot is lost once its navigation said so.
+LOST_S = 5.0
+#: Metres from the site's start beyond which a robot is on another site.
+_FAR_M = 5_000.0
+
+
+class Ros2Driver:
+    """Drives one robot. Made by :meth:`connect`.
+
+    Args:
+        transport: Carries its messages; whoever made it closes it.
+        site, robot: Of the mission; the profile must have a ``ros2`` part.
+        clock: The mission's.
+        steady: Seconds of a clock that nobody sets.
+        look_every_s: Between two looks at a running goal, in seconds of the mission's clock.
+        actions: Those that will be asked for; None for all that the profile binds.
+        new_id: Makes the 16 bytes that name a goal.
+
+    Raises:
+        Ros2Error: The profile does not say how the robot is reached, or has types that are not known.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        site: Site,
+        robot: RobotProfile,
+        *,
+        clock: Clock,
+        steady: Callable[[], float] = time.monotonic,
+        look_every_s: float = LOOK_EVERY_S,
+        actions: Collection[str] | None = None,
+        new_id: Callable[[], bytes] = lambda: uuid.uuid4().bytes,
+    ) -> None:
+        bindings = _bindings_of(robot, actions)
+        self._clock, self._steady, self._look_every_s = clock, steady, look_every_s
+        self._senses = Senses(
+            transport, bindings, site.projection, speed_m_s=robot.speed_m_s, clock=clock.now, steady=steady
+        )
+        self._navigation = Navigation(
+            transport,
+            bindings,
+            speed_m_s=robot.speed_m_s,
+            position=self._where,
+            clock=clock.now,
+            steady=steady,
+            new_id=new_id,
+        )
+        self._captures = Captures(transport, bindings, clock=clock.now, steady=steady, new_id=new_id, only=actions)
+        self._task: Drive | Capture | None = None
+        self._cut: Ending | None = None
+        self._lost: tuple[float, str] | None = None
+        self._begun_s, self._begun_m = 0.0, 0.0
+        self._result = Progress(state="idle")
+
+    @classmethod
+    def connect(
+        cls,
+        transport: Transport,
+        interfaces: Interfaces,
+        site: Site,
+        robot: RobotProfile,
+        *,
+        clock: Clock,
+        steady: Callable[[], float] = time.monotonic,
+        sleep: Callable[[float], None] = time.sleep,
+        look_every_s: float = LOOK_EVERY_S,
+        within_s: float = READY_WITHIN_S,
+        actions: Collection[str] | None = None,
+        new_id: Callable[[], bytes] = lambda: uuid.uuid4().bytes,
+    ) -> Self:
+        """A driver of a robot that is there, stands still and says where it is.
+
+        Args:
+            transport, site, robot, clock, steady, look_every_s, actions, new_id: As for the driver itself.
+            interfaces: The types that the transport knows.
+            sleep: Waits so many seconds of the steady clock.
+            within_s: How long to wait for the robot.
+
+        Raises:
+            Ros2Error: It is not all there; everything that is missing is named, with why where that can be told.
+        """
+        driver = cls(
+            transport,
+            site,
+            robot,
+            clock=clock,
+            steady=steady,
+            look_every_s=look_every_s,
+            actions=actions,
+            new_id=new_id,
+        )
+        startup = Startup(
+            transport,
+            interfaces,
+            navigation=driver._navigation,
+            captures=driver._captures,
+            senses=driver._senses,
+            far=lambda: driver._far_from(site),
+            rest=lambda: sleep(LOOK_EVERY_S),
+            steady=steady,
+        )
+        try:
+            startup.wait(within_s)
+            startup.clear()
+        except Ros2Error:
+            driver.close()
+            raise
+        return driver
+
+    @property
+    def seed(self) -> int | None:
+        return None
+
+    def start_drive(self, goal: DriveGoal) -> None:
+        self._begin(lambda: Drive(self._navigation, goal))
+
+    def start_action(self, goal: ActionGoal) -> None:
+        self._begin(lambda: Capture(self._captures, goal))
+
+    def poll(self) -> Progress:
+        self._attend()
+        if self._task is None:
+            return self._result
+        if self._cut is None and (cut := self._why_not()) is not None:
+            self._cut = cut
+            self._task.cancel()
+        ending = self._task.step()
+        if ending is None:
+            return self._progress(Ending(state="running"))
+        return self._finish(ending)
+
+    def cancel(self) -> None:
+        if self._task is not None:
+            self._task.cancel()
+
+    def next_event_in(self) -> float | None:
+        return None if self._task is None else self._look_every_s
+
+    def position(self) -> Position:
+        self._senses.listen()
+        position = self._where()
+        assert position is not None  # noqa: S101  connected only where it is known
+        return position
+
+    def charge_percent(self) -> float:
+        self._senses.listen()
+        return min(100.0, max(0.0, self._senses.charge_percent or 0.0))
+
+    def lost(self) -> str | None:
+        self._senses.listen()
+        return self._is_lost()
+
+    def stopped(self) -> str | None:
+        self._attend()
+        return self._senses.stopped()
+
+    def close(self) -> None:
+        """Let the robot go, without a word to it: what it is at is cancelled before, or goes on."""
+        self._senses.close()
+        self._navigation.close()
+        self._captures.close()
+
+    # --- a goal --------------------------------------------------------------------------------------------------
+
+    def _begin(self, task: Callable[[], Drive | Capture]) -> None:
+        if not self.poll().over:
+            raise RuntimeError("a goal is running: a driver has one at a time")
+        self._begun_s, self._begun_m = self._clock.now(), self._senses.metres
+        if (refused := self._why_not()) is not None:
+            self._result = self._progress(refused)
+            return
+        self._cut, self._task = None, task()
+        self.poll()  # so that it goes out now
+
+    def _attend(self) -> None:
+        """Take what has arrived. A goal that was given up and turns out to be carried out is cancelled by that."""
+        self._senses.listen()
+        for client in (self._navigation.client, *self._captures.actions):
+            client.step()
+
+    def _why_not(self) -> Ending | None:
+        """Why no goal can be carried out now, as the end that it comes to; None where one can."""
+        if (why := self._senses.stopped()) is not None:
+            return Ending(state="cancelled", what=why)
+        if (why := self._is_lost()) is not None:
+            return Ending(state="failed", what=why, fault="lost")
+        if (why := self._senses.silent()) is not None:
+            return Ending(state="failed", what=why, fault="failed")
+        return None
+
+    def _finish(self, ending: Ending) -> Progress:
+        cut = self._cut
+        # A lost robot makes no capture and has not arrived; whatever else cut it short, what was done is done.
+        if cut is not None and (cut.fault == "lost" or ending.state != "succeeded"):
+            more = f"; {ending.what}" if ending.state == "failed" and ending.what else ""
+            ending = dataclasses.replace(cut, what=f"{cut.what}{more}")
+        elif ending.fault == "lost":
+            self._lost = self._steady(), ending.what
+        elif ending.state == "failed" and self._senses.charge_percent is not None and self.charge_percent() <= 0.0:
+            ending = dataclasses.replace(ending, fault="empty", what=f"the battery is empty; {ending.what}")
+        if ending.state == "cancelled" and not ending.what:
+            ending = dataclasses.replace(ending, what="cancelled")
+        self._task, self._cut = None, None
+        self._result = self._progress(ending)
+        return self._result
+
+    def _progress(self, ending: Ending) -> Progress:
+        return Progress(
+            state=ending.state,
+            metres=self._senses.metres - self._begun_m,
+            seconds=max(0.0, self._clock.now() - self._begun_s),
+            readings=ending.readings,
+            what=ending.what,
+            fault=ending.fault,
+        )
+
+    # --- the robot -----------------------------------------------------------------------------------------------
+
+    def _where(self) -> Position | None:
+        return self._senses.position
+
+    def _is_lost(self) -> str | None:
+        why = self._senses.lost()
+        if why is None and self._lost is not None:
+            since, said = self._lost
+            return said if self._steady() - since < LOST_S else None
+        return why
+
+    def _far_from(self, site: Site) -> str | None:
+        """Why the robot cannot be on the site; None where it can, or where it is not known."""
+        position = self._where()
+        if position is None:
+            return None
+        away = math.dist((position.x, position.y), site.start.xy)
+        if away <= _FAR_M:
+            return None
+        return f"the robot stands {away / 1000.0:.0f} km from the start of {site.name}: it is on another site"
+
+
+def _bindings_of(robot: RobotProfile, actions: Collection[str] | None) -> Ros2Bindings:
+    """How a robot is reached.
+
+    Raises:
+        Ros2Error: Its profile does not say so, or not how an action is done that will be asked for.
+    """
+    if robot.ros2 is None:
+        raise Ros2Error(
+            f"the profile of {robot.name} does not say how it is reached over ROS 2",
+            where=robot.source,
+            advice="give it a ros2 part (docs/formats.md)",
+        )
+    unbound = [name for name in actions or () if name not in robot.ros2.actions]
+    if unbound:
+        raise Ros2Error(
+            f"the profile of {robot.name} does not say how it does {', '.join(unbound)} over ROS 2",
+            where=robot.source,
+            advice="name them under ros2: actions",
+        )
+    return robot.ros2

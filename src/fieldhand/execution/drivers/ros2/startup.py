@@ -1,0 +1,142 @@
+"""Before a mission begins: wait until all of the robot is there, and say at once what is not, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from fieldhand.errors import Ros2Error
+from fieldhand.execution.drivers.ros2.capture import Bound, Captures
+from fieldhand.execution.drivers.ros2.goal import CANCEL_S, ActionClient
+from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.navigation import FROM_LL, Navigation
+from fieldhand.execution.drivers.ros2.seen import Unusable, action_unusable, service_unusable, topic_unusable
+from fieldhand.execution.drivers.ros2.senses import Sense, Senses
+from fieldhand.execution.drivers.ros2.transport import Client, Quality, Transport
+
+#: How many of the things that are missing are named.
+_MOST_NAMED = 8
+#: Percent that no battery has: its scale is wrong.
+_MOST_PERCENT = 105.0
+
+_ONE_WAY = "it was found, but does not answer"
+
+
+class Startup:
+    """Looks whether all that a mission needs of a robot is there.
+
+    Args:
+        transport, interfaces: To tell why something is not.
+        navigation, captures, senses: What is needed.
+        far: Why the robot cannot be on the mission's site, None where it can.
+        rest: Lets a moment pass.
+        steady: Seconds of a clock that nobody sets.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        interfaces: Interfaces,
+        *,
+        navigation: Navigation,
+        captures: Captures,
+        senses: Senses,
+        far: Callable[[], str | None],
+        rest: Callable[[], None],
+        steady: Callable[[], float],
+    ) -> None:
+        self._transport, self._interfaces = transport, interfaces
+        self._navigation, self._captures, self._senses = navigation, captures, senses
+        self._far, self._rest, self._steady = far, rest, steady
+
+    def wait(self, within_s: float) -> None:
+        """Wait until all is there.
+
+        Raises:
+            Ros2Error: Something is not by then; all of it is named.
+        """
+        until = self._steady() + within_s
+        while missing := list(self._missing()):
+            if self._steady() >= until:
+                named = "; ".join(missing[:_MOST_NAMED])
+                more = f"; and {len(missing) - _MOST_NAMED} more" if len(missing) > _MOST_NAMED else ""
+                raise Ros2Error(f"the robot is not ready, {within_s:g} s on: {named}{more}")
+            self._rest()
+            self._senses.listen()
+
+    def clear(self) -> None:
+        """End what the robot is at: a mission that was cut off may have left a goal behind, which nobody watches.
+
+        Raises:
+            Ros2Error: It does not end.
+        """
+        clients = (self._navigation.client, *self._captures.actions)
+        asked = [(client, client.cancel_everything()) for client in clients]
+        until = self._steady() + CANCEL_S
+        while busy := [client.name for client, number in asked if not client.everything_cancelled(number)]:
+            if self._steady() >= until:
+                raise Ros2Error(
+                    f"{' and '.join(busy)} did not confirm within {CANCEL_S:g} s that nothing is carried out there",
+                    advice="see what else commands the robot",
+                )
+            self._rest()
+
+    def _missing(self) -> Iterator[str]:
+        yield from self._missing_navigation()
+        for sense in self._senses.all:
+            yield from self._silent(sense)
+        if (why := self._far()) is not None:
+            yield why
+        charge = self._senses.charge_percent
+        if charge is not None and not 0.0 <= charge <= _MOST_PERCENT:
+            yield f"the battery says {charge:g} percent; correct its scale or unit in the profile's ros2 part"
+        if (pressed := self._senses.stopped()) is not None:
+            yield f"{pressed}; release it and begin again"
+        for name, bound in self._captures.bound.items():
+            yield from self._missing_capture(name, bound)
+
+    def _missing_navigation(self) -> Iterator[str]:
+        navigation = self._navigation
+        yield from self._no_action("navigation", navigation.client)
+        if navigation.from_ll is not None:
+            yield from self._no_service("the map", navigation.from_ll, navigation.from_ll_name, FROM_LL)
+        if navigation.speed is not None and navigation.speed.subscribers() == 0:
+            yield f"the speed limit {navigation.speed_name}: nobody hears it; see whether Nav2's controller is active"
+
+    def _missing_capture(self, name: str, bound: Bound) -> Iterator[str]:
+        call = bound.binding.call
+        if bound.action is not None:
+            yield from self._no_action(name, bound.action)
+        elif bound.service is not None and call is not None:
+            yield from self._no_service(name, bound.service, self._captures.whole_name(call.name), call.type)
+        for quantity, (topic, subscription) in bound.topics.items():
+            message = bound.binding.topics[quantity]
+            if subscription.publishers() == 0:
+                # What is sent when it is asked for is not heard before.
+                quality = Quality(reliable=message.reliable)
+                why = topic_unusable(self._transport, self._interfaces, topic, message.type, quality)
+                yield _line(f"{quantity} of {name}", topic, why)
+
+    def _no_action(self, what: str, client: ActionClient) -> Iterator[str]:
+        why = action_unusable(self._transport, self._interfaces, client.name, client.type)
+        if why is not None or client.servers() == 0:
+            yield _line(what, client.name, why)
+
+    def _no_service(self, what: str, client: Client, name: str, type_name: str) -> Iterator[str]:
+        why = service_unusable(self._transport, self._interfaces, name, type_name)
+        if why is not None or client.servers() == 0:
+            yield _line(what, name, why)
+
+    def _silent(self, sense: Sense) -> Iterator[str]:
+        if sense.known():
+            return
+        why = topic_unusable(self._transport, self._interfaces, sense.name, sense.binding.type, sense.quality)
+        if why is not None or sense.subscription.publishers() == 0:
+            yield _line(sense.what, sense.name, why)
+        elif sense.heard:
+            yield f"{sense.what} {sense.name}: {sense.doubt}"
+        else:
+            yield f"{sense.what} {sense.name}: nothing came yet; see whether the robot sends it"
+
+
+def _line(what: str, name: str, why: Unusable | None) -> str:
+    return f"{what} {name}: {_ONE_WAY if why is None else why}"
