@@ -3,8 +3,8 @@
     python scripts/ros2_latency.py --calls 1000 --goals 200
 
 The other process answers both ends of what a mission uses: ``robot_localization/srv/FromLL``, which it answers with
-the latitude and longitude as metres, and ``nav2_msgs/action/NavigateToPose``, each goal of which takes some
-messages of feedback and then succeeds. A call is lost where no reply, or a wrong one, comes within 10 s. Only this machine's
+the latitude and longitude as metres, and ``nav2_msgs/action/NavigateToPose``, each goal of which takes some messages of
+feedback and then succeeds. A call is lost where no reply, or a wrong one, comes within 10 s. Only this machine's
 loopback interface is used, unless CYCLONEDDS_URI says another.
 """
 
@@ -18,7 +18,7 @@ import statistics
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from contextlib import closing
 from typing import TypeVar
 
@@ -49,31 +49,29 @@ def main() -> int:
     if options.answer:
         answer(options.feedback)
         return 0
-    own = [sys.executable, __file__, "--answer", "--domain", str(options.domain), "--feedback", str(options.feedback)]
-    with (
-        subprocess.Popen(own, stdin=subprocess.PIPE) as other,
-        closing(open_dds(Interfaces.of(DISTRO))) as node,
-    ):
-        assert other.stdin is not None  # noqa: S101 - it is a pipe
-        calls, lost_calls = measure(range(options.calls), _caller(node))
-        goals, lost_goals = measure(range(options.goals), _goal_sender(node))
-        other.stdin.close()
+    calls, goals = measured(options.calls, options.goals, options.feedback)
     print(f"{platform.node()}: {os.cpu_count()} cores, {platform.machine()}, Python {platform.python_version()}")
-    _say("calls of a service", calls, lost_calls)
-    _say(f"goals of {options.feedback} feedback each", goals, lost_goals)
-    return 1 if lost_calls or lost_goals else 0
+    _say("calls of a service", calls)
+    _say(f"goals of {options.feedback} feedback each", goals)
+    return 1 if None in calls + goals else 0
 
 
-def measure(numbers: Iterable[int], done: Callable[[int], bool]) -> tuple[list[float], int]:
-    """Seconds of each that was done, and how many were lost."""
-    took, lost = [], 0
-    for number in numbers:
+def measured(calls: int, goals: int, feedback: int) -> tuple[list[float | None], list[float | None]]:
+    """Seconds of each call and each goal to another process on this domain; None for one that was lost."""
+    own = [sys.executable, __file__, "--answer", "--domain", os.environ["ROS_DOMAIN_ID"], "--feedback", str(feedback)]
+    with subprocess.Popen(own, stdin=subprocess.PIPE) as other, closing(open_dds(Interfaces.of(DISTRO))) as node:
+        assert other.stdin is not None  # noqa: S101 - it is a pipe
+        taken = _times(calls, _caller(node)), _times(goals, _goal_sender(node))
+        other.stdin.close()
+    return taken
+
+
+def _times(many: int, done: Callable[[int], bool]) -> list[float | None]:
+    times: list[float | None] = []
+    for number in range(many):
         begun = time.perf_counter()
-        if done(number):
-            took.append(time.perf_counter() - begun)
-        else:
-            lost += 1
-    return took, lost
+        times.append(time.perf_counter() - begun if done(number) else None)
+    return times
 
 
 def answer(feedback: int) -> None:
@@ -140,8 +138,9 @@ def _until(seen: Callable[[], _Seen]) -> _Seen | None:
     return None
 
 
-def _say(what: str, took: list[float], lost: int) -> None:
-    ordered = sorted(took) or [float("nan")]
+def _say(what: str, times: list[float | None]) -> None:
+    took = [t for t in times if t is not None]
+    lost, ordered = len(times) - len(took), sorted(took) or [float("nan")]
     figures = (statistics.median(ordered), ordered[int(0.99 * (len(ordered) - 1))], ordered[-1])
     median, most, last = (1000 * s for s in figures)
     print(

@@ -11,11 +11,16 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
-from fieldhand.execution.drivers.ros2.transport import SENSOR, STATUS, Peer, Quality, Transport
+from fieldhand.execution.drivers.ros2.transport import SENSOR, STATUS, Peer, Quality, Rmw, Transport
 
 #: What the services of Fast DDS and others lack over our DDS: the way in which a reply names its request.
 _NO_SERVICES = ("fastrtps", "connext", "zenoh")
-_PACKAGES = {"cyclonedds": "rmw_cyclonedds_cpp", "fastrtps": "rmw_fastrtps_cpp", "connext": "rmw_connextdds"}
+_PACKAGES: dict[Rmw, str] = {
+    "cyclonedds": "rmw_cyclonedds_cpp",
+    "fastrtps": "rmw_fastrtps_cpp",
+    "connext": "rmw_connextdds",
+    "zenoh": "rmw_zenoh_cpp",
+}
 
 FEEDBACK = Quality(reliable=True)
 
@@ -31,9 +36,9 @@ class Unusable:
         return f"{self.what}; {self.advice}"
 
 
-def rmw_package(peer: Peer) -> str:
+def rmw_package(rmw: Rmw) -> str:
     """The package that a robot sets as ``RMW_IMPLEMENTATION``."""
-    return _PACKAGES.get(peer.rmw, "an RMW that is not known")
+    return _PACKAGES.get(rmw, "an RMW that is not known")
 
 
 def topic_unusable(
@@ -66,7 +71,7 @@ def service_unusable(transport: Transport, interfaces: Interfaces, service: str,
     deaf = next((p for p in typed if p.rmw in _NO_SERVICES), None)
     if transport.name != "rclpy" and deaf is not None:
         return Unusable(
-            what=f"the robot runs {rmw_package(deaf)}, whose services cannot be called over the dds transport",
+            what=f"the robot runs {rmw_package(deaf.rmw)}, whose services cannot be called over the dds transport",
             advice="set RMW_IMPLEMENTATION=rmw_cyclonedds_cpp on the robot, or run with --transport rclpy here",
         )
     if len(typed) > 1:

@@ -80,7 +80,7 @@ class Interfaces:
             Ros2Error: It is not known.
         """
         if message not in self._definitions:
-            short = message.removesuffix("_Request").removesuffix("_Response").removesuffix("_SendGoal")
+            short = message if "/msg/" in message else message.rpartition("_")[0].removesuffix("_SendGoal")
             raise Ros2Error(
                 f"the type {short} is not known here",
                 advice="write package/msg/Name, or give its definition under ros2: interfaces in the robot's profile",
