@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,7 +12,7 @@ from cyclonedds.sub import DataReader
 
 from fieldhand.execution.drivers.ros2.dds.quality import said_by
 from fieldhand.execution.drivers.ros2.dds.topics import close, samples, write
-from fieldhand.execution.drivers.ros2.dds.wire import Header, Unreadable, Wire
+from fieldhand.execution.drivers.ros2.dds.wire import Header, Wire
 from fieldhand.execution.drivers.ros2.transport import Message, Quality
 
 #: Of both topics: reliable, volatile, keep the last 10 (measured).
@@ -20,7 +21,7 @@ SERVICE = Quality()
 #: Replies that wait for their client to be found; of more, the oldest are given up.
 _MOST_WAITING = 100
 #: How often a reply is tried before its client is taken to be gone.
-_TRIES = 200
+_TRIES = 2000
 
 
 class DdsClient:
@@ -33,16 +34,14 @@ class DdsClient:
 
     def __init__(self, wire: Wire, service_type: str, writer: DataWriter[Any], reader: DataReader[Any]) -> None:
         self._wire, self._type, self._writer, self._reader = wire, service_type, writer, reader
+        self._hear = _Matched(writer.get_matched_subscriptions, writer.get_matched_subscription_data, "serviceid")
+        self._answer = _Matched(reader.get_matched_publications, reader.get_matched_publication_data, "serviceid")
         self._number = 0
         self._client = writer.get_instance_handle() & 0xFFFF_FFFF_FFFF_FFFF
         self.open = True
 
     def servers(self) -> int:
-        if not self.open:
-            return 0
-        hear = _ids(self._writer.get_matched_subscriptions(), self._writer.get_matched_subscription_data)
-        answer = _ids(self._reader.get_matched_publications(), self._reader.get_matched_publication_data)
-        return len(hear & answer)
+        return len(self._hear.ids() & self._answer.ids()) if self.open else 0
 
     def ask(self, request: Message) -> int:
         self._number += 1
@@ -54,10 +53,9 @@ class DdsClient:
     def replies(self) -> tuple[tuple[int, Message], ...]:
         if not self.open:
             return ()
-        mine = (s for s in samples(self._reader, SERVICE.depth) if not isinstance(s, Unreadable))
         return tuple(
             (sample.seq, self._wire.unpacked(f"{self._type}_Response", sample))
-            for sample in mine
+            for sample in samples(self._reader, SERVICE.depth)
             if sample.guid == self._client and 0 < sample.seq <= self._number
         )
 
@@ -91,6 +89,7 @@ class DdsServer:
 
     def __init__(self, wire: Wire, service_type: str, reader: DataReader[Any], writer: DataWriter[Any]) -> None:
         self._wire, self._type, self._reader, self._writer = wire, service_type, reader, writer
+        self._clients = _Matched(writer.get_matched_subscriptions, writer.get_matched_subscription_data, "clientid")
         self._waiting: deque[_Waiting] = deque(maxlen=_MOST_WAITING)
         self.open = True
 
@@ -98,13 +97,12 @@ class DdsServer:
         if not self.open:
             return ()
         self._send_waiting()
-        taken = (s for s in samples(self._reader, SERVICE.depth) if not isinstance(s, Unreadable))
         return tuple(
             (
                 _Asked(Header(sample.guid, sample.seq), sample.sample_info.publication_handle),
                 self._wire.unpacked(f"{self._type}_Request", sample),
             )
-            for sample in taken
+            for sample in samples(self._reader, SERVICE.depth)
         )
 
     def reply(self, to: object, response: Message) -> None:
@@ -132,14 +130,36 @@ class DdsServer:
     def _found(self, asker: int) -> bool:
         """Whether the client's reader is matched, or nothing tells which it is."""
         client = _id_of(self._reader.get_matched_publication_data(asker), "clientid")
-        readers = (self._writer.get_matched_subscription_data(r) for r in self._writer.get_matched_subscriptions())
-        return client is None or any(_id_of(reader, "clientid") == client for reader in readers)
+        return client is None or client in self._clients.ids()
 
 
-def _ids(handles: list[int], data_of: Any) -> set[str]:
-    """Who stands behind endpoints: by what they say, else by their process."""
-    endpoints = [e for e in map(data_of, handles) if e is not None]
-    return {_id_of(e, "serviceid") or e.participant_key.hex for e in endpoints}
+class _Matched:
+    """Who stands behind the endpoints that are matched: by what they say, else by their process.
+
+    What an endpoint says does not change while it is there, and is asked for once: it takes long.
+
+    Args:
+        handles: Gives the endpoints.
+        data_of: Gives what one of them says.
+        key: Under which it says who it is.
+    """
+
+    def __init__(self, handles: Callable[[], list[int]], data_of: Callable[[int], Any], key: str) -> None:
+        self._handles, self._data_of, self._key = handles, data_of, key
+        self._known: dict[int, str] = {}
+
+    def ids(self) -> set[str]:
+        """Those that are there now."""
+        there = self._handles()
+        found = {h: self._known.get(h) or self._asked(h) for h in there}
+        self._known = {handle: known for handle, known in found.items() if known}
+        return set(self._known.values())
+
+    def _asked(self, handle: int) -> str | None:
+        endpoint = self._data_of(handle)
+        if endpoint is None or endpoint.qos is None:
+            return None
+        return _id_of(endpoint, self._key) or endpoint.participant_key.hex
 
 
 def _id_of(endpoint: Any, key: str) -> str | None:

@@ -13,8 +13,8 @@ from fieldhand.execution.drivers.ros2.transport import Message
 
 
 def samples(reader: Any, most: int) -> list[Any]:
-    """What has arrived and holds data: not what only says that a writer has gone."""
-    return [s for s in reader.take(N=most) if s.sample_info is not None and s.sample_info.valid_data]
+    """What has arrived and can be read: not what only says that a writer has gone."""
+    return [s for s in reader.take(N=most) if s.sample_info.valid_data and not isinstance(s, Unreadable)]
 
 
 def write(writer: Any, sample: Any) -> None:
@@ -38,20 +38,12 @@ class DdsSubscription:
     def __init__(self, wire: Wire, message: str, reader: DataReader[Any], depth: int) -> None:
         self._wire, self._message, self._reader, self._depth = wire, message, reader, depth
         self.open = True
-        #: Why the last message that could not be read could not, and how many there were.
-        self.unreadable = ""
-        self.unread = 0
 
     def take(self) -> tuple[Message, ...]:
         if not self.open:
             return ()
-        taken = []
-        for sample in samples(self._reader, self._depth):
-            if isinstance(sample, Unreadable):
-                self.unread, self.unreadable = self.unread + 1, sample.why
-            else:
-                taken.append(self._wire.unpacked(self._message, sample))
-        return tuple(taken)
+        taken = samples(self._reader, self._depth)
+        return tuple(self._wire.unpacked(self._message, sample) for sample in taken)
 
     def publishers(self) -> int:
         return len(self._reader.get_matched_publications()) if self.open else 0
