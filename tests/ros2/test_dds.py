@@ -146,6 +146,27 @@ def test_half_a_server_does_not_count(node: DdsTransport, domain: int) -> None:
     server.close()
 
 
+def test_a_reply_waits_until_its_client_can_hear_it(node: DdsTransport, monkeypatch: pytest.MonkeyPatch) -> None:
+    robot = open_dds(node.interfaces)
+    server, client = robot.serve("/late", "std_srvs/srv/Trigger"), node.client("/late", "std_srvs/srv/Trigger")
+    until(client.servers)
+    number = client.ask({})
+    ((asked, _),) = until(server.requests)
+    with monkeypatch.context() as patch:
+        patch.setattr(server._clients, "ids", set)  # its reader is not found yet
+        server.reply(asked, {"message": "at last"})
+        assert server.requests() == ()
+    assert server.requests() == ()
+    assert until(client.replies) == ((number, {"success": False, "message": "at last"}),)
+    robot.close()
+
+
+def test_a_network_that_cannot_be_used_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("CYCLONEDDS_URI", os.environ["CYCLONEDDS_URI"].replace('"lo"', '"no-such-one"'))
+    with pytest.raises(Ros2Error, match="no node can be made on DDS domain 99; look at the network's interfaces"):
+        open_dds(Interfaces.of("humble"), 99)
+
+
 def test_unknown_types_and_names_are_refused_in_words(node: DdsTransport) -> None:
     for make in (node.subscribe, node.publish):
         with pytest.raises(Ros2Error, match="the type no_msgs/msg/Such is not known here"):

@@ -59,7 +59,7 @@ class DdsTransport:
             self._discovery = Discovery(self._participant)
         except DDSException as error:
             raise Ros2Error(
-                f"no node can be made on DDS domain {self.domain} ({error.msg.strip()})",
+                f"no node can be made on DDS domain {self.domain}",
                 advice="look at the network's interfaces and at CYCLONEDDS_URI, if it is set",
             ) from error
 
@@ -117,7 +117,7 @@ class DdsTransport:
         try:
             return Topic(self._participant, name, self._wire.type_of(message, headed=headed))
         except DDSException as error:
-            raise Ros2Error(f"{name[2:]} cannot be used as {message} ({error.msg.strip()})") from error
+            raise Ros2Error(f"{name[2:]} cannot be made as {message}: it is there with another type") from error
 
     def _said(self, message: str, said: dict[str, str]) -> UserData:
         return UserData(values=said | {"typehash": self.interfaces.type_hash(message)})
