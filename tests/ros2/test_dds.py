@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from fieldhand.errors import InputError, Ros2Error
-from fieldhand.execution.drivers.ros2.dds import names, open_dds
+from fieldhand.execution.drivers.ros2.dds import names, open_dds, services
 from fieldhand.execution.drivers.ros2.dds.transport import DdsTransport
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.transport import SENSOR, STATUS, Quality
@@ -127,6 +127,14 @@ def test_a_server_of_another_type_does_not_count(node: DdsTransport) -> None:
     right = node.client("/sum", "test_msgs/srv/Sum")
     until(right.servers)
     assert wrong.servers() == 0
+
+
+def test_a_server_whose_middleware_does_not_understand_requests_does_not_count(
+    node: DdsTransport, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    until(node.client("/sum", "test_msgs/srv/Sum").servers)
+    monkeypatch.setattr(services, "rmw_of", lambda _: "fastrtps")
+    assert node.client("/sum", "test_msgs/srv/Sum").servers() == 0
 
 
 def test_half_a_server_does_not_count(node: DdsTransport, domain: int) -> None:

@@ -10,11 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from fieldhand.execution.drivers.ros2.dds.names import NO_SERVICES
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.transport import SENSOR, STATUS, Peer, Quality, Rmw, Transport
 
-#: What the services of Fast DDS and others lack over our DDS: the way in which a reply names its request.
-_NO_SERVICES = ("fastrtps", "connext", "zenoh")
 _PACKAGES: dict[Rmw, str] = {
     "cyclonedds": "rmw_cyclonedds_cpp",
     "fastrtps": "rmw_fastrtps_cpp",
@@ -68,7 +67,7 @@ def service_unusable(transport: Transport, interfaces: Interfaces, service: str,
     typed = [p for p in peers if p.type == type_name]
     if not typed:
         return _other_type("answered", peers, type_name)
-    deaf = next((p for p in typed if p.rmw in _NO_SERVICES), None)
+    deaf = next((p for p in typed if p.rmw in NO_SERVICES), None)
     if transport.name != "rclpy" and deaf is not None:
         return Unusable(
             what=f"the robot runs {rmw_package(deaf.rmw)}, whose services cannot be called over the dds transport",

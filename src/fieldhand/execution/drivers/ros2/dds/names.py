@@ -11,6 +11,9 @@ from fieldhand.execution.drivers.ros2.transport import Rmw
 
 Half = Literal["Request", "Response"]
 
+#: Whose services find ours and do not understand them: they tell otherwise which reply is to which request.
+NO_SERVICES: tuple[Rmw, ...] = ("fastrtps", "connext")
+
 _NAME = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+")
 _TYPE = re.compile(r"(?P<package>[a-z][a-z0-9_]*)::(?P<kind>msg|srv|action)::dds_::(?P<name>\w+)_")
 

@@ -10,6 +10,7 @@ from typing import Any
 from cyclonedds.pub import DataWriter
 from cyclonedds.sub import DataReader
 
+from fieldhand.execution.drivers.ros2.dds.names import NO_SERVICES, rmw_of
 from fieldhand.execution.drivers.ros2.dds.quality import said_by
 from fieldhand.execution.drivers.ros2.dds.topics import close, samples, write
 from fieldhand.execution.drivers.ros2.dds.wire import Header, Wire
@@ -146,20 +147,17 @@ class _Matched:
 
     def __init__(self, handles: Callable[[], list[int]], data_of: Callable[[int], Any], key: str) -> None:
         self._handles, self._data_of, self._key = handles, data_of, key
-        self._known: dict[int, str] = {}
+        self._known: dict[int, str | None] = {}
 
     def ids(self) -> set[str]:
-        """Those that are there now."""
-        there = self._handles()
-        found = {h: self._known.get(h) or self._asked(h) for h in there}
-        self._known = {handle: known for handle, known in found.items() if known}
-        return set(self._known.values())
-
-    def _asked(self, handle: int) -> str | None:
-        endpoint = self._data_of(handle)
-        if endpoint is None or endpoint.qos is None:
-            return None
-        return _id_of(endpoint, self._key) or endpoint.participant_key.hex
+        """Those that are there now and understand what is said."""
+        for handle in (there := set(self._handles())) - self._known.keys():
+            endpoint = self._data_of(handle)
+            if endpoint is not None and endpoint.qos is not None:
+                deaf = rmw_of(endpoint.participant_key.bytes) in NO_SERVICES
+                self._known[handle] = None if deaf else _id_of(endpoint, self._key) or endpoint.participant_key.hex
+        self._known = {handle: known for handle, known in self._known.items() if handle in there}
+        return {known for known in self._known.values() if known is not None}
 
 
 def _id_of(endpoint: Any, key: str) -> str | None:
