@@ -1,4 +1,4 @@
-"""``fieldhand robot``: what a robot can do; ``fieldhand robot calibrate`` stands in a file of its own."""
+"""``fieldhand robot``: what a robot can do; ``robot calibrate`` and ``robot check`` stand in files of their own."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from typer.core import TyperGroup
 from fieldhand.cli.calibrate import calibrate
 from fieldhand.cli.options import JsonOption
 from fieldhand.cli.outputs import to_file
+from fieldhand.cli.robot_check import check
 
 if TYPE_CHECKING:
     from fieldhand.robot.model import RobotProfile
@@ -27,10 +28,11 @@ class _ShowUnlessTold(TyperGroup):
 robot = typer.Typer(
     name="robot",
     cls=_ShowUnlessTold,
-    help="Say what a robot can do (fieldhand robot husky), or fit its profile to what its missions cost.",
+    help="Say what a robot can do (fieldhand robot husky), try its profile on it, or fit it to what its missions cost.",
     no_args_is_help=True,
 )
 robot.command("calibrate")(calibrate)
+robot.command("check")(check)
 
 
 @robot.command("show")

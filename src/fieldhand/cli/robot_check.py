@@ -1,0 +1,103 @@
+"""``fieldhand robot check``: what a profile says of ROS 2, tried on the robot itself."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from fieldhand.cli.options import JsonOption
+
+if TYPE_CHECKING:
+    from fieldhand.execution.drivers.ros2.check import Report
+    from fieldhand.execution.drivers.ros2.probes import Finding
+    from fieldhand.robot.model import RobotProfile
+
+_TRANSPORTS = ("dds",)
+
+
+def check(
+    name: Annotated[str, typer.Argument(metavar="ROBOT", help="Built-in robot or a profile file (YAML).")],
+    live: Annotated[bool, typer.Option("--live", help="Try every binding on the robot, without moving it.")] = False,
+    transport: Annotated[
+        str, typer.Option("--transport", metavar="dds", help="How the robot is reached: by DDS, with no ROS installed.")
+    ] = "dds",
+    domain: Annotated[
+        int | None, typer.Option("--domain", help="ROS domain of the robot; else ROS_DOMAIN_ID, else 0.")
+    ] = None,
+    within: Annotated[
+        float, typer.Option("--within", min=1.0, max=600.0, help="Seconds to wait for what is not there yet.")
+    ] = 10.0,
+    json: JsonOption = False,
+) -> None:
+    """Hold what a profile says of ROS 2 against the types of the robot's release; --live also tries it on the robot."""
+    from fieldhand.cli import show
+    from fieldhand.execution.drivers.ros2.check import bindings_of, check_types
+    from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+    from fieldhand.robot.loader import load_robot
+
+    profile = load_robot(name)
+    bindings = bindings_of(profile)
+    interfaces = Interfaces.of(bindings.distro, bindings.interfaces)
+    report = _tried(profile, interfaces, transport, domain, within) if live else check_types(profile, interfaces)
+    if json:
+        show.print_json(_record(profile, report, live=live))
+    else:
+        for line in _lines(profile, report, live=live):
+            show.out.print(line)
+    if report.missing:
+        raise typer.Exit(1)
+
+
+def _tried(profile: RobotProfile, interfaces: Any, transport: str, domain: int | None, within_s: float) -> Report:
+    import time
+    from contextlib import closing
+
+    from fieldhand.errors import InputError
+    from fieldhand.execution.drivers.ros2.check import check_live
+    from fieldhand.execution.drivers.ros2.dds import open_dds
+
+    if transport not in _TRANSPORTS:
+        raise InputError(
+            f"there is no transport {transport!r}", where="--transport", advice=f"give {' or '.join(_TRANSPORTS)}"
+        )
+    with closing(open_dds(interfaces, domain)) as node:
+        return check_live(profile, node, interfaces, within_s=within_s, steady=time.monotonic, sleep=time.sleep)
+
+
+def _lines(profile: RobotProfile, report: Report, *, live: bool) -> list[str]:
+    from fieldhand.execution.drivers.ros2.seen import rmw_package
+
+    lines = [line for finding in report.findings for line in _told(finding)]
+    bindings = f"{len(report.findings)} bindings of {profile.name}"
+    if live and not report.rmw:
+        lines.append("Nothing of this robot was found on this ROS domain.")
+    elif live:
+        lines.append(f"The robot runs {' and '.join(map(rmw_package, report.rmw))}.")
+    if not report.missing:
+        return [
+            *lines,
+            f"All {bindings} can be used." if live else f"All {bindings} fit their types; --live tries them.",
+        ]
+    return [*lines, f"{len(report.missing)} of {bindings} cannot be used."]
+
+
+def _told(finding: Finding) -> list[str]:
+    bound = finding.binding
+    first = f"{'ok     ' if finding.usable else 'MISSING'} {bound.part}: {bound.name} ({bound.type}): {finding.what}"
+    return [first] if not finding.advice else [first, f"          {finding.advice}"]
+
+
+def _record(profile: RobotProfile, report: Report, *, live: bool) -> dict[str, Any]:
+    from dataclasses import asdict
+
+    return {
+        "robot": profile.name,
+        "live": live,
+        "usable": not report.missing,
+        "rmw": list(report.rmw),
+        "bindings": [
+            {**asdict(f.binding), "usable": f.usable, "what": f.what, "advice": f.advice, "rmw": list(f.rmw)}
+            for f in report.findings
+        ],
+    }
