@@ -11,6 +11,7 @@ One that was given up is not forgotten: whatever shows later that the robot is a
 
 from __future__ import annotations
 
+import math
 import uuid
 from collections.abc import Callable, Mapping
 
@@ -81,6 +82,8 @@ class ActionClient:
         self._asked: dict[int, bytes] = {}
         self._cancelled: dict[int, tuple[bytes, bool]] = {}
         self._given_up: dict[bytes, float] = {}
+        self._sweeps: set[int] = set()
+        self._sweep_s, self._swept = -math.inf, False
 
     # --- what is asked -------------------------------------------------------------------------------------------
 
@@ -119,19 +122,18 @@ class ActionClient:
                 self._leave(self._goal, now)
         return self._outcome
 
-    def cancel_everything(self) -> int:
-        """Ask for the end of every goal of this action, whoever sent it.
+    def cancel_everything(self) -> bool:
+        """Ask for the end of every goal of this action, whoever sent it: again and again, until it is True.
 
         Returns:
-            What :meth:`everything_cancelled` wants to know.
+            Whether that was answered, and nothing is carried out any more.
         """
-        return self._cancel.ask({})
-
-    def everything_cancelled(self, number: int) -> bool:
-        """Whether that was answered, and nothing is carried out any more."""
-        self._hear(self._steady())
-        busy = any(status in BUSY for status in self._statuses.values())
-        return number in self._cancelled and not busy
+        now = self._steady()
+        self._hear(now)
+        if not self._swept and now - self._sweep_s >= CANCEL_AGAIN_S:
+            self._sweep_s = now
+            self._sweeps.add(self._cancel.ask({}))
+        return self._swept and not any(status in BUSY for status in self._statuses.values())
 
     def close(self) -> None:
         """End it, without a word to the robot."""
@@ -158,6 +160,7 @@ class ActionClient:
         for number, reply in self._cancel.replies():
             self._hear_cancelled(*self._cancelled.get(number, (b"", False)), reply)
             self._cancelled[number] = b"", False
+            self._swept = self._swept or number in self._sweeps
 
     def _alive(self, goal_id: bytes, now: float, feedback: Message | None = None) -> None:
         """The robot is at a goal."""

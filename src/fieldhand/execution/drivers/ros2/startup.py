@@ -70,9 +70,8 @@ class Startup:
             Ros2Error: It does not end.
         """
         clients = (self._navigation.client, *self._captures.actions)
-        asked = [(client, client.cancel_everything()) for client in clients]
         until = self._steady() + CANCEL_S
-        while busy := [client.name for client, number in asked if not client.everything_cancelled(number)]:
+        while busy := [client.name for client in clients if not client.cancel_everything()]:
             if self._steady() >= until:
                 raise Ros2Error(
                     f"{' and '.join(busy)} did not confirm within {CANCEL_S:g} s that nothing is carried out there",
