@@ -21,7 +21,7 @@ from fieldhand.site.model import Place, Site
 from rig import husky
 from ros2.in_memory import Disturbed
 from ros2.scripted import Script, ScriptedAction
-from ros2.scripted_robot import ACTIONS, SITE, World, bindings, navigating, world
+from ros2.scripted_robot import ACTIONS, SAMPLED, SITE, World, bindings, navigating, world
 
 NEAR, FAR = SITE.trees[0].place, SITE.trees[-1].place
 
@@ -353,6 +353,18 @@ def test_a_fix_that_cannot_be_believed_ends_the_drive_as_lost(change: dict[str, 
     assert not w.robot.navigation.executing
     stood = driver.position()
     assert math.dist((stood.x, stood.y), w.robot.xy) < 1.0 + 2.1
+
+
+def test_a_capture_that_a_robot_makes_while_it_is_lost_does_not_count() -> None:
+    w = world(sample=replace(SAMPLED, lasts_s=4.0, cancels=False))
+    driver = w.connect()
+    driver.start_action(capture())
+    w.clock.advance(1.0)
+    w.robot.lost = lambda robot: True
+    progress = finish(driver, w.clock)
+    assert (progress.state, progress.fault, dict(progress.readings)) == ("failed", "lost", {})
+    assert progress.what == "no satellite fix"
+    assert [g.state for g in w.robot.sampler.goals.values()] == ["succeeded"]
 
 
 def test_a_silent_battery_ends_the_goal_and_lets_none_begin_until_it_speaks() -> None:
