@@ -22,8 +22,8 @@ def main() -> None:
     node.publish("/status", "action_msgs/msg/GoalStatusArray", STATUS).send({"status_list": [{"status": 4}]})
     node.publish("/best_effort", "std_msgs/msg/String", SENSOR)
     node.publish("/number", "std_msgs/msg/Int32")
-    heard = node.subscribe("/say", "std_msgs/msg/String", Quality())
-    echo = node.publish("/echo", "std_msgs/msg/String")
+    heard = node.subscribe("/say", "std_msgs/msg/String", Quality(depth=1000))
+    echo = node.publish("/echo", "std_msgs/msg/String", Quality(depth=1000))
     print("ready", flush=True)
     while not select.select([sys.stdin], [], [], 0.002)[0]:
         for asked, request in sums.requests():

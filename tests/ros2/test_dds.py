@@ -6,10 +6,11 @@ import os
 import runpy
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from cyclonedds.core import DDSException
 
 from fieldhand.errors import InputError, Ros2Error
 from fieldhand.execution.drivers.ros2.dds import names, open_dds, services
@@ -19,7 +20,7 @@ from fieldhand.execution.drivers.ros2.transport import SENSOR, STATUS, Quality
 from ros2.other_process import SUM
 from ros2.patience import until
 
-RELIABLE = Quality()
+RELIABLE, MANY = Quality(), Quality(depth=1000)
 
 
 @pytest.fixture(scope="module")
@@ -78,16 +79,24 @@ def test_who_comes_late_gets_what_was_sent_before_where_it_is_kept(node: DdsTran
     assert late.take() == ()
 
 
-def test_messages_arrive_in_their_order_and_not_more_than_the_depth_at_once(node: DdsTransport) -> None:
-    say, echo = node.publish("/say", "std_msgs/msg/String"), node.subscribe("/echo", "std_msgs/msg/String", RELIABLE)
-    until(lambda: say.subscribers() and echo.publishers())
+def test_messages_arrive_in_their_order_and_of_many_the_newest_are_kept(node: DdsTransport) -> None:
+    say = node.publish("/say", "std_msgs/msg/String", MANY)
+    echo = node.subscribe("/echo", "std_msgs/msg/String", MANY)
+    newest = node.subscribe("/echo", "std_msgs/msg/String", Quality(depth=3))
+
+    def hello() -> bool:
+        """That we have found the other does not mean that it has found us."""
+        say.send({"data": "hello"})
+        return echo.take() != () and newest.take() != ()
+
+    until(hello)
     said = [f"{n} ü" for n in range(30)]
+    for text in said:
+        say.send({"data": text})
     heard: list[object] = []
-    for at in range(0, 30, 5):
-        for text in said[at : at + 5]:
-            say.send({"data": text})
-        until(lambda at=at: heard.extend(m["data"] for m in echo.take()) or len(heard) >= at + 5)
+    until(lambda: heard.extend(m["data"] for m in echo.take() if m["data"] != "hello") or len(heard) >= 30)
     assert heard == said
+    assert [m["data"] for m in until(newest.take)] == said[-3:]
     with pytest.raises(Ros2Error, match=r"^data: '3' \(int\) is no string"):
         say.send({"data": 3})
     say.close()
@@ -173,6 +182,24 @@ def test_a_network_that_cannot_be_used_is_said(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setenv("CYCLONEDDS_URI", os.environ["CYCLONEDDS_URI"].replace('"lo"', '"no-such-one"'))
     with pytest.raises(Ros2Error, match="no node can be made on DDS domain 99; look at the network's interfaces"):
         open_dds(Interfaces.of("humble"), 99)
+
+
+def test_a_message_that_finds_no_room_is_lost_and_one_that_is_not_taken_is_said(
+    node: DdsTransport, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    say = node.publish("/say", "std_msgs/msg/String")
+
+    def refused(code: int) -> Callable[[object], None]:
+        def write(_: object) -> None:
+            raise DDSException(code, "while writing")
+
+        return write
+
+    monkeypatch.setattr(say._writer, "write", refused(DDSException.DDS_RETCODE_TIMEOUT))
+    say.send({"data": "lost"})
+    monkeypatch.setattr(say._writer, "write", refused(DDSException.DDS_RETCODE_ERROR))
+    with pytest.raises(Ros2Error, match="DDS does not send this message"):
+        say.send({"data": "refused"})
 
 
 def test_unknown_types_and_names_are_refused_in_words(node: DdsTransport) -> None:

@@ -17,7 +17,7 @@ from fieldhand.robot.model import Quantity
 Judge = Callable[[Message], str]
 
 #: Percent: batteries that are full say somewhat more than 100.
-_MOST_PERCENT = 105.0
+MOST_PERCENT = 105.0
 
 
 class Implausible(Exception):
@@ -50,7 +50,7 @@ def battery(binding: BatteryBinding) -> Judge:
 
     def judge(message: Message) -> str:
         charge = _number(message, binding.value)
-        if not 0.0 <= charge <= _MOST_PERCENT:
+        if not 0.0 <= charge <= MOST_PERCENT:
             raise Implausible(f"{charge:g} % is no charge", "correct the unit, scale or path of the battery")
         if 0.0 < charge <= 1.0 and binding.value.scale == 1.0:
             raise Implausible(f"{charge:g} % is nearly nothing", "if this is a part of 1, set its scale to 100")

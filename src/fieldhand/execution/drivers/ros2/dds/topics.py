@@ -8,6 +8,7 @@ from cyclonedds.core import DDSException
 from cyclonedds.pub import DataWriter
 from cyclonedds.sub import DataReader
 
+from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.ros2.dds.wire import Unreadable, Wire
 from fieldhand.execution.drivers.ros2.transport import Message
 
@@ -18,12 +19,16 @@ def samples(reader: Any, most: int) -> list[Any]:
 
 
 def write(writer: Any, sample: Any) -> None:
-    """Send. Where the other end does not keep up the message is lost; whoever waits for an answer has a time limit."""
+    """Send. Where the other end does not keep up the message is lost; whoever waits for an answer has a time limit.
+
+    Raises:
+        Ros2Error: DDS does not take it.
+    """
     try:
         writer.write(sample)
     except DDSException as error:
         if error.code != DDSException.DDS_RETCODE_TIMEOUT:
-            raise
+            raise Ros2Error("DDS does not send this message", advice="see whether it is larger than 32 MiB") from error
 
 
 def close(*entities: Any) -> None:
