@@ -156,6 +156,8 @@ class Witness:
         self._say()
         while True:
             self._clock.rest()
+            # A real robot is heard only while it is polled, its emergency stop too.
+            self._robot.poll()
             if self._asked() != before.order or self._robot.stopped() != before.stopped:
                 self._sight = self._look()
                 return
