@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from fieldhand import mission, missions, past
 from fieldhand.cli import show
+from fieldhand.cli.aboard import see_off
 from fieldhand.cli.approving import approve_plan, review_plan
 from fieldhand.cli.bundles import signer_record
 from fieldhand.cli.inputs import Ground, write_file
@@ -105,23 +106,26 @@ def fly(
     Raises:
         NotConfirmedError: There are warnings, and nobody is asked about them.
         NotApprovedError: A check fails, or the operator says no.
+        ExecutionError: The robot may not set out from where it is.
         OutputError: Something cannot be written.
     """
     review = review_plan(ground, task, document, orders)
     if authorized is None:
         authorized = approve_plan(ground, review, orders, message("Approve and carry out?"))
     leave_plan(ground, review, document, orders)
+    if orders.vehicle is not None:
+        see_off(ground, review, orders.vehicle, orders)
     events, name = _carry_out(ground, authorized, orders, planner)
     return conclude(ground, review, authorized, events, orders, planner, name)
 
 
-def parse_speed(text: str) -> float | None:
-    """``max`` is None; else simulated seconds in a second.
+def parse_speed(text: str | None) -> float | None:
+    """``max`` or nothing is None; else simulated seconds in a second.
 
     Raises:
         InputError: Neither.
     """
-    if text == "max":
+    if text is None or text == "max":
         return None
     try:
         speed = float(text)
