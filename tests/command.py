@@ -10,9 +10,12 @@ from __future__ import annotations
 import atexit
 import json
 import os
+import signal
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -45,20 +48,46 @@ def fieldhand(
     with tempfile.TemporaryDirectory() as folder:
         files = [Path(folder) / name for name in ("in", "out", "err")]
         files[0].write_text(stdin or "")
-        order = {
-            "words": words,
-            "cwd": str(cwd or Path.cwd()),
-            "env": environment,
-            "files": [str(file) for file in files],
-            "limit_s": _LIMIT_S,
-        }
-        first = _first()
-        assert first.stdin is not None
-        assert first.stdout is not None
-        first.stdin.write(json.dumps(order) + "\n")
-        first.stdin.flush()
-        status = int(first.stdout.readline())
+        status = _ordered(words, cwd, environment, files, background=False)
         return Run(status=status, out=files[1].read_text(), err=files[2].read_text())
+
+
+@contextmanager
+def in_background(*words: str, out: Path) -> Iterator[int]:
+    """``fieldhand`` with these words, beside everything else; killed at the end, if it has not ended by then.
+
+    Args:
+        out: Where its output goes; its errors go to the same name with ``.err``.
+
+    Yields:
+        The number of its process.
+    """
+    process = _ordered(words, None, dict(os.environ), [Path(os.devnull), out, Path(f"{out}.err")], background=True)
+    try:
+        yield process
+    finally:
+        with suppress(ProcessLookupError):
+            os.kill(process, signal.SIGKILL)
+
+
+def _ordered(
+    words: tuple[str, ...], cwd: Path | None, env: dict[str, str], files: list[Path], *, background: bool
+) -> int:
+    """What the first process answers to an order."""
+    order = {
+        "words": words,
+        "cwd": str(cwd or Path.cwd()),
+        "env": env,
+        "files": [str(file) for file in files],
+        "limit_s": _LIMIT_S,
+        "background": background,
+    }
+    first = _first()
+    assert first.stdin is not None
+    assert first.stdout is not None
+    first.stdin.write(json.dumps(order) + "\n")
+    first.stdin.flush()
+    return int(first.stdout.readline())
 
 
 def _started(words: tuple[str, ...], cwd: Path | None, env: dict[str, str], stdin: str | None) -> Run:

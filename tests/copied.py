@@ -1,6 +1,7 @@
 """A program that has loaded what ``fieldhand`` needs, and copies itself for each command that it is told to run.
 
-Reads an order a line and answers each with the exit status of its command, negative for the signal that ended it.
+Reads an order a line and answers each with the exit status of its command, negative for the signal that ended it; one
+that goes on in the background with the number of its process.
 """
 
 from __future__ import annotations
@@ -35,6 +36,8 @@ def load() -> None:
 def become(order: dict[str, Any]) -> None:
     """Make this process the one that runs the command."""
     signal.alarm(order["limit_s"])
+    if order["background"]:
+        sys.stdout.reconfigure(line_buffering=True)  # somebody reads what it has said so far
     for number, (file, how) in enumerate(zip(order["files"], (os.O_RDONLY, os.O_WRONLY, os.O_WRONLY), strict=True)):
         opened = os.open(file, how | os.O_CREAT | os.O_TRUNC if how else how, 0o600)
         os.dup2(opened, number)
@@ -67,10 +70,14 @@ def main() -> None:
     load()
     gc.freeze()  # nor need a copy look for garbage in what it was given
     for line in orders:
+        order = json.loads(line)
         child = os.fork()
         if not child:
-            become(json.loads(line))
+            become(order)
             run()
+        if order["background"]:
+            print(child, file=answers, flush=True)
+            continue
         _, ended = os.waitpid(child, 0)
         print(os.waitstatus_to_exitcode(ended), file=answers, flush=True)
 

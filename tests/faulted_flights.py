@@ -194,9 +194,7 @@ def fly(seed: int, *, demo: bool = True) -> Flown:
     )
     world = World(faults=random_faults(rng, open_ids, wanted), charge_percent=charge)
     events: list[Event] = []
-    mission.carry_out(
-        authorized(task, site, robot), site, robot, world=world, seed=seed, speed=None, emit=events.append
-    )
+    mission.simulate(authorized(task, site, robot), site, robot, world=world, seed=seed, speed=None, emit=events.append)
     log = [json.loads(to_json(event)) for event in events]
     outcomes = mission.assess(task, events).outcomes
     return Flown(task=task, site=site, robot=robot, world=world, log=log, events=tuple(events), outcomes=outcomes)

@@ -48,7 +48,7 @@ def fly_task(task: Task, site: Site, robot: str = "husky", *, world: World | Non
     at = datetime(2026, 1, 1, tzinfo=UTC)
     approved = mission.authorize(task, site, profile, by="tester", at=at, confirmed=EveryWarning())
     events: list[Event] = []
-    mission.carry_out(approved, site, profile, world=world or World(), seed=seed, speed=None, emit=events.append)
+    mission.simulate(approved, site, profile, world=world or World(), seed=seed, speed=None, emit=events.append)
     return Flight(task=task, site=site, events=tuple(events), assessment=mission.assess(task, events))
 
 

@@ -29,7 +29,7 @@ def log():
         TASK, SITE, ROBOT, by="a", at=datetime(2026, 1, 1, tzinfo=UTC), confirmed=review.warnings
     )
     lines: list[str] = []
-    mission.carry_out(
+    mission.simulate(
         authorized, SITE, ROBOT, world=World(), seed=1, speed=None, emit=lambda e: lines.append(to_json(e) + "\n")
     )
     return "".join(lines)

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from fieldhand.execution.journal.records import Tape
     from fieldhand.execution.orders import Order
     from fieldhand.execution.runtime import Result
+    from fieldhand.execution.vehicle import Vehicle
     from fieldhand.execution.world import World
     from fieldhand.forecast.estimate import Estimate
     from fieldhand.planning.llm.chat import Chat
@@ -108,7 +109,7 @@ def make_planner(
 
 
 def transcript_path(environ: Mapping[str, str]) -> Path:
-    """Where transcripts are kept unless the user says otherwise: in the user's state folder, added to."""
+    """Where transcripts are kept unless the user says otherwise: in the state folder, added to."""
     return state_folder(environ) / "transcripts.jsonl"
 
 
@@ -239,53 +240,62 @@ def carry_out(
     site: Site,
     robot: RobotProfile,
     *,
-    world: World,
+    vehicle: Vehicle,
     seed: int,
-    speed: float | None,
     emit: Callable[[Event], None],
     interrupted: Callable[[], str | None] = lambda: None,
     watched: Callable[[Guard], Guard] = lambda guard: guard,
     orders: Callable[[], Order | None] = lambda: None,
     tape: Tape | None = None,
 ) -> Result:
-    """Carry a mission out in simulation. :mod:`fieldhand.missions` keeps it in a folder: then it outlasts a power cut.
+    """Carry a mission out. :mod:`fieldhand.missions` keeps it in a folder: then it outlasts a power cut.
 
     Args:
         authorized: What approval gave, for ``site`` and ``robot``.
-        world: What the sensors would read, and what goes wrong.
-        seed: Of every random thing in it.
-        speed: Simulated seconds in a second; None for as fast as it goes.
+        vehicle: The robot, or the simulation (:func:`fieldhand.execution.vehicle.simulation`).
+        seed: Of what the budget guard draws.
         emit, interrupted: As for :func:`fieldhand.execution.runtime.run`; so are ``orders`` and ``tape``.
         watched: Takes the budget guard and gives one that asks it: to time its decisions, say.
     """
-    import numpy as np
-
-    from fieldhand.clock import ScaledClock, SimulatedClock
     from fieldhand.evaluation.guard import BudgetGuard
-    from fieldhand.execution.drivers.simulation import SimulatedDriver
-    from fieldhand.execution.drivers.surroundings import wall_clock_of, writing_in
-    from fieldhand.execution.mission_clock import MissionClock
     from fieldhand.execution.runtime import run
     from fieldhand.forecast.routes import drives_for
 
-    clock = MissionClock(SimulatedClock() if speed is None else ScaledClock(speed))
-    drives = drives_for(site, robot)
-    driver = SimulatedDriver(site, robot, world, clock, np.random.default_rng(seed))
-    guard = BudgetGuard(authorized.task, site, robot, drives, seed, charge_percent=world.charge_percent)
+    charge, drives = vehicle.charge_percent, drives_for(site, robot)
     return run(
         authorized,
         site=site,
         robot=robot,
-        driver=driver,
-        guard=watched(guard),
-        clock=clock,
-        emit=writing_in(world, emit),
+        driver=vehicle.driver,
+        guard=watched(BudgetGuard(authorized.task, site, robot, drives, seed, charge_percent=charge)),
+        clock=vehicle.clock,
+        emit=vehicle.disk(emit),
         interrupted=interrupted,
-        wall=wall_clock_of(world, clock),
+        wall=vehicle.wall,
         orders=orders,
         tape=tape,
-        simulated=True,
+        simulated=vehicle.simulated,
     )
+
+
+def simulate(
+    authorized: AuthorizedTask,
+    site: Site,
+    robot: RobotProfile,
+    *,
+    world: World,
+    seed: int,
+    speed: float | None,
+    emit: Callable[[Event], None],
+    interrupted: Callable[[], str | None] = lambda: None,
+    watched: Callable[[Guard], Guard] = lambda guard: guard,
+) -> Result:
+    """As :func:`carry_out`, in the world of a simulation (:func:`fieldhand.execution.vehicle.simulation`)."""
+    from fieldhand.execution.vehicle import simulation
+
+    made = simulation(site, robot, world, seed=seed, speed=speed)
+    given = authorized, site, robot
+    return carry_out(*given, vehicle=made, seed=seed, emit=emit, interrupted=interrupted, watched=watched)
 
 
 def assess(task: Task, events: Sequence[Event]) -> Assessment:

@@ -287,7 +287,7 @@ def test_a_battery_that_empties_faster_than_modelled_is_learned_of(factor: float
     low = husky(alpha=1.0)
     low = replace(low, energy=replace(low.energy, capacity_j=low.energy.capacity_j / 4))
     seen: list[Event] = []
-    mission.carry_out(
+    mission.simulate(
         authorized(task_for(plan, nominal="return_to_start"), site, low), site, low,
         world=world(BatteryDrains(factor=factor), charge_percent=40.0), seed=1, speed=None, emit=seen.append,
     )  # fmt: skip
@@ -306,7 +306,7 @@ def test_setting_the_wall_clock_changes_nothing_but_is_written_down() -> None:
         seen: list[Event] = []
         morning = parse_world({"begins": "2026-05-01T06:00:00+02:00"}).begins
         given = world(*faults, begins=morning)
-        mission.carry_out(approved, site, robot, world=given, seed=3, speed=None, emit=seen.append)
+        mission.simulate(approved, site, robot, world=given, seed=3, speed=None, emit=seen.append)
         return seen
 
     plain, jumped = flown(), flown(ClockJumps(at_s=5.0, by_s=-7200.0), ClockJumps(at_s=30.0, by_s=86400.0))
@@ -320,7 +320,7 @@ def test_a_full_disk_stops_the_robot_and_comes_out() -> None:
     site, robot = orchard(), husky()
     seen: list[Event] = []
     with pytest.raises(OutputError, match="no space left on the disk") as caught:
-        mission.carry_out(
+        mission.simulate(
             authorized(task_for(each("r0c0", "r2c3")), site, robot), site, robot,
             world=world(DiskFull(at_s=20.0)), seed=0, speed=None, emit=seen.append,
         )  # fmt: skip

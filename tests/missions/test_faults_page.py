@@ -32,7 +32,7 @@ def test_the_log_says_what_the_page_says(request_: str, world: str, said: str) -
     assert isinstance(outcome, Planned)
     lines: list[str] = []
     try:
-        mission.carry_out(
+        mission.simulate(
             authorized(outcome.task, site, robot), site, robot, world=parse_world(yaml.safe_load(world)), seed=0,
             speed=None, emit=lambda event: lines.append(teller.tell(event) or ""),
         )  # fmt: skip

@@ -29,7 +29,7 @@ def test_a_mission_from_its_folder_alone(tmp_path: Path) -> None:
     assert tuple(events) == result.events == missions.events_of(folder)
     plain: list[Event] = []
     assert given.world != World()
-    mission.carry_out(
+    mission.simulate(
         given.authorized, given.site, given.robot, world=given.world, seed=3, speed=None, emit=plain.append
     )
     assert plain == events

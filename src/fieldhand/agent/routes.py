@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -39,11 +40,18 @@ Bundle = Annotated[str, Path(pattern=r"^[0-9a-f]{64}$")]
 
 @dataclass(frozen=True, kw_only=True)
 class Identity:
-    """What robot this is, and where it may work; no site where it may work on any."""
+    """What robot this is, and where it may work; no site where it may work on any.
+
+    Attributes:
+        on: On what it carries missions out.
+        missing: What of the robot does not answer now, in words; nothing where missions are simulated.
+    """
 
     robot: str
     robot_sha256: str
     sites: tuple[str, ...]
+    on: str = "simulation"
+    missing: Callable[[], tuple[str, ...]] = tuple
 
 
 def router(depot: Depot, crew: Crew, who: Identity, uploads: Uploads) -> APIRouter:
@@ -59,6 +67,8 @@ def router(depot: Depot, crew: Crew, who: Identity, uploads: Uploads) -> APIRout
             robot_sha256=who.robot_sha256,
             sites=list(who.sites),
             version=__version__,
+            on=who.on,
+            missing=list(who.missing()),
             active=crew.active,
             missions=[shown(crew.standing(held)) for held in depot.latest(LISTED)],
         )

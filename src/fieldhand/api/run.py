@@ -62,7 +62,7 @@ def _run(body: RunBody, planners: Planners, limits: Limits) -> dict[str, Any]:
         language=body.lang,
     )
     events: list[Event] = []
-    mission.carry_out(
+    mission.simulate(
         authorized,
         ground.site,
         ground.robot,

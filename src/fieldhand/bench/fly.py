@@ -168,7 +168,7 @@ def _flown(draft: Draft, approved: AuthorizedTask, refused: tuple[str, ...]) -> 
         timed.append(TimedGuard(guard))
         return timed[-1]
 
-    mission.carry_out(
+    mission.simulate(
         approved,
         draft.site,
         draft.robot,

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from fieldhand.cli.aboard import DomainOption, NamespaceOption, OnOption, SimTimeOption
 from fieldhand.cli.options import LangOption, SeedOption
 from fieldhand.cli.outputs import to_folder
 
@@ -23,13 +24,19 @@ def demo(
     ] = Path("out"),
     seed: SeedOption = 7,
     lang: LangOption = None,
+    on: OnOption = None,
+    domain: DomainOption = None,
+    namespace: NamespaceOption = None,
+    sim_time: SimTimeOption = False,
 ) -> None:
     """Plan, approve, drive and judge a mission on the built-in orchard."""
     import os
     import shutil
+    from dataclasses import replace
 
     from fieldhand.approval.production import require_unsigned_allowed
     from fieldhand.cli import show
+    from fieldhand.cli.aboard import boarded, connection_of
     from fieldhand.cli.asking import Replies, plan_or_read
     from fieldhand.cli.flight import Orders, fly
     from fieldhand.cli.inputs import open_ground
@@ -37,12 +44,14 @@ def demo(
     from fieldhand.language import spoken
 
     require_unsigned_allowed(os.environ)
+    connection = connection_of(on, domain, namespace, sim_time=sim_time, environ=os.environ)
     ground = open_ground("demo", "husky")
     task, document, planner = plan_or_read(REQUEST, ground, "english", None, Replies())
     # Nobody is there to read the warning that the budget is tight; it is shown, and the report says it was confirmed.
     language = spoken(lang, os.environ)
     orders = Orders(ask=False, confirm=True, by="demo", world=World(), seed=seed, folder=output, language=language)
-    status = fly(ground, task, document, orders, planner=planner)
+    with boarded(ground, task, connection, quiet=False) as vehicle:
+        status = fly(ground, task, document, replace(orders, vehicle=vehicle), planner=planner)
     show.heading("Try next")
     if shutil.which("fieldhand") is None:
         show.out.print("  . .venv/bin/activate")

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from fieldhand import mission, missions, past
 from fieldhand.cli import show
+from fieldhand.cli.aboard import see_off
 from fieldhand.cli.approving import approve_plan, review_plan
 from fieldhand.cli.bundles import signer_record
 from fieldhand.cli.inputs import Ground, write_file
@@ -24,6 +25,7 @@ from fieldhand.task.results import Ended, Event
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
+    from fieldhand.execution.vehicle import Vehicle
     from fieldhand.execution.world import World
     from fieldhand.task.authorization import AuthorizedTask
 
@@ -67,6 +69,7 @@ class Orders:
         language: In which the plan is read back.
         kept: Where the mission is kept, so that it outlasts a power cut; None for one that does not.
         bundle: The signed mission, if it is one.
+        vehicle: The robot; None for the simulation.
     """
 
     ask: bool
@@ -83,6 +86,7 @@ class Orders:
     language: Language = ENGLISH
     kept: Kept | None = None
     bundle: Bundle | None = None
+    vehicle: Vehicle | None = None
 
 
 def fly(
@@ -102,23 +106,26 @@ def fly(
     Raises:
         NotConfirmedError: There are warnings, and nobody is asked about them.
         NotApprovedError: A check fails, or the operator says no.
+        ExecutionError: The robot may not set out from where it is.
         OutputError: Something cannot be written.
     """
     review = review_plan(ground, task, document, orders)
     if authorized is None:
         authorized = approve_plan(ground, review, orders, message("Approve and carry out?"))
     leave_plan(ground, review, document, orders)
+    if orders.vehicle is not None:
+        see_off(ground, review, orders.vehicle, orders)
     events, name = _carry_out(ground, authorized, orders, planner)
     return conclude(ground, review, authorized, events, orders, planner, name)
 
 
-def parse_speed(text: str) -> float | None:
-    """``max`` is None; else simulated seconds in a second.
+def parse_speed(text: str | None) -> float | None:
+    """``max`` or nothing is None; else simulated seconds in a second.
 
     Raises:
         InputError: Neither.
     """
-    if text == "max":
+    if text is None or text == "max":
         return None
     try:
         speed = float(text)
@@ -146,19 +153,15 @@ def _carry_out(
     ground: Ground, authorized: AuthorizedTask, orders: Orders, planner: str
 ) -> tuple[tuple[Event, ...], str]:
     """The events of a mission, and the name under which it is kept; none is begun before every log is open."""
+    from fieldhand.execution.vehicle import simulation
+
     with _taking(ground, orders, ()) as take:
         if orders.kept is not None:
             given = _begin(authorized, orders, orders.kept, planner)
-            return missions.carry_out(given, speed=orders.speed, emit=take).events, given.id
-        return mission.carry_out(
-            authorized,
-            ground.site,
-            ground.robot,
-            world=orders.world,
-            seed=orders.seed,
-            speed=orders.speed,
-            emit=take,
-        ).events, ""
+            return missions.carry_out(given, speed=orders.speed, vehicle=orders.vehicle, emit=take).events, given.id
+        site, robot, seed = ground.site, ground.robot, orders.seed
+        vehicle = orders.vehicle or simulation(site, robot, orders.world, seed=seed, speed=orders.speed)
+        return mission.carry_out(authorized, site, robot, vehicle=vehicle, seed=seed, emit=take).events, ""
 
 
 def _begin(authorized: AuthorizedTask, orders: Orders, kept: Kept, planner: str) -> missions.Mission:
@@ -174,6 +177,7 @@ def _begin(authorized: AuthorizedTask, orders: Orders, kept: Kept, planner: str)
         seed=orders.seed,
         planner=planner,
         signed=kept.signed,
+        departure=missions.departure_on(orders.vehicle),
     )
     given = missions.open_mission(missions.begin(kept.under, missions.new_id(datetime.now(UTC)), inputs))
     if not orders.quiet:
@@ -185,7 +189,7 @@ def go_on(given: missions.Mission, orders: Orders) -> tuple[Event, ...]:
     """Carry out what is left of a mission that is kept, as after a power cut."""
     before = missions.events_of(given.folder)
     with _taking(Ground(site=given.site, robot=given.robot), orders, before) as take:
-        return missions.carry_out(given, speed=orders.speed, emit=take).events
+        return missions.carry_out(given, speed=orders.speed, vehicle=orders.vehicle, emit=take).events
 
 
 @contextmanager

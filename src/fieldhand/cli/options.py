@@ -58,6 +58,10 @@ MissionsOption = Annotated[
 MissionArgument = Annotated[
     str | None, typer.Argument(help="Name of the mission, or its folder; else the one begun last.")
 ]
+SpeedOption = Annotated[
+    str | None,
+    typer.Option("--speed", help="Of the simulation: max, or simulated seconds in a second (1 is real time)."),
+]
 ProductionOption = Annotated[
     bool, typer.Option("--production", help="Run nothing but a mission that a trusted key has signed.")
 ]

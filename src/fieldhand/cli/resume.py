@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import os
-from typing import Annotated
 
-import typer
-
+from fieldhand.cli.aboard import DomainOption, NamespaceOption, OnOption, SimTimeOption
 from fieldhand.cli.options import (
     EventsOption,
     JsonOption,
@@ -16,6 +14,7 @@ from fieldhand.cli.options import (
     MissionArgument,
     MissionsOption,
     ProductionOption,
+    SpeedOption,
 )
 
 
@@ -23,9 +22,11 @@ def resume(
     mission: MissionArgument = None,
     events: EventsOption = None,
     output: LeaveOption = None,
-    speed: Annotated[
-        str, typer.Option("--speed", help="max, or simulated seconds in a second (1 is real time).")
-    ] = "max",
+    speed: SpeedOption = None,
+    on: OnOption = None,
+    domain: DomainOption = None,
+    namespace: NamespaceOption = None,
+    sim_time: SimTimeOption = False,
     mcap: McapOption = None,
     production: ProductionOption = False,
     lang: LangOption = None,
@@ -33,10 +34,13 @@ def resume(
     json: JsonOption = False,
 ) -> None:
     """Go on with a mission that a power cut has cut off, from where it was; or end the pause of one under way."""
+    from dataclasses import replace
+
     from fieldhand import mission as steps
     from fieldhand import missions, past
     from fieldhand.approval.production import require_unsigned_allowed
     from fieldhand.cli import show
+    from fieldhand.cli.aboard import boarded, connection_again, refuse_simulation_options
     from fieldhand.cli.bundles import tell_signer, verify
     from fieldhand.cli.flight import Orders, conclude, go_on, leave_plan, parse_speed
     from fieldhand.cli.inputs import Ground
@@ -48,6 +52,9 @@ def resume(
     if missions.is_running(folder):
         tell(str(folder), folder.parent, "continue", "the operator", "goes on", json=json)
         return
+    begun = missions.begun_on(folder)
+    connection = connection_again(folder.name, begun, on, domain, namespace, sim_time=sim_time, environ=os.environ)
+    refuse_simulation_options(connection, world=None, speed=speed)
     if not missions.is_signed(folder):
         require_unsigned_allowed(os.environ, asked=production)
     given = missions.open_mission(folder, verify)
@@ -71,6 +78,9 @@ def resume(
     )
     ground = Ground(site=given.site, robot=given.robot)
     review = steps.review(given.authorized.task, given.site, given.robot)
-    leave_plan(ground, review, None, orders)
-    done = go_on(given, orders)
-    raise SystemExit(conclude(ground, review, given.authorized, done, orders, given.planner, given.id))
+    with boarded(ground, given.authorized.task, connection, quiet=json) as vehicle:
+        if vehicle is not None:
+            missions.require_in_place(given.site, given.robot, vehicle.driver)
+        leave_plan(ground, review, None, orders)
+        done = go_on(given, replace(orders, vehicle=vehicle))
+        raise SystemExit(conclude(ground, review, given.authorized, done, orders, given.planner, given.id))

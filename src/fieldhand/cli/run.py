@@ -1,4 +1,4 @@
-"""``fieldhand run``: a request, a Task or a signed mission, carried out in simulation and judged."""
+"""``fieldhand run``: a request, a Task or a signed mission, carried out in simulation or by a robot, and judged."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from fieldhand.cli.aboard import DomainOption, NamespaceOption, OnOption, SimTimeOption
 from fieldhand.cli.options import (
     AnswerOption,
     AssumeOption,
@@ -23,6 +24,7 @@ from fieldhand.cli.options import (
     MissionsOption,
     PlannerOption,
     ProductionOption,
+    SpeedOption,
     TranscriptOption,
 )
 
@@ -42,9 +44,11 @@ def run(
     events: EventsOption = None,
     mcap: McapOption = None,
     output: LeaveOption = None,
-    speed: Annotated[
-        str, typer.Option("--speed", help="max, or simulated seconds in a second (1 is real time).")
-    ] = "max",
+    speed: SpeedOption = None,
+    on: OnOption = None,
+    domain: DomainOption = None,
+    namespace: NamespaceOption = None,
+    sim_time: SimTimeOption = False,
     yes: Annotated[bool, typer.Option("--yes", "-y", help="Approve without asking.")] = False,
     confirm: ConfirmOption = False,
     by: ByOption = None,
@@ -60,12 +64,14 @@ def run(
     kept: MissionsOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Carry a mission out in simulation and judge it: plan and approve it first, unless it is signed."""
+    """Carry a mission out and judge it: plan and approve it first, unless it is signed."""
     import os
+    from dataclasses import replace
 
     from fieldhand import mission, missions, past
     from fieldhand.approval.production import require_unsigned_allowed
     from fieldhand.cli import show
+    from fieldhand.cli.aboard import boarded, connection_of, refuse_simulation_options
     from fieldhand.cli.asking import Replies, plan_or_read
     from fieldhand.cli.bundles import is_bundle, open_mission, require_site, tell_signer
     from fieldhand.cli.flight import Kept, Orders, fly, parse_speed
@@ -78,6 +84,8 @@ def run(
 
     language = spoken(lang, os.environ)
     pace = parse_speed(speed)
+    connection = connection_of(on, domain, namespace, sim_time=sim_time, environ=os.environ)
+    refuse_simulation_options(connection, world=world, speed=speed)
     under = kept or missions.missions_folder(os.environ)
     require_folder(under, f"--missions {under}")
     bundle = open_mission(request, site, robot, lenient=lenient) if is_bundle(request) else None
@@ -119,4 +127,6 @@ def run(
         ),
         bundle=bundle,
     )
-    raise SystemExit(fly(ground, task, document, orders, planner=planned_by, authorized=authorized))
+    with boarded(ground, task, connection, quiet=json) as vehicle:
+        given_to = replace(orders, vehicle=vehicle)
+        raise SystemExit(fly(ground, task, document, given_to, planner=planned_by, authorized=authorized))

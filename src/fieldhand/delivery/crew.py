@@ -38,7 +38,7 @@ class Crew:
         depot: Where they have arrived.
         carry: Who carries one out.
         world: The world file of a simulation.
-        check: Refuses a mission that this world, or this robot, does not fit.
+        check: Refuses a mission that this world, or this robot, does not fit; says on which robot it begins.
         conclude: Judges and reports a mission that has ended.
         seed: Of the simulation and of the guard.
     """
@@ -49,7 +49,7 @@ class Crew:
         *,
         carry: Carry,
         world: bytes | None = None,
-        check: Callable[[Bundle], None] = lambda _: None,
+        check: Callable[[Bundle], missions.Departure | None] = lambda _: None,
         conclude: Callable[[missions.Mission], object] = lambda _: None,
         seed: int = 0,
     ) -> None:
@@ -192,8 +192,12 @@ class Crew:
         except FieldhandError as error:
             log.warning("%s", error)
         # An order is heard a moment before the pause is on the disk; and one that has ended only writes its report.
-        while self.active is not None and self.standing(held).state != "paused" and wait():
+        while self.active is not None and not self._at_rest(held) and wait():
             pass
+
+    def _at_rest(self, held: Held) -> bool:
+        """Whether it is paused, and the robot has broken off what it was at."""
+        return self.standing(held).state == "paused" and missions.stands(self._depot.folder_of(held))
 
     def join(self, timeout_s: float | None = None) -> None:
         """Wait until no mission is under way."""
@@ -203,8 +207,8 @@ class Crew:
     def _begin(self, held: Held) -> None:
         self._require_free(held)
         bundle = self._depot.open(held.sha256)
-        self._check(bundle)
-        missions.begin(self._depot.missions, held.name, _inputs(bundle, self._world, self._seed))
+        departure = self._check(bundle)
+        missions.begin(self._depot.missions, held.name, _inputs(bundle, self._world, self._seed, departure))
         self._depot.note_begun(held.sha256)
         self._run(held, self._read(held))
 
@@ -296,7 +300,7 @@ def said_of(word: str) -> Said:
     raise InputError(f"no order '{word[:40]}'", where="order", advice=f"give one of {', '.join(ORDERS)}")
 
 
-def _inputs(bundle: Bundle, world: bytes | None, seed: int) -> missions.Inputs:
+def _inputs(bundle: Bundle, world: bytes | None, seed: int, departure: missions.Departure | None) -> missions.Inputs:
     from fieldhand.task.codec import encode
 
     return missions.Inputs(
@@ -309,4 +313,5 @@ def _inputs(bundle: Bundle, world: bytes | None, seed: int) -> missions.Inputs:
         seed=seed,
         planner=bundle.manifest.task.planner,
         signed=bundle.data,
+        departure=departure,
     )

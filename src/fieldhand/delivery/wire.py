@@ -56,12 +56,19 @@ class Receipt(_Answer):
 
 
 class RobotState(_Answer):
-    """The robot, and the missions that arrived last."""
+    """The robot, and the missions that arrived last.
+
+    Attributes:
+        on: On what it carries missions out; empty where an older agent does not say.
+        missing: What of the robot does not answer now, in words.
+    """
 
     robot: str
     robot_sha256: str
     sites: list[str]
     version: str
+    on: str = ""
+    missing: list[str] = []
     active: Sha256 | None
     missions: list[Shown]
 

@@ -17,7 +17,7 @@ from fieldhand.execution.journal.records import Tape
 from fieldhand.execution.mission_clock import MissionClock
 from fieldhand.execution.orders import Order
 from fieldhand.execution.waiting import Steps
-from fieldhand.execution.witness import CANCEL_WITHIN_S
+from fieldhand.execution.witness import Patience
 from fieldhand.forecast.state import Spent
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -119,8 +119,8 @@ def run(
 def _come_to_rest(attempt: Attempt) -> None:
     """Stop the robot and wait until it stands, and write nothing: there may be nothing that can be written to."""
     attempt.stop_driver()
-    given_up_s = attempt.clock.now() + CANCEL_WITHIN_S
-    while not attempt.driver.poll().over and attempt.clock.now() < given_up_s:
+    patience = Patience(attempt.clock)
+    while not attempt.driver.poll().over and not patience.over:
         _let_time_pass(attempt)
 
 
@@ -259,9 +259,9 @@ def _aborted(attempt: Attempt, order: Order) -> Ending:
 def _settled(attempt: Attempt, ending: Ending) -> Ending:
     """Let the robot come to rest, and record what came of the goal that it was at: a capture that was done is kept."""
     attempt.stop_driver()
-    given_up_s = attempt.clock.now() + CANCEL_WITHIN_S
+    patience = Patience(attempt.clock)
     while attempt.busy and not attempt.attend().over:
-        if attempt.clock.now() >= given_up_s:
+        if patience.over:
             error = DriveFault("the robot does not stop when told to", advice="use its emergency stop")
             attempt.fail("", error, handled=False)
             return Ending(status="faulted", exit="faulted", then="stay", reason=str(error))

@@ -43,11 +43,29 @@ from fieldhand.forecast.state import Choice, Verdict
 #: Seconds of the wall clock after which what was seen is brought to the disk even if nothing began or ended.
 SAFE_EVERY_S = 1.0
 
-#: Seconds that a robot is given to stand still after a goal was cancelled.
-CANCEL_WITHIN_S = 10.0
+#: Seconds that a robot is given to stand still after a goal was cancelled, and looks at it: where its time passes
+#: faster than ours, messages need more of it.
+CANCEL_WITHIN_S, CANCEL_LOOKS = 10.0, 200
 
 Asked = Callable[[], Order | None]
 Answer = TypeVar("Answer", Verdict, Choice)
+
+
+class Patience:
+    """How long one waits for a robot to stand still.
+
+    Args:
+        clock: The mission's.
+    """
+
+    def __init__(self, clock: Clock) -> None:
+        self._clock, self._until_s, self._looks = clock, clock.now() + CANCEL_WITHIN_S, 0
+
+    @property
+    def over(self) -> bool:
+        """Whether that was long enough; asked once at each look."""
+        self._looks += 1
+        return self._clock.now() >= self._until_s and self._looks > CANCEL_LOOKS
 
 
 class Witness:
@@ -156,6 +174,8 @@ class Witness:
         self._say()
         while True:
             self._clock.rest()
+            # A real robot is heard only while it is polled, its emergency stop too.
+            self._robot.poll()
             if self._asked() != before.order or self._robot.stopped() != before.stopped:
                 self._sight = self._look()
                 return
@@ -305,9 +325,9 @@ class Witness:
 
         How far a drive came, its driver may have forgotten: then it is at least the straight line.
         """
-        given_up_s = self._clock.now() + CANCEL_WITHIN_S
+        patience = Patience(self._clock)
         while not progress.over:
-            if self._clock.now() >= given_up_s:
+            if patience.over:
                 raise JournalError("the robot does not stop when told to", advice="use its emergency stop")
             self._clock.advance(self._robot.next_event_in() or LOOK_EVERY_S)
             self._clock.look()

@@ -10,17 +10,43 @@ begin ──▶ folder ──carry_out──▶ events          status and order
     orders.sqlite, lock                                       what people want; who carries it out
 """
 
+from fieldhand.missions.departure import require_charged, require_in_place
 from fieldhand.missions.finding import all_missions, exists, find, missions_folder
-from fieldhand.missions.folder import Inputs, Mission, begin, is_signed, new_id, open_mission, signed_bundle
-from fieldhand.missions.kept import Status, carry_out, events_of, is_running, last_order, lines_after, order, status
+from fieldhand.missions.folder import (
+    Departure,
+    Inputs,
+    Mission,
+    begin,
+    begun_on,
+    departure_on,
+    is_signed,
+    new_id,
+    open_mission,
+    signed_bundle,
+)
+from fieldhand.missions.kept import (
+    Status,
+    carry_out,
+    events_of,
+    is_running,
+    last_order,
+    lines_after,
+    order,
+    require_vehicle,
+    stands,
+    status,
+)
 
 __all__ = [
+    "Departure",
     "Inputs",
     "Mission",
     "Status",
     "all_missions",
     "begin",
+    "begun_on",
     "carry_out",
+    "departure_on",
     "events_of",
     "exists",
     "find",
@@ -32,6 +58,10 @@ __all__ = [
     "new_id",
     "open_mission",
     "order",
+    "require_charged",
+    "require_in_place",
+    "require_vehicle",
     "signed_bundle",
+    "stands",
     "status",
 ]

@@ -14,23 +14,39 @@ from typing import TYPE_CHECKING, Any
 
 from fieldhand import mission
 from fieldhand.errors import JournalError
+from fieldhand.execution.vehicle import Connection
 from fieldhand.files import store_names, write_stored, write_whole
 from fieldhand.missions.signed import require_signed
 from fieldhand.task.authorization import Authorization, AuthorizedTask
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
+    from fieldhand.execution.vehicle import Vehicle
     from fieldhand.execution.world import World
     from fieldhand.robot.model import RobotProfile
     from fieldhand.site.model import Site
 
-#: Of mission.json.
-FORMAT = 1
+#: Of mission.json: of one that is carried out in simulation, and of one on a robot. A program that knows no robots
+#: shall not go on with the latter.
+FORMAT, ON_ROBOT = 1, 2
 
 LOCK, JOURNAL, ORDERS, LOG, ABOUT = "lock", "journal.sqlite", "orders.sqlite", "events.jsonl", "mission.json"
 #: The page of its report, once one was written here.
 REPORT = "report.html"
 _SIGNED = "signed.mission"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Departure:
+    """On which robot a mission was begun.
+
+    Attributes:
+        by: How it was reached.
+        charge_percent: Of its battery then: the guard reckons from it.
+    """
+
+    by: Connection
+    charge_percent: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,6 +62,7 @@ class Inputs:
         seed: Of every random thing in the simulation, and of the guard.
         planner: Who planned it.
         signed: The signed bundle that all but the world and the seed came from; None where nobody has signed.
+        departure: Of a mission on a robot; None in simulation.
     """
 
     task: bytes
@@ -57,6 +74,7 @@ class Inputs:
     seed: int = 0
     planner: str = ""
     signed: bytes | None = None
+    departure: Departure | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,6 +83,7 @@ class Mission:
 
     Attributes:
         bundle: The signed mission that it is, where it is one and that was verified.
+        departure: Of a mission on a robot; None in simulation.
     """
 
     folder: Path
@@ -76,11 +95,19 @@ class Mission:
     planner: str
     sha256: str
     bundle: Bundle | None = None
+    departure: Departure | None = None
 
     @property
     def id(self) -> str:
         """Its name: that of the folder."""
         return self.folder.name
+
+
+def departure_on(vehicle: Vehicle | None) -> Departure | None:
+    """The departure of a mission that begins now on this robot; None for the simulation."""
+    if vehicle is None or vehicle.by is None:
+        return None
+    return Departure(by=vehicle.by, charge_percent=vehicle.charge_percent)
 
 
 def new_id(at: datetime) -> str:
@@ -108,7 +135,7 @@ def begin(under: Path, name: str, inputs: Inputs) -> Path:
     if inputs.signed is not None:
         files[_SIGNED] = inputs.signed
     about = {
-        "format": FORMAT,
+        "format": FORMAT if inputs.departure is None else ON_ROBOT,
         "site": f"site/{Path(next(iter(inputs.site))).name}",
         "lenient": inputs.lenient,
         "seed": inputs.seed,
@@ -116,6 +143,8 @@ def begin(under: Path, name: str, inputs: Inputs) -> Path:
         "authorization": asdict(inputs.authorization),
         "files": {file: hashlib.sha256(data).hexdigest() for file, data in files.items()},
     }
+    if inputs.departure is not None:
+        about["departure"] = asdict(inputs.departure)
     whole = json.dumps(about, ensure_ascii=False, indent=1).encode()
     if (folder / ABOUT).exists():
         raise JournalError("there is a mission of that name already", where=str(folder), advice="fieldhand resume it")
@@ -185,6 +214,7 @@ def open_mission(folder: Path, verify: Callable[[bytes, str], Bundle] | None = N
             **{**about["authorization"], "confirmed": tuple(about["authorization"]["confirmed"])}
         )
         lenient, seed, planner = bool(about["lenient"]), int(about["seed"]), str(about["planner"])
+        departure = _departure_of(about)
     except (KeyError, TypeError, ValueError) as error:
         raise _no_mission(folder, f"{ABOUT} lacks {error}") from None
     files = {file: read_file(folder, file, sha256) for file, sha256 in sums.items()}
@@ -211,7 +241,32 @@ def open_mission(folder: Path, verify: Callable[[bytes, str], Bundle] | None = N
         planner=planner,
         sha256=hashlib.sha256(whole).hexdigest(),
         bundle=bundle,
+        departure=departure,
     )
+
+
+def begun_on(folder: Path) -> Departure | None:
+    """On which robot a mission was begun; None for one in simulation.
+
+    Raises:
+        JournalError: This is no mission.
+    """
+    try:
+        return _departure_of(read_about(folder)[0])
+    except (KeyError, TypeError, ValueError) as error:
+        raise _no_mission(folder, f"{ABOUT} lacks {error}") from None
+
+
+def _departure_of(about: Mapping[str, Any]) -> Departure | None:
+    """On which robot mission.json says that a mission was begun; None for one in simulation.
+
+    Raises:
+        KeyError, TypeError, ValueError: It says that it was one, and not which.
+    """
+    if about["format"] != ON_ROBOT:
+        return None
+    said = about["departure"]
+    return Departure(by=Connection(**said["by"]), charge_percent=float(said["charge_percent"]))
 
 
 def remove_folder(folder: Path) -> None:
@@ -245,8 +300,8 @@ def read_about(folder: Path) -> tuple[dict[str, Any], bytes]:
         raise _no_mission(folder, f"{ABOUT}: {error.strerror}") from None
     except ValueError as error:
         raise _no_mission(folder, f"{ABOUT} is not JSON: {error}") from None
-    if not isinstance(about, dict) or about.get("format") != FORMAT:
-        raise _no_mission(folder, f"{ABOUT} has not the format {FORMAT} that this version reads")
+    if not isinstance(about, dict) or about.get("format") not in (FORMAT, ON_ROBOT):
+        raise _no_mission(folder, f"{ABOUT} has not the format {FORMAT} or {ON_ROBOT} that this version reads")
     return about, whole
 
 

@@ -10,7 +10,17 @@ from typing import TYPE_CHECKING
 
 from fieldhand import mission
 from fieldhand.errors import ExecutionError
-from fieldhand.missions.folder import JOURNAL, LOCK, LOG, ORDERS, REPORT, Mission, read_about, read_file
+from fieldhand.missions.folder import (
+    JOURNAL,
+    LOCK,
+    LOG,
+    ORDERS,
+    REPORT,
+    Departure,
+    Mission,
+    read_about,
+    read_file,
+)
 from fieldhand.task.event_lines import from_json
 from fieldhand.task.results import Event
 
@@ -19,6 +29,7 @@ if TYPE_CHECKING:
     from fieldhand.execution.guard import Guard
     from fieldhand.execution.journal.desk import Said
     from fieldhand.execution.runtime import Result
+    from fieldhand.execution.vehicle import Vehicle
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,27 +54,36 @@ class Status:
 def carry_out(
     given: Mission,
     *,
-    speed: float | None,
+    speed: float | None = None,
+    vehicle: Vehicle | None = None,
     emit: Callable[[Event], None],
     interrupted: Callable[[], str | None] = lambda: None,
     watched: Callable[[Guard], Guard] = lambda guard: guard,
 ) -> Result:
-    """Carry a mission out in simulation, or go on with one that was cut off; one that has ended gives its result again.
+    """Carry a mission out, or go on with one that was cut off; one that has ended gives its result again.
 
     Args:
         given: From :func:`open_mission`.
+        vehicle: The robot on which it was begun; None for a mission in simulation, which is made here.
+        speed: Of the simulation, as :func:`fieldhand.execution.vehicle.simulation`.
         emit: Takes each event that is new, once it is safe on the disk; :func:`events_of` gives those before.
-        speed, interrupted, watched: As :func:`fieldhand.mission.carry_out`.
+        interrupted, watched: As :func:`fieldhand.mission.carry_out`.
 
     Raises:
+        ExecutionError: It was begun on a robot and this is the simulation, or the other way round.
         JournalError: Another process carries it out; its journal is damaged, of another mission or does not fit; the
             disk is full.
     """
-    from fieldhand.execution.drivers.surroundings import writing_in
     from fieldhand.execution.journal.desk import Desk, alone
     from fieldhand.execution.journal.store import Journal
+    from fieldhand.execution.vehicle import simulation
 
-    write = writing_in(given.world, emit)
+    require_vehicle(given.id, given.departure, simulated=vehicle is None or vehicle.simulated)
+    if vehicle is None:
+        vehicle = simulation(given.site, given.robot, given.world, seed=given.seed, speed=speed)
+    elif given.departure is not None:
+        vehicle = replace(vehicle, charge_percent=given.departure.charge_percent)
+    write = vehicle.disk(emit)
 
     def tell(line: str) -> None:
         event = from_json(line)
@@ -80,14 +100,38 @@ def carry_out(
             given.authorized,
             given.site,
             given.robot,
-            world=given.world,
+            vehicle=vehicle,
             seed=given.seed,
-            speed=speed,
             emit=emit,
             interrupted=interrupted,
             watched=watched,
             orders=desk.standing,
             tape=journal,
+        )
+
+
+def require_vehicle(name: str, departure: Departure | None, *, simulated: bool) -> None:
+    """Refuse to go on with a mission of a robot in simulation, and with one of the simulation on a robot.
+
+    Args:
+        name: The mission's.
+        departure: On which robot it was begun.
+        simulated: Whether it is to be gone on with in simulation.
+
+    Raises:
+        ExecutionError: It is to be.
+    """
+    if departure is None and not simulated:
+        raise ExecutionError(
+            "the mission was begun in simulation and cannot be gone on with on a robot",
+            where=name,
+            advice="resume it without --on, or carry the Task out on the robot as a new mission",
+        )
+    if departure is not None and simulated:
+        raise ExecutionError(
+            f"the mission was begun on a robot ({departure.by}) and cannot be gone on with in simulation",
+            where=name,
+            advice="resume it on that robot",
         )
 
 
@@ -129,6 +173,20 @@ def status(folder: Path) -> Status:
         order=said if waiting > number and now.state != "ended" else "",
         report=str(folder / REPORT) if (folder / REPORT).is_file() else "",
     )
+
+
+def stands(folder: Path) -> bool:
+    """Whether the robot was in no goal when it was last seen; a pause may take a moment until it is so.
+
+    Raises:
+        JournalError: This is no mission, or its journal cannot be read.
+    """
+    from fieldhand.execution.journal.records import sight_of
+    from fieldhand.execution.journal.store import heard
+
+    read_about(folder)
+    sight = heard(folder / JOURNAL)[2]
+    return sight is None or sight_of(sight).progress.over
 
 
 def events_of(folder: Path) -> tuple[Event, ...]:

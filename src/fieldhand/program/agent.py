@@ -5,13 +5,15 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Mapping
-from dataclasses import dataclass
+from contextlib import ExitStack
+from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from fieldhand.cli.aboard import DomainOption, NamespaceOption, OnOption, SimTimeOption
 from fieldhand.errors import InputError
 
 if TYPE_CHECKING:
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
     from fieldhand.delivery.crew import Crew
     from fieldhand.delivery.depot import Depot
+    from fieldhand.execution.vehicle import Connection
     from fieldhand.execution.world import World
     from fieldhand.missions import Mission
 
@@ -30,11 +33,13 @@ class Station:
 
     Attributes:
         app: What answers.
+        let_go: Ends what was opened beside.
     """
 
     app: FastAPI
     depot: Depot
     crew: Crew
+    let_go: ExitStack = field(default_factory=ExitStack)
 
 
 def agent(
@@ -63,17 +68,25 @@ def agent(
     world: Annotated[Path | None, typer.Option("--world", help="What sensors read in the simulation.")] = None,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Of the simulation.")] = 0,
     speed: Annotated[
-        str, typer.Option("--speed", help="max, or simulated seconds in a second (1 is real time).")
-    ] = "1",
+        str | None,
+        typer.Option("--speed", help="Of the simulation: max, or simulated seconds in a second; else 1, real time."),
+    ] = None,
+    on: OnOption = None,
+    domain: DomainOption = None,
+    namespace: NamespaceOption = None,
+    sim_time: SimTimeOption = False,
     lenient: Annotated[bool, typer.Option("--lenient", help="Read --site leniently.")] = False,
 ) -> None:
-    """Wait for signed missions, and carry out, one at a time, what is told to start. The robot is simulated."""
+    """Wait for signed missions, and carry out, one at a time, what is told to start: in simulation, or on a robot."""
     from fieldhand.api.serving import require_extra, require_free
+    from fieldhand.cli.aboard import connection_of, refuse_simulation_options
     from fieldhand.cli.flight import parse_speed
     from fieldhand.delivery.token import read_token
 
     require_extra()
-    pace = parse_speed(speed)
+    pace = parse_speed(speed or "1")
+    connection = connection_of(on, domain, namespace, sim_time=sim_time, environ=os.environ)
+    refuse_simulation_options(connection, world=world, speed=speed)
     token = read_token(os.environ, token_file)
     tls = _tls(cert, key)
     _require_guarded(host, token=token is not None, tls=tls is not None, insecure=insecure)
@@ -89,6 +102,7 @@ def agent(
         seed=seed,
         speed=pace,
         lenient=lenient,
+        connection=connection,
     )
     try:
         station.crew.make_up()
@@ -111,10 +125,12 @@ def compose_agent(
     seed: int = 0,
     speed: float | None = None,
     lenient: bool = False,
+    connection: Connection | None = None,
 ) -> Station:
     """The agent of a robot, ready to be served.
 
-    A driver of a real robot takes the place of ``carry`` here, and of nothing else.
+    Args:
+        connection: How the robot is reached, at each mission anew; None for the simulation.
 
     Raises:
         InputError: Robot, site, world, store or trusted keys cannot be used.
@@ -144,16 +160,29 @@ def compose_agent(
         accept=acceptance(robot=profile, sites=places, trusted=trusted, now=_now),
         now=_now,
     )
-    crew = Crew(
-        depot,
-        carry=partial(missions.carry_out, speed=speed, emit=lambda _: None),
-        world=here.data,
-        check=partial(_require_sound, here),
-        conclude=partial(_conclude, past.history_folder(environ)),
-        seed=seed,
-    )
     who = Identity(robot=profile.name, robot_sha256=profile.sha256, sites=tuple(place.name for place in places))
-    return Station(app=create_agent(depot, crew, who, token=token, hosts=hosts_for(host)), depot=depot, crew=crew)
+    let_go, conclude = ExitStack(), partial(_conclude, past.history_folder(environ))
+    if connection is None:
+        crew = Crew(
+            depot,
+            carry=partial(missions.carry_out, speed=speed, emit=lambda _: None),
+            world=here.data,
+            check=partial(_require_sound, here),
+            conclude=conclude,
+            seed=seed,
+        )
+    else:
+        from fieldhand.execution.drivers.ros2.boarding import Lookout, board, bound, join
+        from fieldhand.program.aboard import Aboard
+
+        bindings = bound(profile, connection)
+        lookout, aboard = Lookout(join(connection, bindings)[0], bindings), Aboard(connection, board)
+        let_go.callback(lookout.close)
+        let_go.callback(aboard.close)
+        crew = Crew(depot, carry=aboard.carry, check=aboard.check, conclude=conclude, seed=seed)
+        who = replace(who, on=str(connection), missing=lookout.missing)
+    app = create_agent(depot, crew, who, token=token, hosts=hosts_for(host))
+    return Station(app=app, depot=depot, crew=crew, let_go=let_go)
 
 
 def _now() -> datetime:
@@ -273,4 +302,5 @@ def _rest(station: Station) -> None:
         return time.monotonic() < until
 
     station.crew.rest(wait)
+    station.let_go.close()
     station.depot.close()

@@ -214,7 +214,7 @@ def _approve(task: Task, site: Site, robot: RobotProfile) -> AuthorizedTask:
 def _drive(approved: AuthorizedTask, world: CaseWorld, site: Site, robot: RobotProfile, seed: int) -> tuple[str, ...]:
     """The lines of the mission's event log."""
     lines: list[str] = []
-    mission.carry_out(
+    mission.simulate(
         approved,
         site,
         robot,

@@ -37,6 +37,8 @@ LOOK_EVERY_S = 0.05
 READY_WITHIN_S = 20.0
 #: Seconds for which a robot is lost once its navigation said so.
 LOST_S = 5.0
+#: Messages that tell of metres after a drive is over until all of its own are told, and seconds to wait for them.
+LAST_METRES, LAST_METRES_S = 2, 0.5
 #: Metres from the site's start beyond which a robot is on another site.
 _FAR_M = 5_000.0
 
@@ -87,6 +89,8 @@ class Ros2Driver:
         self._task: Drive | Capture | None = None
         self._cut: Ending | None = None
         self._lost: tuple[float, str] | None = None
+        self._ended: Ending | None = None
+        self._counting: tuple[int, float] | None = None
         self._begun_s, self._begun_m = 0.0, 0.0
         self._result = Progress(state="idle")
 
@@ -162,8 +166,11 @@ class Ros2Driver:
         if self._cut is None and (cut := self._why_not()) is not None:
             self._cut = cut
             self._task.cancel()
-        ending = self._task.step()
+        ending = self._ended or self._task.step()
         if ending is None:
+            return self._progress(Ending(state="running"))
+        if isinstance(self._task, Drive) and not self._is_counted():
+            self._ended = ending
             return self._progress(Ending(state="running"))
         return self._finish(ending)
 
@@ -207,7 +214,7 @@ class Ros2Driver:
         if (refused := self._why_not()) is not None:
             self._result = self._progress(refused)
             return
-        self._cut, self._task = None, task()
+        self._cut, self._task, self._ended, self._counting = None, task(), None, None
         self.poll()  # so that it goes out now
 
     def _attend(self) -> None:
@@ -225,6 +232,14 @@ class Ros2Driver:
         if (why := self._senses.silent()) is not None:
             return Ending(state="failed", what=why, fault="failed")
         return None
+
+    def _is_counted(self) -> bool:
+        """Whether the last metres of a drive that is over were told: they come a moment after its end."""
+        heard, now = self._senses.metres_heard, self._steady()
+        if self._counting is None:
+            self._counting = heard, now
+        before, since = self._counting
+        return heard - before >= LAST_METRES or now - since >= LAST_METRES_S
 
     def _finish(self, ending: Ending) -> Progress:
         cut = self._cut

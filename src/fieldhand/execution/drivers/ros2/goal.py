@@ -25,6 +25,7 @@ from fieldhand.execution.drivers.ros2.outcome import (
     CANCEL_UNKNOWN_GOAL,
     GONE_S,
     SUCCEEDED,
+    TWO_S,
     GoalRecord,
     Outcome,
 )
@@ -243,6 +244,8 @@ class ActionClient:
             return Outcome(how="cancelled", what=goal.why)
         servers = self.servers()
         if servers > 1:
+            if now - goal.begun_s <= TWO_S:
+                return None
             return Outcome(how="rejected", what=f"{servers} servers answer {self.name}: which robot would drive?")
         if servers == 1:
             try:

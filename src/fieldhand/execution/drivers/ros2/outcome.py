@@ -11,6 +11,9 @@ from fieldhand.execution.drivers.ros2.transport import Message
 
 #: Seconds without any server after which it is gone: shorter gaps are discovery's.
 GONE_S = 2.0
+#: Seconds after which two servers are two robots: one that was killed still seems to be there, for the ten seconds of
+#: its lease, beside the one that took its place.
+TWO_S = 12.0
 #: ``action_msgs/msg/GoalStatus``.
 ACCEPTED, EXECUTING, CANCELING, SUCCEEDED, CANCELED, ABORTED = range(1, 7)
 #: ``action_msgs/srv/CancelGoal``.

@@ -16,7 +16,7 @@ from fieldhand.execution.drivers.ros2.transport import Quality, Transport
 TOPIC, TYPE = "/clock", "rosgraph_msgs/msg/Clock"
 
 #: Seconds of the wall clock: between two looks at the topic, at most in one wait, and over which the pace is measured.
-_LOOK_S, _WAIT_S, _PACE_S = 0.002, 0.1, 0.5
+_LOOK_S, _WAIT_S, _PACE_S = 0.01, 0.1, 0.5
 #: The pace that is reckoned with at least: a simulation that stands goes on some time.
 _SLOWEST = 0.01
 

@@ -76,20 +76,25 @@ class _Way:
     def __init__(self, step_m: float, speed_m_s: float, clock: Callable[[], float]) -> None:
         self.metres = 0.0
         self._step_m, self._speed, self._clock = step_m, speed_m_s, clock
-        self._last: tuple[float, tuple[float, float]] | None = None
+        self._last: tuple[float, float, tuple[float, float]] | None = None
+        self.heard = 0
 
-    def add(self, xy: tuple[float, float]) -> None:
-        now = self._clock()
+    def add(self, xy: tuple[float, float], message: Message) -> None:
+        """The next point, from a message with a header."""
+        self.heard += 1
+        now, stamp = self._clock(), _stamp_of(message)
         if self._last is None:
-            self._last = now, xy
+            self._last = now, stamp, xy
             return
-        since, before = self._last
+        since, before_stamp, before = self._last
         step = math.dist(before, xy)
         if step < self._step_m:
             return
-        if step <= _JUMP * self._speed * (now - since) + _JUMP_M:
+        # Messages that were taken together were not sent together.
+        passed = max(now - since, stamp - before_stamp)
+        if step <= _JUMP * self._speed * passed + _JUMP_M:
             self.metres += step
-        self._last = now, xy
+        self._last = now, stamp, xy
 
 
 class Senses:
@@ -140,6 +145,11 @@ class Senses:
     def metres(self) -> float:
         """Driven since this was made."""
         return self._way.metres
+
+    @property
+    def metres_heard(self) -> int:
+        """How many messages have told of metres."""
+        return self._way.heard
 
     @property
     def position(self) -> Position | None:
@@ -205,14 +215,14 @@ class Senses:
         x, y = (float(v) for v in self._projection.metres(lat, lon)[0])
         self._position = Position(x=x, y=y, lat=lat, lon=lon)
         if self._odometry is None:
-            self._way.add((x, y))
+            self._way.add((x, y), message)
 
     def _hear_odometry(self, message: Message, now: float) -> None:
         assert self._odometry is not None  # noqa: S101  asked for by who has one
         x, y = number_at(message, _ODOMETRY_X), number_at(message, _ODOMETRY_Y)
         if x is not None and y is not None:
             self._odometry.at_s = now
-            self._way.add((x, y))
+            self._way.add((x, y), message)
 
     def _hear_stop(self, message: Message, now: float) -> None:
         assert self._stop is not None  # noqa: S101  asked for by who has one
@@ -220,6 +230,12 @@ class Senses:
         self._stop.at_s = now
         if value_at(message, self._stop_binding.path) == self._stop_binding.stopped:
             self._stopped = f"the emergency stop was pressed ({self._stop.name})"
+
+
+def _stamp_of(message: Message) -> float:
+    """Seconds of a message's header; 0 where it has none."""
+    seconds, part = (number_at(message, FieldBinding(path=f"header.stamp.{name}")) for name in ("sec", "nanosec"))
+    return (seconds or 0.0) + 1e-9 * (part or 0.0)
 
 
 def doubt_of(fix: Message, binding: PositionBinding) -> str | None:

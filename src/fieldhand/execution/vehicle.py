@@ -1,0 +1,102 @@
+"""What a mission is carried out with: a driver, and the clocks that go with it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+from fieldhand.clock import Clock, WallClock
+from fieldhand.execution.drivers.protocol import Driver
+from fieldhand.task.results import Event
+
+if TYPE_CHECKING:
+    from fieldhand.execution.world import World
+    from fieldhand.robot.model import RobotProfile
+    from fieldhand.site.model import Site
+
+#: What carries messages to a robot.
+TransportName = Literal["dds"]
+
+#: Takes each event of a mission.
+Writer = Callable[[Event], None]
+
+
+def _no_limit(write: Writer) -> Writer:
+    return write
+
+
+@dataclass(frozen=True, kw_only=True)
+class Connection:
+    """How a robot is reached over ROS 2, beside what its profile says.
+
+    Attributes:
+        domain: ROS's domain: robots and programs hear each other within one.
+        namespace: In place of the profile's: empty, or ``/`` and a name; None for the profile's.
+        sim_time: The robot is a simulation whose time stands on ``/clock``, also where its profile does not say so.
+    """
+
+    transport: TransportName
+    domain: int = 0
+    namespace: str | None = None
+    sim_time: bool = False
+
+    def __str__(self) -> str:
+        at = f" as {self.namespace or '/'}" if self.namespace is not None else ""
+        return f"{self.transport}, domain {self.domain}{at}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Vehicle:
+    """A robot that is ready for a mission: real, or the simulation.
+
+    Attributes:
+        driver: In no goal.
+        clock: What drives the mission's time; the driver's too.
+        charge_percent: Of the battery when the mission begins: the guard reckons from it.
+        wall: The time of day; None where there is none.
+        by: How it is reached; None for the simulation.
+        disk: What its disk makes of what is written on it: that of a simulation may be full.
+    """
+
+    driver: Driver
+    clock: Clock
+    charge_percent: float
+    wall: WallClock | None = None
+    by: Connection | None = None
+    disk: Callable[[Writer], Writer] = _no_limit
+
+    @property
+    def simulated(self) -> bool:
+        """Whether it was made anew: for a mission that goes on it is brought to where it was by being told again what
+        it was told then. A real robot is where it is."""
+        return self.by is None
+
+
+def simulation(site: Site, robot: RobotProfile, world: World, *, seed: int, speed: float | None = None) -> Vehicle:
+    """The simulated robot at the start of a site.
+
+    Args:
+        site, robot: Of the mission.
+        world: What the sensors would read, and what goes wrong.
+        seed: Of every random thing in it.
+        speed: Simulated seconds in a second; None for as fast as it goes.
+
+    Raises:
+        WorldError: The world does not fit the site or the robot.
+    """
+    import numpy as np
+
+    from fieldhand.clock import ScaledClock, SimulatedClock
+    from fieldhand.execution.drivers.simulation import SimulatedDriver
+    from fieldhand.execution.drivers.surroundings import wall_clock_of, writing_in
+    from fieldhand.execution.mission_clock import MissionClock
+
+    clock = MissionClock(SimulatedClock() if speed is None else ScaledClock(speed))
+    return Vehicle(
+        driver=SimulatedDriver(site, robot, world, clock, np.random.default_rng(seed)),
+        clock=clock,
+        charge_percent=world.charge_percent,
+        wall=wall_clock_of(world, clock),
+        disk=lambda write: writing_in(world, write),
+    )
