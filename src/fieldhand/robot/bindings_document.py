@@ -32,7 +32,12 @@ def _ros_name(value: str) -> str:
     return value
 
 
-def _namespace(value: str) -> str:
+def as_namespace(value: str) -> str:
+    """A namespace as names are put together with it: empty, or ``/`` and a name.
+
+    Raises:
+        ValueError: It is none; says what to do.
+    """
     return "" if value in ("", "/") else "/" + _ros_name(value).removeprefix("/")
 
 
@@ -249,7 +254,7 @@ class Ros2Document(Keyed):
     """The whole part."""
 
     distro: Distro
-    namespace: Annotated[str, AfterValidator(_namespace)] = ""
+    namespace: Annotated[str, AfterValidator(as_namespace)] = ""
     use_sim_time: bool = False
     navigation: NavigationDocument
     position: PositionDocument
