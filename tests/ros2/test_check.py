@@ -47,6 +47,8 @@ def robot(node: Transport, says: dict[str, tuple[str, Message]] = SAYS, without:
     maps = node.serve("/fromLL", "robot_localization/srv/FromLL")
     if without != "/co2_sensor/read":
         node.serve("/co2_sensor/read", "fieldhand_husky/srv/ReadCo2")
+    if without != "/speed_limit":
+        node.subscribe("/speed_limit", "nav2_msgs/msg/SpeedLimit")
     topics = [(node.publish(n, of, SENSOR), message) for n, (of, message) in says.items() if n != without]
 
     def speak() -> None:
@@ -100,6 +102,7 @@ def test_a_robot_that_is_what_its_profile_says(graph: Graph, clock: Clock) -> No
     assert {f.binding.part: f.what for f in report.findings} == {
         "navigation": "there",
         "navigation: from_ll": "answers",
+        "navigation: speed_limit": "heard",
         "position": "52.100000, 5.600000",
         "battery": "83 %",
         "odometry": "0.00, 0.00 m",
@@ -111,13 +114,13 @@ def test_a_robot_that_is_what_its_profile_says(graph: Graph, clock: Clock) -> No
     assert clock.now_s < 1.5  # it waits only for what is not there
 
 
-@pytest.mark.parametrize("name", [*SAYS, *ACTIONS, "/co2_sensor/read"])
+@pytest.mark.parametrize("name", [*SAYS, *ACTIONS, "/co2_sensor/read", "/speed_limit"])
 def test_what_is_missing_is_named_and_nothing_else(graph: Graph, clock: Clock, name: str) -> None:
     report = checked(graph, clock, robot(graph.node(), without=name))
     missing = [f for f in report.missing if f.binding.name != "/fromLL"]
     assert [f.binding.name for f in missing] == [name]
     assert missing[0].what.startswith("nobody ")
-    assert "ROS_DOMAIN_ID" in missing[0].advice
+    assert ("see whether its node is active" if name == "/speed_limit" else "ROS_DOMAIN_ID") in missing[0].advice
 
 
 @pytest.mark.parametrize(
@@ -147,17 +150,6 @@ def test_a_part_of_one_where_percent_are_meant(graph: Graph, clock: Clock) -> No
     unscaled = replace(ros2, battery=replace(ros2.battery, value=FieldBinding(path="percentage")))
     report = checked(graph, clock, robot(graph.node()), profile=replace(HUSKY, ros2=unscaled))
     assert [(f.binding.part, f.what) for f in report.missing] == [("battery", "0.83 % is nearly nothing")]
-
-
-def test_who_is_to_be_told_the_speed(graph: Graph, clock: Clock) -> None:
-    ros2 = bindings_of(HUSKY)
-    profile = replace(HUSKY, ros2=replace(ros2, navigation=replace(ros2.navigation, speed_limit="speed_limit")))
-    robot_node = graph.node()
-    speak = robot(robot_node)
-    (missing,) = checked(graph, clock, speak, profile=profile).missing
-    assert (missing.binding.part, missing.what) == ("navigation: speed_limit", "nobody hears it")
-    robot_node.subscribe("/speed_limit", "nav2_msgs/msg/SpeedLimit")
-    assert checked(graph, clock, speak, profile=profile).missing == ()
 
 
 def test_who_is_there_and_silent(graph: Graph, clock: Clock) -> None:
@@ -229,12 +221,12 @@ def test_types_are_checked_without_a_robot() -> None:
 def test_the_command_says_it_line_by_line() -> None:
     fits = fieldhand("robot", "check", "husky")
     assert (fits.status, fits.err) == (0, "")
-    assert fits.out.splitlines()[-1] == "All 9 bindings of husky fit their types; --live tries them."
+    assert fits.out.splitlines()[-1] == "All 10 bindings of husky fit their types; --live tries them."
     alone = fieldhand("robot", "check", "husky", "--live", "--within", "1", "--json")
     assert alone.status == 1
     record = json.loads(alone.out)
-    assert (record["usable"], record["live"], record["rmw"], len(record["bindings"])) == (False, True, [], 9)
-    assert {b["what"] for b in record["bindings"]} == {"nobody sends it", "nobody answers it"}
+    assert (record["usable"], record["live"], record["rmw"], len(record["bindings"])) == (False, True, [], 10)
+    assert {b["what"] for b in record["bindings"]} == {"nobody sends it", "nobody answers it", "nobody hears it"}
     refused = fieldhand("robot", "check", "husky", "--live", "--transport", "tcp")
     assert (refused.status, refused.out) == (2, "")
     assert "no transport 'tcp'" in refused.err

@@ -29,6 +29,7 @@ from fieldhand.cli.resume import resume
 from fieldhand.cli.robot import robot
 from fieldhand.cli.run import run
 from fieldhand.cli.send import send
+from fieldhand.cli.sim_robot import sim_robot
 from fieldhand.cli.site import site
 from fieldhand.cli.status import status
 from fieldhand.cli.tell import abort, come_home, pause
@@ -64,6 +65,7 @@ def assemble(*others: Callable[..., None]) -> typer.Typer:
         watch,
         order,
         site,
+        sim_robot,
         demo,
         *others,
     )

@@ -17,6 +17,8 @@ def binding_lines(profile: RobotProfile) -> Iterator[str]:
     time = ", time from /clock" if ros2.use_sim_time else ""
     yield f"ROS 2: {ros2.distro}, names below {ros2.namespace or '/'}{time}"
     yield f"  drives by {ros2.whole_name(ros2.navigation.action)} ({ros2.navigation.type}) {_map(ros2)}"
+    if ros2.navigation.speed_limit:
+        yield f"  no faster than {ros2.whole_name(ros2.navigation.speed_limit)} says (nav2_msgs/msg/SpeedLimit)"
     yield f"  position {_topic(ros2, ros2.position.fix)}, to {ros2.position.most_sigma_m:g} m"
     yield f"  battery {_topic(ros2, ros2.battery.topic)}: {_value(ros2.battery.value)}"
     yield f"  metres {'along the position' if ros2.odometry is None else _topic(ros2, ros2.odometry)}"

@@ -71,7 +71,7 @@ class GroundTruth:
 
     def __init__(self, world: World, site: Site, robot: RobotProfile, seed: int) -> None:
         self._robot = robot
-        self._seed = seed
+        self.seed = seed
         self._captures: Counter[tuple[str, str]] = Counter()
         self._used: Counter[int] = Counter()
         self._source = world.source
@@ -123,6 +123,17 @@ class GroundTruth:
             return None
         at_m, number, what = min(found)
         return Hindrance(at_m=at_m, number=number, what=what)
+
+    def counts(self) -> tuple[tuple[tuple[str, str, int], ...], tuple[tuple[int, int], ...]]:
+        """What was counted so far: draws of each quantity at each place; how often each fault has happened."""
+        captures = tuple((quantity, place, times) for (quantity, place), times in self._captures.items())
+        return captures, tuple(self._used.items())
+
+    def recall(self, seed: int, captures: Iterable[tuple[str, str, int]], struck: Iterable[tuple[int, int]]) -> None:
+        """Go on from another one's seed and :meth:`counts`."""
+        self.seed = seed
+        self._captures = Counter({(quantity, place): times for quantity, place, times in captures})
+        self._used = Counter(dict(struck))
 
     def met(self, hindrance: Hindrance) -> None:
         """The robot has come to what stops it."""
@@ -193,7 +204,7 @@ class GroundTruth:
 
     def _generator(self, *key: str) -> np.random.Generator:
         digest = hashlib.sha256("\0".join(key).encode()).digest()
-        return np.random.default_rng([self._seed, int.from_bytes(digest[:8], "big")])
+        return np.random.default_rng([self.seed, int.from_bytes(digest[:8], "big")])
 
     def _strikes(self, number: int, place: Place) -> bool:
         """Whether fault ``number`` happens here and now; counts it if so."""

@@ -11,11 +11,12 @@ import numpy as np
 
 from fieldhand.clock import Clock
 from fieldhand.execution.drivers.groundtruth import GroundTruth, Hindrance, Point
+from fieldhand.execution.drivers.memory import Memory
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, GoalFault, GoalState, Position, Progress
 from fieldhand.execution.world import World
 from fieldhand.forecast.routes import beginning, drives_for
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.model import Site
+from fieldhand.site.model import Place, Site
 
 #: Seconds within which two moments are one: clocks add floating-point numbers.
 EPSILON_S = 1e-6
@@ -99,7 +100,7 @@ class SimulatedDriver:
         self._xy: Point = start.stand or start.xy
         self._course: _Course | None = None
         self._result = Progress(state="idle")
-        self._lost: list[tuple[float, Hindrance]] = []
+        self._lost: list[tuple[float, str]] = []
 
     @property
     def seed(self) -> int | None:
@@ -145,6 +146,11 @@ class SimulatedDriver:
             )
         )
 
+    def sense(self, action: str, place: Place) -> Mapping[str, float]:
+        """What the sensors of an action give at a place while nobody asks for a capture; nothing where they fail."""
+        readings, _ = self._truth.capture(action, place)
+        return readings
+
     def poll(self) -> Progress:
         course = self._course
         if course is None:
@@ -158,7 +164,7 @@ class SimulatedDriver:
         if course.meets is not None:
             self._truth.met(course.meets)
             if course.fault == "lost":
-                self._lost.append((self._clock.now() - self._begun_s, course.meets))
+                self._lost.append((self._clock.now() - self._begun_s + course.meets.for_s, course.meets.what))
         return self._finish(course, course.outcome, 1.0, course.what, course.fault)
 
     def cancel(self) -> None:
@@ -195,13 +201,45 @@ class SimulatedDriver:
         now_s = self._clock.now() - self._begun_s
         if any(begins <= now_s + EPSILON_S and now_s < ends - EPSILON_S for begins, ends in self._truth.lost_spans):
             return "no position"
-        return next((h.what for since_s, h in self._lost if now_s < since_s + h.for_s - EPSILON_S), None)
+        return next((what for until_s, what in self._lost if now_s < until_s - EPSILON_S), None)
 
     def stopped(self) -> str | None:
         stop = self._truth.stop
         if stop is not None and self._clock.now() - self._begun_s >= stop.at_s - EPSILON_S:
             return stop.why
         return None
+
+    def memory(self) -> Memory:
+        """What it needs to go on later from where it stands now; a goal in hand is broken off."""
+        here = self.position()
+        captures, struck = self._truth.counts()
+        return Memory(
+            seconds=self._clock.now() - self._begun_s,
+            x=here.x,
+            y=here.y,
+            charge_percent=self.charge_percent(),
+            generator=self._rng.bit_generator.state,
+            values_seed=self._truth.seed,
+            captures=captures,
+            struck=struck,
+            lost=tuple(self._lost),
+        )
+
+    def recall(self, memory: Memory) -> None:
+        """Go on as the robot that this memory is of: of the same site, profile and world.
+
+        Raises:
+            ValueError: The state of its generator is none.
+        """
+        try:
+            self._rng.bit_generator.state = memory.generator
+        except (TypeError, ValueError, KeyError, AttributeError, OverflowError) as error:
+            raise ValueError(f"no state of a random generator: {error}") from error
+        self._begun_s = self._clock.now() - memory.seconds
+        self._charge, self._charged_s = memory.charge_percent, self._clock.now()
+        self._xy, self._course, self._result = (memory.x, memory.y), None, Progress(state="idle")
+        self._lost = list(memory.lost)
+        self._truth.recall(memory.values_seed, memory.captures, memory.struck)
 
     def _begin(self) -> None:
         if not self.poll().over:

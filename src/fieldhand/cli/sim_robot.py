@@ -1,0 +1,204 @@
+"""``fieldhand sim-robot``: a simulated robot that is reached over ROS 2, with no ROS installed."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from fieldhand.cli.options import LenientOption, RobotOption, SiteOption
+from fieldhand.cli.outputs import to_whole_file
+
+if TYPE_CHECKING:
+    from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+    from fieldhand.execution.drivers.ros2.transport import Transport
+    from fieldhand.execution.drivers.ros2.twin.robot import Said
+    from fieldhand.execution.world import World
+    from fieldhand.robot.bindings import Ros2Bindings
+    from fieldhand.robot.model import RobotProfile
+
+#: Of domains: with more, ROS's own ports collide.
+_MOST_DOMAIN = 232
+#: Faster, and between two looks at its messages a robot would have driven for minutes.
+_FASTEST = 1000.0
+
+
+def sim_robot(
+    site: SiteOption,
+    robot: RobotOption = "husky",
+    world: Annotated[Path | None, typer.Option("--world", help="What sensors read, and what goes wrong.")] = None,
+    seed: Annotated[
+        int | None, typer.Option("--seed", min=0, help="Same seed, same readings and legs; else the world's, else 0.")
+    ] = None,
+    speed: Annotated[
+        float, typer.Option("--speed", help="Its seconds in one of ours; other than 1, the time is on /clock.")
+    ] = 1.0,
+    transport: Annotated[str, typer.Option("--transport", help="What carries its messages: dds.")] = "dds",
+    dds: Annotated[bool, typer.Option("--dds", help="The same as --transport dds.")] = False,
+    domain: Annotated[
+        int | None, typer.Option("--domain", min=0, max=_MOST_DOMAIN, help="ROS domain; else ROS_DOMAIN_ID, else 0.")
+    ] = None,
+    namespace: Annotated[
+        str | None, typer.Option("--namespace", help="Of its names in ROS, in place of the profile's; / for none.")
+    ] = None,
+    state: Annotated[
+        Path | None,
+        typer.Option(
+            "--state", callback=to_whole_file, help="Go on from this file if it is there, and keep it up to date."
+        ),
+    ] = None,
+    lenient: LenientOption = False,
+    json: Annotated[bool, typer.Option("--json", help="Print one JSON object a line instead of text.")] = False,
+) -> None:
+    """Be a robot on ROS 2 that serves what its profile binds: Nav2's action, sensors, battery, fix. Ctrl-C ends it."""
+    from dataclasses import replace
+
+    from fieldhand import mission
+    from fieldhand.cli.inputs import open_ground
+    from fieldhand.clock import ScaledClock
+    from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+    from fieldhand.execution.drivers.ros2.twin.robot import SimulatedRobot, bindings_of
+    from fieldhand.execution.drivers.ros2.twin.serving import serve
+    from fieldhand.execution.drivers.ros2.twin.state import Identity, read_state, write_state
+    from fieldhand.execution.interrupts import ctrl_c_as_request
+    from fieldhand.execution.world import World, load_world
+
+    clock = ScaledClock(_paced(speed))
+    ground = open_ground(site, robot, lenient=lenient)
+    given = World() if world is None else load_world(world)
+    mission.check_world(given, ground.site, ground.robot)
+    bindings = bindings_of(ground.robot)
+    if namespace is not None:
+        bindings = replace(bindings, namespace=_namespace(namespace))
+    profile = replace(ground.robot, ros2=bindings)
+    made_for = Identity(site=ground.site.content_sha256, robot=profile.sha256, world=_hash_of(given))
+    memory = None if state is None else read_state(state, made_for)
+    interfaces = Interfaces.of(bindings.distro, bindings.interfaces)
+    node = _node("dds" if dds else transport, interfaces, domain)
+    try:
+        sim_time = bindings.use_sim_time or speed != 1.0
+        simulated = SimulatedRobot(
+            ground.site,
+            profile,
+            given,
+            node,
+            interfaces,
+            clock,
+            seed=given.seed if seed is None else seed,
+            sim_time=sim_time,
+            speed=speed,
+            say=_say_json if json else _say,
+            memory=memory,
+        )
+        _greet(profile, bindings, ground.site.name, sim_time=sim_time, goes_on=memory is not None, json=json)
+        with ctrl_c_as_request() as ended:
+            why = serve(
+                simulated,
+                clock,
+                ended=ended,
+                save=lambda kept: None if state is None else write_state(state, kept, made_for),
+            )
+    finally:
+        node.close()
+    _part(why, json=json)
+
+
+def _paced(speed: float) -> float:
+    from fieldhand.errors import InputError
+
+    if not 0 < speed <= _FASTEST:
+        raise InputError(f"{speed:g} is no speed", where="--speed", advice=f"give a number above 0, to {_FASTEST:g}")
+    return speed
+
+
+def _namespace(said: str) -> str:
+    from fieldhand.errors import InputError
+    from fieldhand.robot.bindings_document import as_namespace
+
+    try:
+        return as_namespace(said)
+    except ValueError as error:
+        what, _, advice = str(error).partition("; ")
+        raise InputError(what, where="--namespace", advice=advice) from None
+
+
+def _hash_of(world: World) -> str:
+    return "" if world.data is None else hashlib.sha256(world.data).hexdigest()
+
+
+def _node(transport: str, interfaces: Interfaces, domain: int | None) -> Transport:
+    """A node of the graph.
+
+    Raises:
+        InputError: There is no such transport, or what it needs is not installed.
+        Ros2Error: The network cannot be used.
+    """
+    from fieldhand.errors import InputError
+    from fieldhand.execution.drivers.ros2.dds import open_dds
+
+    if transport != "dds":
+        raise InputError(f"there is no transport '{transport[:80]}'", where="--transport", advice="choose dds")
+    return open_dds(interfaces, domain)
+
+
+def _greet(
+    profile: RobotProfile, bindings: Ros2Bindings, site: str, *, sim_time: bool, goes_on: bool, json: bool
+) -> None:
+    """Say what can be reached now."""
+    if json:
+        _line(
+            event="ready",
+            robot=profile.name,
+            site=site,
+            namespace=bindings.namespace or "/",
+            navigation=bindings.whole_name(bindings.navigation.action),
+            sim_time=sim_time,
+            goes_on=goes_on,
+        )
+        return
+    at = "where it stood before" if goes_on else "at the start"
+    _print(f"{site}: {profile.name} stands {at} and answers over DDS, names below {bindings.namespace or '/'}")
+    _print(f"  drives by {bindings.whole_name(bindings.navigation.action)} ({bindings.navigation.type})")
+    if sim_time:
+        _print("  its time is on /clock: take it from there (use_sim_time)")
+    _print("Ctrl-C ends it.")
+
+
+def _say(said: Said) -> None:
+    """A line a goal."""
+    facts = [f"{said.metres:.1f} m"] if said.metres else []
+    if said.end != "rejected":
+        facts += [f"{said.took_s:.1f} s", *(f"{name} {value:.4g}" for name, value in said.readings.items())]
+    why = f" ({said.why})" if said.why and said.why != said.end else ""
+    done = f": {', '.join(facts)}" if facts else ""
+    _print(
+        f"{said.seconds:8.1f} s  {said.name} at {said.place} {said.end}{why}{done}; battery {said.charge_percent:.1f} %"
+    )
+
+
+def _say_json(said: Said) -> None:
+    from dataclasses import asdict
+
+    _line(event="goal", **asdict(said))
+
+
+def _part(why: str, *, json: bool) -> None:
+    if json:
+        _line(event="ended", why=why)
+    else:
+        _print(f"Ended: {why}")
+
+
+def _print(text: str) -> None:
+    from fieldhand.cli import show
+
+    show.out.print(text)
+
+
+def _line(**values: Any) -> None:
+    """One JSON object on a line of its own, at once: a program may be waiting for it."""
+    from json import dumps
+
+    typer.echo(dumps(values, ensure_ascii=False))

@@ -1,0 +1,133 @@
+"""The driver keeps its contract with a simulated robot: all corners at once in memory, one by one over real DDS."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import ClassVar
+
+import pytest
+
+from driver_contract import DriverContract
+from fieldhand.clock import Clock, SimulatedClock
+from fieldhand.execution.drivers.protocol import Driver
+from fieldhand.execution.drivers.ros2.dds import open_dds
+from fieldhand.execution.drivers.ros2.driver import Ros2Driver
+from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.transport import Transport
+from fieldhand.execution.drivers.ros2.twin.robot import SimulatedRobot
+from fieldhand.execution.world import ActionFails, Blocked, LocalisationLost, Spot, World
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from rig import husky
+from ros2.in_memory import Graph
+from ros2.twin_rig import SITE, interfaces_of, reached_by
+
+FAR = SITE.trees[-1].place
+#: Seconds of the robot between two looks at everything, and of the mission between two looks at its goal.
+SLICE_S, LOOK_S = 0.4, 3.0
+
+
+class SharedClock(SimulatedClock):
+    """The robot's clock and the mission's: while it is advanced, the robot lives and the mission looks at its goal."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.lives: Callable[[], object] = lambda: None
+        self.looks: Callable[[], object] = lambda: None
+        self.carries: Callable[[], object] = lambda: None
+
+    def advance(self, seconds: float) -> None:
+        until = self.now() + seconds
+        while (left := until - self.now()) > 1e-9:
+            super().advance(min(left, SLICE_S))
+            self.lives()
+            self.carries()
+            self.looks()
+
+
+def only(action: str) -> RobotProfile:
+    """The robot, bound to no other action."""
+    robot = husky(alpha=0.5)
+    assert robot.ros2 is not None
+    return replace(robot, ros2=replace(robot.ros2, actions={action: robot.ros2.actions[action]}))
+
+
+class OverATwin(DriverContract):
+    """Above any transport."""
+
+    robot: ClassVar[RobotProfile] = husky(alpha=0.5)
+
+    def make(self) -> tuple[Driver, Clock, Site]:
+        return self.make_in(World())
+
+    def make_blocked(self) -> tuple[Driver, Clock, Site]:
+        return self.make_in(World(faults=(Blocked(at=Spot(id=FAR.id), within_m=2.0),)))
+
+    def make_lost(self) -> tuple[Driver, Clock, Site]:
+        return self.make_in(World(faults=(LocalisationLost(at_s=8.0, for_s=20.0),)))
+
+    def make_broken(self) -> tuple[Driver, Clock, Site]:
+        return self.make_in(World(faults=(ActionFails(action=self.action),)))
+
+    def make_in(self, world: World) -> tuple[Driver, Clock, Site]:
+        clock = SharedClock()
+        robot, mission, interfaces = self.nodes(clock)
+        twin = SimulatedRobot(SITE, self.robot, world, robot, interfaces, clock, seed=0)
+        clock.lives = twin.step
+        driver = Ros2Driver.connect(
+            mission,
+            interfaces,
+            SITE,
+            self.robot,
+            clock=clock,
+            steady=self.steady(clock),
+            sleep=clock.advance,
+            look_every_s=LOOK_S,
+        )
+        clock.looks = driver.poll
+        return driver, clock, SITE
+
+    def nodes(self, clock: SharedClock) -> tuple[Transport, Transport, Interfaces]:
+        """Of the robot and of the mission."""
+        interfaces = self.interfaces()
+        graph = Graph(clock.now, complete=interfaces.complete)
+        return graph.node(), graph.node(), interfaces
+
+    def steady(self, clock: SharedClock) -> Callable[[], float]:
+        return clock.now
+
+    def interfaces(self) -> Interfaces:
+        assert self.robot.ros2 is not None
+        return interfaces_of(self.robot.ros2.distro, tuple(self.robot.ros2.interfaces.items()))
+
+
+class TestAllCornersAtOnce(OverATwin):
+    """By the codes of newer releases."""
+
+    robot: ClassVar[RobotProfile] = reached_by(
+        husky(alpha=0.5), distro="jazzy", type="nav2_msgs/action/NavigateThroughPoses"
+    )
+
+
+class TestOverDds(OverATwin):
+    """The robot's seconds pass as fast as messages go; it has what the contract asks for, and no more to be found."""
+
+    robot: ClassVar[RobotProfile] = only("read_co2")
+
+    @pytest.fixture(autouse=True)
+    def _closed(self) -> Iterator[None]:
+        self.opened: list[Transport] = []
+        yield
+        for node in self.opened:
+            node.close()
+
+    def nodes(self, clock: SharedClock) -> tuple[Transport, Transport, Interfaces]:
+        interfaces = self.interfaces()
+        self.opened = [open_dds(interfaces), open_dds(interfaces)]
+        clock.carries = lambda: time.sleep(0.002)
+        return self.opened[0], self.opened[1], interfaces
+
+    def steady(self, clock: SharedClock) -> Callable[[], float]:
+        return time.monotonic
