@@ -17,13 +17,20 @@ from fieldhand.execution.drivers.ros2.driver import Ros2Driver
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.transport import Transport
 from fieldhand.execution.drivers.ros2.twin.robot import SimulatedRobot
-from fieldhand.execution.world import ActionFails, Blocked, LocalisationLost, Spot, World
+from fieldhand.execution.guard import NoGuard
+from fieldhand.execution.runtime import Result, run
+from fieldhand.execution.world import ActionFails, Blocked, LocalisationLost, SensorSilent, Spot, World
+from fieldhand.planning.english.planner import EnglishPlanner
+from fieldhand.planning.planner import Planned
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.geojson import open_site
 from fieldhand.site.model import Site
-from rig import husky
+from fieldhand.task.results import Acted
+from rig import Rig, authorized, husky, of_type
 from ros2.in_memory import Graph
 from ros2.twin_rig import SITE, interfaces_of, reached_by
 
+DEMO = open_site("demo")
 FAR = SITE.trees[-1].place
 #: Seconds of the robot between two looks at everything, and of the mission between two looks at its goal.
 SLICE_S, LOOK_S = 0.4, 3.0
@@ -71,15 +78,15 @@ class OverATwin(DriverContract):
     def make_broken(self) -> tuple[Driver, Clock, Site]:
         return self.make_in(World(faults=(ActionFails(action=self.action),)))
 
-    def make_in(self, world: World) -> tuple[Driver, Clock, Site]:
+    def make_in(self, world: World, site: Site = SITE) -> tuple[Driver, Clock, Site]:
         clock = SharedClock()
         robot, mission, interfaces = self.nodes(clock)
-        twin = SimulatedRobot(SITE, self.robot, world, robot, interfaces, clock, seed=0)
+        twin = SimulatedRobot(site, self.robot, world, robot, interfaces, clock, seed=0, speed=10.0)
         clock.lives = twin.step
         driver = Ros2Driver.connect(
             mission,
             interfaces,
-            SITE,
+            site,
             self.robot,
             clock=clock,
             steady=self.steady(clock),
@@ -87,7 +94,7 @@ class OverATwin(DriverContract):
             look_every_s=LOOK_S,
         )
         clock.looks = driver.poll
-        return driver, clock, SITE
+        return driver, clock, site
 
     def nodes(self, clock: SharedClock) -> tuple[Transport, Transport, Interfaces]:
         """Of the robot and of the mission."""
@@ -131,3 +138,37 @@ class TestOverDds(OverATwin):
 
     def steady(self, clock: SharedClock) -> Callable[[], float]:
         return time.monotonic
+
+
+def test_a_mission_captures_on_the_robot_what_it_captures_in_simulation() -> None:
+    """With a failed call, a sensor that is silent once, and a reading that decides what is done."""
+    request = (
+        "Measure the CO2 and the ambient temperature at every fourth tree of row 3."
+        " If the ambient temperature is low, take a thermal picture."
+    )
+    planned = EnglishPlanner().plan(request, DEMO, husky(alpha=0.5))
+    assert isinstance(planned, Planned)
+    faults = (ActionFails(action="read_co2", times=1), SensorSilent(quantity="ambient_temperature", times=1))
+    world = World(faults=faults)
+    robot = OverATwin()
+    driver, clock, _ = robot.make_in(world, DEMO)
+    flown = run(
+        authorized(planned.task, DEMO, robot.robot),
+        site=DEMO,
+        robot=robot.robot,
+        driver=driver,
+        guard=NoGuard(),
+        clock=clock,
+        emit=lambda event: None,
+    )
+    simulated = Rig(site=DEMO, robot=robot.robot, world=world).fly(planned.task)
+    assert _captures(flown) == _captures(simulated)
+    assert {"failed", "success"} == {status for _, _, _, status, _ in _captures(flown)}
+
+
+def _captures(result: Result) -> list[tuple[str, str, str, str, dict[str, float]]]:
+    """Node, action, place, how it ended, and its readings."""
+    return [
+        (e.node, e.action, e.place, e.status, {name: round(value, 6) for name, value in e.readings.items()})
+        for e in of_type(result.events, Acted)
+    ]

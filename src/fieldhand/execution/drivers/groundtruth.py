@@ -87,14 +87,18 @@ class GroundTruth:
         self._drains = sorted((f.from_s, f.factor) for f in world.faults if isinstance(f, BatteryDrains))
         self.stop = min((f for f in world.faults if isinstance(f, RobotStops)), key=lambda f: f.at_s, default=None)
 
-    def capture(self, action: str, place: Place) -> tuple[dict[str, float], str]:
-        """What one attempt of an action at a place yields: readings, and why it failed (empty if it did not)."""
+    def capture(self, action: str, place: Place, *, counted: bool = True) -> tuple[dict[str, float], str]:
+        """What one attempt of an action at a place yields: readings, and why it failed (empty if it did not).
+
+        Args:
+            counted: Whether it may be one of those that a fault strikes which happens so many times and no more.
+        """
         for number, fault in enumerate(self._faults):
-            if isinstance(fault, ActionFails) and fault.action == action and self._strikes(number, place):
+            if isinstance(fault, ActionFails) and fault.action == action and self._strikes(number, place, counted):
                 return {}, f"{action} gave an error"
         readings: dict[str, float] = {}
         for name in self._robot.action[action].measures:
-            value = self._sensed(self._robot.quantity[name], place)
+            value = self._sensed(self._robot.quantity[name], place, counted)
             if value is not None:
                 readings[name] = value
         return readings, ""
@@ -181,13 +185,13 @@ class GroundTruth:
         one, two = self._between[number]
         return f"between tree {one.id} and tree {two.id}"
 
-    def _sensed(self, quantity: Quantity, place: Place) -> float | None:
+    def _sensed(self, quantity: Quantity, place: Place, counted: bool) -> float | None:
         for number, fault in enumerate(self._faults):
             match fault:
-                case SensorSilent(quantity=name) if name == quantity.name and self._strikes(number, place):
+                case SensorSilent(quantity=name) if name == quantity.name and self._strikes(number, place, counted):
                     return None
-                case SensorAbsurd(quantity=name, value=value) if name == quantity.name and self._strikes(number, place):
-                    return value
+                case SensorAbsurd(quantity=name) if name == quantity.name and self._strikes(number, place, counted):
+                    return fault.value
                 case _:
                     pass
         told = self._values.get(quantity.name, {}).get(place.id) if place.kind == "tree" else None
@@ -206,11 +210,13 @@ class GroundTruth:
         digest = hashlib.sha256("\0".join(key).encode()).digest()
         return np.random.default_rng([self.seed, int.from_bytes(digest[:8], "big")])
 
-    def _strikes(self, number: int, place: Place) -> bool:
-        """Whether fault ``number`` happens here and now; counts it if so."""
+    def _strikes(self, number: int, place: Place, counted: bool = True) -> bool:
+        """Whether fault ``number`` happens here and now; counts it if so. One with a number only where it counts."""
         fault = self._faults[number]
         tree = self._trees.get(number)
         if self._exhausted(number) or (tree is not None and (place.kind, place.id) != ("tree", tree.id)):
+            return False
+        if not counted and getattr(fault, "times", None) is not None:
             return False
         if isinstance(fault, ActionFails | SensorSilent | SensorAbsurd | DriveFails):
             self._used[number] += 1

@@ -9,6 +9,6 @@
 - ``navigation``: the action of Nav2 that the profile names; ``limit``: how fast it may drive.
 - ``captures``: the actions and services that the profile binds its actions to; ``feeds``: the topics.
 - ``senses``: battery, fix, odometry, emergency stop, ``/clock``.
-- ``body``: the robot beneath, which does one thing at a time; ``ground``: its map frame, and which place is meant.
+- ``body``: the robot beneath, which does one thing at a time; ``ground``: which place is meant.
 - ``state``: the file by which it goes on where it stood; ``serving``: runs it in real time.
 """

@@ -18,7 +18,7 @@ from fieldhand.execution.drivers.ros2.twin.messages import as_sent, with_header
 from fieldhand.robot.bindings import NextMessage, Ros2Bindings
 
 #: Seconds between two messages; how many times as long as one waits for a message a silent sensor is silent.
-_PERIOD_S, _LONGER = 0.5, 1.2
+_PERIOD_S, _LONGER = 0.5, 1.5
 
 
 @dataclass
@@ -78,8 +78,16 @@ class Feeds:
                 interfaces.field_at(message.type, message.value.path)
                 feed.values[quantity] = message
 
-    def captured(self, action: str, readings: Mapping[str, float]) -> None:
-        """A capture by a call is over: what it measured is said from now on."""
+    @property
+    def patience_s(self) -> float:
+        """The shortest time that anyone waits for a message; endless where nobody does."""
+        return min((m.within_s for feed in self._feeds.values() for m in feed.values.values()), default=float("inf"))
+
+    def captured(self, action: str, readings: Mapping[str, float], now: float) -> None:
+        """A capture by a call is over: what it measured is said from now on. Whoever listens to a sensor that is silent
+        begins to wait for it only now."""
+        for heard in self._silent_s:
+            self._silent_s[heard] = now + self._longer(heard)
         for quantity in self._bindings.actions[action].topics:
             self._readings.pop(quantity, None)
             if quantity in readings:
@@ -117,7 +125,11 @@ class Feeds:
             if quantity in readings:
                 self._readings[quantity] = readings[quantity]
         if any(quantity not in readings for quantity in topics):
-            self._silent_s[action] = now + _LONGER * max(message.within_s for message in topics.values())
+            self._silent_s[action] = now + self._longer(action)
+
+    def _longer(self, action: str) -> float:
+        """Longer than anyone waits for its messages, in seconds."""
+        return _LONGER * max(message.within_s for message in self._bindings.actions[action].topics.values())
 
     def _send(self, feed: _Feed, now: float) -> None:
         feed.sent_s = now

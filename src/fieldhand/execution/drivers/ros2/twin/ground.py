@@ -1,50 +1,13 @@
-"""Where things are: the map frame of the robot, and which place of the site is meant."""
+"""Which place of the site is meant."""
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
-from fieldhand.robot.bindings import Datum
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
-from fieldhand.site.projection import Projection
 
 Point = tuple[float, float]
-
-
-class MapFrame:
-    """A plane through a point of the earth: metres along its x axis and, to the left of that, its y axis.
-
-    Args:
-        datum: Its origin.
-    """
-
-    def __init__(self, datum: Datum) -> None:
-        self.datum = datum
-        self._projection = Projection(datum.lat, datum.lon)
-
-    def of(self, lat: float, lon: float) -> Point:
-        """Degrees to x and y."""
-        east, north = self._projection.metres(lat, lon)[0]
-        sine, cosine = self._turn()
-        return float(cosine * east + sine * north), float(cosine * north - sine * east)
-
-    def degrees(self, x: float, y: float) -> tuple[float, float]:
-        """X and y to latitude and longitude."""
-        sine, cosine = self._turn()
-        lat, lon = self._projection.degrees((cosine * x - sine * y, cosine * y + sine * x))[0]
-        return float(lat), float(lon)
-
-    def yaw(self, heading_deg: float) -> float:
-        """A heading, clockwise from north, to an angle counted from the x axis to the left, in radians."""
-        return math.radians(self.datum.heading_deg - heading_deg)
-
-    def _turn(self) -> tuple[float, float]:
-        """Of the x axis from east to the left."""
-        turned = math.radians(90.0 - self.datum.heading_deg)
-        return math.sin(turned), math.cos(turned)
 
 
 class Places:

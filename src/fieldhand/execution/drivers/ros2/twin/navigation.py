@@ -9,11 +9,12 @@ from itertools import pairwise
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import GoalFault, Progress
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.map_frame import in_map, orientation, out_of_map
 from fieldhand.execution.drivers.ros2.transport import Message
 from fieldhand.execution.drivers.ros2.twin.action_server import Goal
 from fieldhand.execution.drivers.ros2.twin.body import Body, Point, length_m
-from fieldhand.execution.drivers.ros2.twin.ground import MapFrame, Places
-from fieldhand.robot.bindings import Ros2Bindings
+from fieldhand.execution.drivers.ros2.twin.ground import Places
+from fieldhand.robot.bindings import Datum, Ros2Bindings
 from fieldhand.site.model import Site
 
 #: Codes of Nav2's controller server, from Iron on: it made no progress; the robot's pose is not known; anything else.
@@ -34,7 +35,7 @@ class Navigation:
         bindings: Names the action and its frame.
         interfaces: Of the robot's release: what its results can say.
         body, site, places: What drives, and where.
-        frame: Where the map lies.
+        datum: Where the map lies.
         speed: How fast it may drive, in metres a second.
         now: Seconds.
         stamped: A header of a frame's name.
@@ -48,7 +49,7 @@ class Navigation:
         body: Body,
         site: Site,
         places: Places,
-        frame: MapFrame,
+        datum: Datum,
         *,
         speed: Callable[[], float],
         now: Callable[[], float],
@@ -56,7 +57,7 @@ class Navigation:
         say: Callable[[str, Progress], None],
     ) -> None:
         self._binding, self._interfaces = bindings.navigation, interfaces
-        self._body, self._site, self._places, self._frame = body, site, places, frame
+        self._body, self._site, self._places, self._datum = body, site, places, datum
         self._speed, self._now, self._stamped, self._say = speed, now, stamped, say
         self._result = f"{self._binding.type}_Result"
         self._goal: Goal | None = None
@@ -132,7 +133,7 @@ class Navigation:
             raise Ros2Error(f"the pose is in frame {frame!r}; the map is {self._binding.frame!r}")
         x, y, _ = _numbers(_part(body, "position"), "x", "y", "z")
         _upright(_part(body, "orientation"))
-        return self._frame.degrees(x, y)
+        return out_of_map(self._datum, (x, y))
 
     def _over(self, progress: Progress) -> None:
         self._end(progress, _CODES.get(progress.fault, _OTHERWISE))
@@ -168,16 +169,16 @@ class Navigation:
         if self._binding.type.endswith("/FollowGPSWaypoints"):
             return {"current_waypoint": _first(goal.asked) + self._index_ahead()}
         at = self._body.position
-        x, y = self._frame.of(at.lat, at.lon)
+        ((x, y),) = in_map(self._datum, [(at.lat, at.lon)])
         ahead = self._through[self._index_ahead() :]
         left_m = length_m(((at.x, at.y), *ahead))
-        yaw = self._frame.yaw(self._body.heading_deg)
+        yaw = math.radians(self._datum.heading_deg - self._body.heading_deg)
         feedback: dict[str, object] = {
             "current_pose": {
                 "header": self._stamped(self._binding.frame),
                 "pose": {
                     "position": {"x": x, "y": y, "z": 0.0},
-                    "orientation": {"x": 0.0, "y": 0.0, "z": math.sin(yaw / 2), "w": math.cos(yaw / 2)},
+                    "orientation": orientation(yaw),
                 },
             },
             "navigation_time": _duration(now - self._begun_s),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -13,12 +14,13 @@ from fieldhand.errors import InputError
 from fieldhand.execution.drivers.memory import Memory
 from fieldhand.execution.drivers.protocol import Progress
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.map_frame import in_map
 from fieldhand.execution.drivers.ros2.transport import Message, Quality, Server, Transport
 from fieldhand.execution.drivers.ros2.twin.action_server import ActionServer
 from fieldhand.execution.drivers.ros2.twin.body import Body
 from fieldhand.execution.drivers.ros2.twin.captures import Capturing, Served, serve_capture
 from fieldhand.execution.drivers.ros2.twin.feeds import Feeds
-from fieldhand.execution.drivers.ros2.twin.ground import MapFrame, Places
+from fieldhand.execution.drivers.ros2.twin.ground import Places
 from fieldhand.execution.drivers.ros2.twin.limit import SpeedLimit
 from fieldhand.execution.drivers.ros2.twin.messages import part_of
 from fieldhand.execution.drivers.ros2.twin.navigation import Navigation
@@ -34,7 +36,7 @@ _CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
 _CLOCK_QUALITY = Quality(reliable=False, depth=1)
 #: Seconds that a robot stands before its sensors measure, at the least; and how much of a second of the wall clock:
 #: between two goals of one drive it stands for as long as its client needs.
-_SETTLED_S, _SETTLED_WALL_S = 0.5, 0.1
+_SETTLED_S, _SETTLED_WALL_S = 0.5, 0.25
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -115,7 +117,7 @@ class SimulatedRobot:
         self._limit = SpeedLimit(transport, bindings, profile.speed_m_s)
         self._places = Places(site, profile)
         start = site.start
-        self._frame = MapFrame(bindings.navigation.datum or Datum(lat=start.lat, lon=start.lon))
+        self._datum = bindings.navigation.datum or Datum(lat=start.lat, lon=start.lon)
         self._served: list[Served] = [self._navigation(site, bindings, interfaces, transport)]
         self._feeds = Feeds(
             transport,
@@ -140,7 +142,7 @@ class SimulatedRobot:
             whole = bindings.whole_name(bindings.navigation.from_ll)
             self._from_ll = transport.serve(whole, "robot_localization/srv/FromLL")
         self._time = transport.publish("/clock", _CLOCK_TYPE, _CLOCK_QUALITY) if sim_time else None
-        self._settles_s = max(_SETTLED_S, _SETTLED_WALL_S * speed)
+        self._settles_s = max(_SETTLED_S, min(_SETTLED_WALL_S * speed, self._feeds.patience_s / 3.0))
         self._standing_s: float | None = None
         self._transport = transport
 
@@ -187,7 +189,7 @@ class SimulatedRobot:
             self.body,
             site,
             self._places,
-            self._frame,
+            self._datum,
             speed=self._limit.m_s,
             now=self._clock.now,
             stamped=self._stamped,
@@ -202,7 +204,7 @@ class SimulatedRobot:
 
     def _captured(self, whole: str) -> Callable[[str, Place, Progress], None]:
         def over(action: str, place: Place, progress: Progress) -> None:
-            self._feeds.captured(action, progress.readings)
+            self._feeds.captured(action, progress.readings, self._clock.now())
             self._tell(whole, progress.state, place, progress)
 
         return over
@@ -233,8 +235,8 @@ class SimulatedRobot:
         """Degrees to the map frame, as robot_localization's ``fromLL``."""
         assert self._from_ll is not None  # noqa: S101  asked for by who serves it
         point = part_of(request, "ll_point")
-        lat, lon = point.get("latitude"), point.get("longitude")
-        x, y = self._frame.of(float(lat), float(lon)) if isinstance(lat, float) and isinstance(lon, float) else (0, 0)
+        lat, lon = (float(v) if isinstance(v, float) else math.nan for v in map(point.get, ("latitude", "longitude")))
+        ((x, y),) = in_map(self._datum, [(lat, lon)])
         self._from_ll.reply(to, {"map_point": {"x": x, "y": y, "z": 0.0}})
 
     def _stamp(self) -> Mapping[str, int]:

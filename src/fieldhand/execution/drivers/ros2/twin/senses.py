@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from fieldhand.execution.drivers.ros2.fields import message_of
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.map_frame import orientation
 from fieldhand.execution.drivers.ros2.transport import Message, Publisher, Quality, Transport
 from fieldhand.execution.drivers.ros2.twin.body import Body
 from fieldhand.execution.drivers.ros2.twin.messages import as_sent, with_header
@@ -127,7 +128,7 @@ class Senses:
             "pose": {
                 "pose": {
                     "position": {"x": east, "y": north, "z": 0.0},
-                    "orientation": {"x": 0.0, "y": 0.0, "z": math.sin(yaw / 2), "w": math.cos(yaw / 2)},
+                    "orientation": orientation(yaw),
                 }
             },
             "twist": {"twist": {"linear": {"x": self._body.speed_m_s, "y": 0.0, "z": 0.0}}},
