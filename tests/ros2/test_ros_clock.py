@@ -95,6 +95,17 @@ def test_a_silent_clock_is_said() -> None:
     assert simulator.wall_s == pytest.approx(0.5, abs=0.05)
 
 
+def test_two_simulations_are_not_taken_for_one_and_one_that_ended_is_forgotten() -> None:
+    simulator = Simulator()
+    other = simulator.graph.node()
+    other.publish(TOPIC, TYPE)
+    with pytest.raises(Ros2Error, match=r"several simulations.*ROS_DOMAIN_ID"):
+        simulator.clock(within_s=0.5)
+    other.vanish()
+    simulator.clock(within_s=20.0)
+    assert simulator.wall_s >= simulator.graph.noticed_s
+
+
 def test_a_clock_of_another_type_is_said() -> None:
     simulator = Simulator()
     simulator.topic.close()

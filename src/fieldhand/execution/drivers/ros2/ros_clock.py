@@ -54,24 +54,30 @@ class RosClock:
         steady: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], None] = time.sleep,
     ) -> Self:
-        """The clock, once it was heard for the first time.
+        """The clock, once it was heard for the first time, from one alone.
 
         Args:
             transport, steady, sleep: As for the clock itself.
             within_s: How long to wait for that, in seconds of the steady clock.
 
         Raises:
-            Ros2Error: Nothing was heard.
+            Ros2Error: Nothing was heard, or several say the time.
         """
         clock = cls(transport, steady=steady, sleep=sleep)
         until_s = steady() + within_s
-        while not clock.known:
+        while not clock.known or len({peer.participant for peer in transport.writers_of(TOPIC)}) > 1:
+            if steady() >= until_s and clock.known:
+                raise Ros2Error(
+                    f"several simulations say their time on {TOPIC}",
+                    where=transport.name,
+                    advice="give each a ROS_DOMAIN_ID of its own: a namespace does not part them",
+                )
             if steady() >= until_s:
                 offered = any(peer.type != TYPE for peer in transport.writers_of(TOPIC))
                 why = "is of another type" if offered else "is silent"
                 raise Ros2Error(
                     f"{TOPIC} {why}, and the robot's time is to be taken from it ({TYPE})",
-                    where=f"{transport.name}",
+                    where=transport.name,
                     advice="start the simulation, or leave use_sim_time out for a robot in real time",
                 )
             sleep(_LOOK_S)

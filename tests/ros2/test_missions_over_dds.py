@@ -1,0 +1,296 @@
+"""Whole missions over DDS, with a robot in another process: they go as in the plain simulation, whatever is killed.
+
+The robot's own account says what it has done; what the mission's log says is held against that.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from command import fieldhand, in_background
+from fieldhand import mission, missions
+from fieldhand.approval.authorize import EveryWarning
+from fieldhand.bench.missions.case_file import load_cases
+from fieldhand.bench.missions.ground import load_ground
+from fieldhand.bench.missions.judge import judge
+from fieldhand.bench.missions.log import read_log
+from fieldhand.cli.demo import REQUEST
+from fieldhand.execution.drivers.ros2.boarding import board
+from fieldhand.execution.journal import store
+from fieldhand.execution.vehicle import Vehicle
+from fieldhand.execution.world import World, parse_world
+from fieldhand.planning.english.planner import EnglishPlanner
+from fieldhand.planning.planner import Planned
+from fieldhand.robot.loader import load_robot, profile_bytes
+from fieldhand.site.geojson import open_site, site_files
+from fieldhand.task.authorization import AuthorizedTask
+from fieldhand.task.codec import encode
+from fieldhand.task.event_lines import to_json
+from fieldhand.task.results import Acted, Arrived, Ended, Event, InDoubt, Paused, Resumed
+from outside_referee import CASES, HERE, ground, referee
+from ros2.patience import until
+from ros2.sim_robots import SimRobot, sim_robot, through_poses
+
+pytest.importorskip("cyclonedds")
+
+#: Its seconds in one of ours.
+FAST = "50"
+#: Cases that stand beside the project, else of our own.
+CHOSEN = (
+    (str(CASES), (("four-trees-two-sensors", 0), ("five-nested-ifs", 0), ("relative-conditionals", 0)))
+    if HERE
+    else ("builtin", (("low-co2", 0), ("either-of-two-readings", 0), ("tree-and-neighbours", 0)))
+)
+
+
+@pytest.fixture(autouse=True)
+def _no_waiting(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A robot that is killed is forgotten after three seconds, not ten."""
+    monkeypatch.setattr(store, "SYNCHRONOUS", "OFF")
+    lease = "<Discovery><LeaseDuration>3s</LeaseDuration></Discovery>"
+    monkeypatch.setenv("CYCLONEDDS_URI", os.environ["CYCLONEDDS_URI"].replace("</Domain>", f"{lease}</Domain>"))
+
+
+def captures(events: Sequence[Event]) -> list[tuple[str, str, dict[str, float]]]:
+    """Each capture that was made, in its order: what, where, and what it measured."""
+    return [
+        (e.action, e.place, {name: pytest.approx(value, rel=1e-4) for name, value in e.readings.items()})
+        for e in events
+        if isinstance(e, Acted) and e.status == "success"
+    ]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """An approved mission.
+
+    Attributes:
+        site, robot: Files, or names of what is built in.
+    """
+
+    authorized: AuthorizedTask
+    site: str
+    robot: str = "husky"
+
+    @classmethod
+    def of(cls, request: str, *, site: str = "demo", robot: str = "husky") -> Plan:
+        place, profile = open_site(site), load_robot(robot)
+        outcome = mission.plan(request, place, profile, EnglishPlanner())
+        assert isinstance(outcome, Planned), outcome
+        at = datetime(2026, 1, 1, tzinfo=UTC)
+        approved = mission.authorize(outcome.task, place, profile, by="tester", at=at, confirmed=EveryWarning())
+        return cls(authorized=approved, site=site, robot=robot)
+
+    def simulated(self, world: World, seed: int = 0) -> tuple[Event, ...]:
+        """What happens in the plain simulation."""
+        site, robot = open_site(self.site), load_robot(self.robot)
+        return mission.simulate(
+            self.authorized, site, robot, world=world, seed=seed, speed=None, emit=lambda _: None
+        ).events
+
+    def kept(self, under: Path, vehicle: Vehicle) -> missions.Mission:
+        """Its folder."""
+        inputs = missions.Inputs(
+            task=encode(self.authorized.task),
+            site=site_files(self.site).parts,
+            robot=profile_bytes(self.robot)[0],
+            authorization=self.authorized.authorization,
+            departure=missions.departure_on(vehicle),
+        )
+        return missions.open_mission(missions.begin(under, "m1", inputs))
+
+    def carried_out(
+        self, under: Path, robot_there: SimRobot, emit: Callable[[Path, Event], None] = lambda *_: None
+    ) -> tuple[Event, ...]:
+        """What happens on the robot that answers."""
+        site, robot = open_site(self.site), load_robot(self.robot)
+        with board(site, robot, self.authorized.task, robot_there.by) as vehicle:
+            missions.require_in_place(site, robot, vehicle.driver)
+            given = self.kept(under, vehicle)
+            return missions.carry_out(given, vehicle=vehicle, emit=lambda event: emit(given.folder, event)).events
+
+
+# --- as in simulation -----------------------------------------------------------------------------------------------
+
+
+def test_the_demo_goes_as_in_simulation(tmp_path: Path) -> None:
+    """The command as a user gives it; what it may drive is just enough for some of the visits."""
+    husky = str(through_poses(tmp_path))
+    run = ("run", REQUEST, "--site", "demo", "--robot", husky, "--seed", "7", "--yes", "--confirm", "--json")
+    with sim_robot(tmp_path, "--site", "demo", "--robot", husky, "--seed", "7", "--speed", "100") as robot:
+        real = fieldhand(
+            *run, "--missions", str(tmp_path / "m"), "--events", str(tmp_path / "real.jsonl"), *robot.reached
+        )
+        assert real.status == 0, real.err
+        made = robot.made("take_picture")
+    plain = fieldhand(*run, "--missions", str(tmp_path / "plain"), "--events", str(tmp_path / "plain.jsonl"))
+    there, here = (read(tmp_path / name) for name in ("real.jsonl", "plain.jsonl"))
+    assert there == here
+    assert len(there) > 8
+    assert sum(made.values()) == sum(1 for action, *_ in there if action == "take_thermal_picture")
+    said = json.loads(real.out)
+    assert (said["status"], said["mission"] != "") == (json.loads(plain.out)["status"], True)
+    (folder,) = (tmp_path / "m").iterdir()
+    begun = missions.begun_on(folder)
+    assert begun is not None
+    assert begun.by.transport == "dds"
+
+
+def read(log: Path) -> list[Any]:
+    """The captures of an event log, in their order."""
+    lines = [json.loads(line) for line in log.read_text().splitlines()]
+    return [
+        (e["action"], e["place"], {k: pytest.approx(v, rel=1e-4) for k, v in e["readings"].items()})
+        for e in lines
+        if e["event"] == "action" and e["status"] == "success"
+    ]
+
+
+@pytest.mark.parametrize(("name", "number"), CHOSEN[1])
+def test_a_case_ends_as_it_was_meant(name: str, number: int, tmp_path: Path) -> None:
+    """As in simulation, and right by every judge that is here."""
+    (case,) = (case for case in load_cases([CHOSEN[0]]) if case.id == name)
+    meant = _written(name)["worlds"][number]
+    world = tmp_path / "world.yaml"
+    world.write_text(yaml.safe_dump({"readings": meant.get("readings", {})}))
+    plan = Plan.of(case.request, site=str(case.site), robot=case.robot)
+    with sim_robot(
+        tmp_path, "--site", str(case.site), "--robot", case.robot, "--world", str(world), "--speed", "100"
+    ) as robot:
+        events = plan.carried_out(tmp_path, robot)
+    assert captures(events) == captures(plan.simulated(parse_world(yaml.safe_load(world.read_text()))))
+    lines = [to_json(event) for event in events]
+    view = load_ground(case.site)
+    assert judge(view, case.worlds[number].expected, read_log(lines, view)) == ()
+    if HERE:
+        assert referee().judge(ground(case.site), meant["expect"], [json.loads(line) for line in lines]) is None
+
+
+def _written(name: str) -> Any:
+    """A case as its file has it."""
+    builtin = Path(load_cases.__code__.co_filename).parent / "builtin"
+    files = [CASES] if HERE else sorted(builtin.glob("*.yaml"))
+    return next(case for file in files for case in yaml.safe_load(file.read_text())["cases"] if case["id"] == name)
+
+
+# --- what a person wants --------------------------------------------------------------------------------------------
+
+
+def test_pause_return_and_abort(tmp_path: Path) -> None:
+    """One mission after the other on one robot: each begins where the last has left it."""
+    with sim_robot(tmp_path, "--site", "demo", "--speed", "20") as robot:
+        _pause_and_return(robot, tmp_path / "first")
+        _abort(robot, tmp_path / "second")
+
+
+def _pause_and_return(robot: SimRobot, folder: Path) -> None:
+    """The pause breaks a drive off; what was told to come home leaves the rest and comes home."""
+    told: list[str] = []
+
+    def tell(mission_folder: Path, event: Event) -> None:
+        match event:
+            case Acted() if "pause" not in told:
+                told.append("pause")
+                missions.order(mission_folder, "pause", "lunch")
+            case Paused():
+                told.append("continue")
+                missions.order(mission_folder, "continue", "lunch is over")
+            case Acted() if told[-1] == "continue":
+                told.append("return")
+                missions.order(mission_folder, "return", "rain")
+            case _:
+                pass
+
+    events = Plan.of("Take a picture at trees 5, 6 and 7.").carried_out(folder, robot, tell)
+    assert told == ["pause", "continue", "return"]
+    ended = events[-1]
+    assert isinstance(ended, Ended)
+    assert (ended.status, ended.reason) == ("aborted", "rain")
+    assert len(captures(events)) == 2
+    site = open_site("demo")
+    arrived = [e for e in events if isinstance(e, Arrived)][-1]
+    assert arrived.place in ("start", "end")
+    home = site.markers[arrived.place]
+    assert (ended.lat, ended.lon) == pytest.approx((home.lat, home.lon), abs=2e-5)
+
+
+def _abort(robot: SimRobot, folder: Path) -> None:
+    """The robot stands where it was, and its log and the mission's say the same."""
+    before = len(robot.account())
+
+    def tell(mission_folder: Path, event: Event) -> None:
+        if isinstance(event, Acted):
+            missions.order(mission_folder, "abort", "a child on the field")
+
+    events = Plan.of("Take a picture at trees 5 and 40.").carried_out(folder, robot, tell)
+    ended = events[-1]
+    assert isinstance(ended, Ended)
+    assert (ended.status, ended.reason) == ("aborted", "a child on the field")
+    assert len(captures(events)) == 1
+    drives = [line for line in robot.account()[before:] if line["event"] == "goal" and "navigate" in line["name"]]
+    assert {line["end"] for line in drives} <= {"succeeded", "cancelled"}
+
+
+# --- kill -9 --------------------------------------------------------------------------------------------------------
+
+TREES = ("5", "6", "7", "8", "9")
+PICTURES = f"Take a thermal picture at trees {', '.join(TREES[:-1])} and {TREES[-1]}."
+
+
+def each_once(folder: Path, robot: SimRobot) -> None:
+    """Every tree has its picture, by the mission's log and by the robot's own account; one in doubt may have two."""
+    events = missions.events_of(folder)
+    logged = Counter(place for _, place, _ in captures(events))
+    doubtful = {e.place for e in events if isinstance(e, InDoubt)}
+    assert logged == Counter(TREES)
+    made = robot.made("take_picture")
+    assert {place.removeprefix("tree ") for place in made} == set(TREES)
+    for place, times in made.items():
+        assert times == 1 or place.removeprefix("tree ") in doubtful
+
+
+def test_the_program_is_killed_and_goes_on(tmp_path: Path) -> None:
+    under = tmp_path / "m"
+    with sim_robot(tmp_path, "--site", "demo", "--speed", FAST) as robot:
+        run = ("run", PICTURES, "--site", "demo", "--yes", "--confirm", "--missions", str(under), *robot.reached)
+        with in_background(*run, out=tmp_path / "run.txt"):
+            until(lambda: sum(made_in(under).values()) >= 2, 60)
+        (folder,) = under.iterdir()
+        until(lambda: not missions.is_running(folder))
+        assert missions.status(folder).now.state == "interrupted"
+        done = fieldhand("resume", "--missions", str(under), "--json")
+        assert done.status == 0, done.err
+        assert len([e for e in missions.events_of(folder) if isinstance(e, Resumed)]) == 1
+        each_once(folder, robot)
+
+
+def made_in(under: Path) -> Counter[str]:
+    """Captures in the journal of the only mission."""
+    folders = [folder for folder in under.glob("*") if missions.exists(folder)]
+    return Counter(place for folder in folders for _, place, _ in captures(missions.events_of(folder)))
+
+
+def test_the_robot_is_killed_and_goes_on(tmp_path: Path) -> None:
+    """It is switched on again at once, before anybody has noticed."""
+    with sim_robot(tmp_path, "--site", "demo", "--speed", FAST) as robot:
+
+        def strike(_: Path, event: Event) -> None:
+            if isinstance(event, Acted) and robot.lives == 1:
+                robot.kill()
+                robot.begin()
+
+        plan = Plan.of(PICTURES)
+        events = plan.carried_out(tmp_path, robot, strike)
+        assert isinstance(events[-1], Ended)
+        assert events[-1].status == "completed", events[-1].reason
+        each_once(tmp_path / "m1", robot)
