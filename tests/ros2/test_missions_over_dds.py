@@ -6,16 +6,19 @@ The robot's own account says what it has done; what the mission's log says is he
 from __future__ import annotations
 
 import json
+import math
 import os
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
 import yaml
+from typer.testing import CliRunner
 
 from command import fieldhand, in_background
 from fieldhand import mission, missions
@@ -24,7 +27,10 @@ from fieldhand.bench.missions.case_file import load_cases
 from fieldhand.bench.missions.ground import load_ground
 from fieldhand.bench.missions.judge import judge
 from fieldhand.bench.missions.log import read_log
+from fieldhand.cli.app import assemble
 from fieldhand.cli.demo import REQUEST
+from fieldhand.errors import Ros2Error
+from fieldhand.execution.drivers.ros2 import boarding
 from fieldhand.execution.drivers.ros2.boarding import board
 from fieldhand.execution.journal import store
 from fieldhand.execution.vehicle import Vehicle
@@ -45,6 +51,8 @@ pytest.importorskip("cyclonedds")
 
 #: Its seconds in one of ours.
 FAST = "50"
+#: Metres from where it stood after which a robot is on its way.
+SOME_M = 5.0
 #: Cases that stand beside the project, else of our own.
 CHOSEN = (
     (str(CASES), (("four-trees-two-sensors", 0), ("five-nested-ifs", 0), ("relative-conditionals", 0)))
@@ -110,14 +118,31 @@ class Plan:
         return missions.open_mission(missions.begin(under, "m1", inputs))
 
     def carried_out(
-        self, under: Path, robot_there: SimRobot, emit: Callable[[Path, Event], None] = lambda *_: None
+        self,
+        under: Path,
+        robot_there: SimRobot,
+        emit: Callable[[Path, Event], None] = lambda *_: None,
+        under_way: Callable[[Path], None] = lambda _: None,
     ) -> tuple[Event, ...]:
-        """What happens on the robot that answers."""
+        """What happens on the robot that answers.
+
+        Args:
+            emit: Takes each event, with the mission's folder.
+            under_way: Called at each tick once the robot is some metres from where it stood.
+        """
         site, robot = open_site(self.site), load_robot(self.robot)
         with board(site, robot, self.authorized.task, robot_there.by) as vehicle:
             missions.require_in_place(site, robot, vehicle.driver)
-            given = self.kept(under, vehicle)
-            return missions.carry_out(given, vehicle=vehicle, emit=lambda event: emit(given.folder, event)).events
+            given, stood = self.kept(under, vehicle), vehicle.driver.position()
+
+            def look() -> None:
+                at = vehicle.driver.position()
+                if math.dist((at.x, at.y), (stood.x, stood.y)) > SOME_M:
+                    under_way(given.folder)
+
+            return missions.carry_out(
+                given, vehicle=vehicle, emit=lambda event: emit(given.folder, event), interrupted=look
+            ).events
 
 
 # --- as in simulation -----------------------------------------------------------------------------------------------
@@ -197,48 +222,70 @@ def _pause_and_return(robot: SimRobot, folder: Path) -> None:
     """The pause breaks a drive off; what was told to come home leaves the rest and comes home."""
     told: list[str] = []
 
-    def tell(mission_folder: Path, event: Event) -> None:
+    def tell(kept: Path, event: Event) -> None:
         match event:
-            case Acted() if "pause" not in told:
-                told.append("pause")
-                missions.order(mission_folder, "pause", "lunch")
             case Paused():
                 told.append("continue")
-                missions.order(mission_folder, "continue", "lunch is over")
-            case Acted() if told[-1] == "continue":
+                missions.order(kept, "continue", "lunch is over")
+            case Acted():
                 told.append("return")
-                missions.order(mission_folder, "return", "rain")
+                missions.order(kept, "return", "rain")
             case _:
                 pass
 
-    events = Plan.of("Take a picture at trees 5, 6 and 7.").carried_out(folder, robot, tell)
+    def pause(kept: Path) -> None:
+        if not told:
+            told.append("pause")
+            missions.order(kept, "pause", "lunch")
+
+    events = Plan.of("Take a picture at trees 5, 6 and 7.").carried_out(folder, robot, tell, pause)
     assert told == ["pause", "continue", "return"]
     ended = events[-1]
     assert isinstance(ended, Ended)
     assert (ended.status, ended.reason) == ("aborted", "rain")
-    assert len(captures(events)) == 2
-    site = open_site("demo")
+    assert len(captures(events)) == sum(robot.made("take_picture").values()) == 1
+    assert drives(robot, since=0).count("cancelled") == 1
     arrived = [e for e in events if isinstance(e, Arrived)][-1]
     assert arrived.place in ("start", "end")
-    home = site.markers[arrived.place]
+    home = open_site("demo").markers[arrived.place]
     assert (ended.lat, ended.lon) == pytest.approx((home.lat, home.lon), abs=2e-5)
 
 
 def _abort(robot: SimRobot, folder: Path) -> None:
-    """The robot stands where it was, and its log and the mission's say the same."""
+    """The robot stands still on its way, where the mission's log says."""
     before = len(robot.account())
 
-    def tell(mission_folder: Path, event: Event) -> None:
-        if isinstance(event, Acted):
-            missions.order(mission_folder, "abort", "a child on the field")
+    told: list[Path] = []
 
-    events = Plan.of("Take a picture at trees 5 and 40.").carried_out(folder, robot, tell)
+    def abort(kept: Path) -> None:
+        if not told:
+            told.append(kept)
+            missions.order(kept, "abort", "a child on the field")
+
+    events = Plan.of("Take a picture at trees 5 and 40.").carried_out(folder, robot, under_way=abort)
     ended = events[-1]
     assert isinstance(ended, Ended)
     assert (ended.status, ended.reason) == ("aborted", "a child on the field")
-    assert len(captures(events)) == 1
-    drives = [line for line in robot.account()[before:] if line["event"] == "goal" and "navigate" in line["name"]]
-    assert {line["end"] for line in drives} <= {"succeeded", "cancelled"}
+    assert captures(events) == []
+    assert drives(robot, since=before)[-1] == "cancelled"
+
+
+def drives(robot: SimRobot, *, since: int) -> list[str]:
+    """How its drives ended, of what it has said since."""
+    said = [line for line in robot.account()[since:] if line["event"] == "goal"]
+    return [line["end"] for line in said if "navigate" in line["name"]]
+
+
+def test_a_robot_that_does_not_answer_leaves_no_mission_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(boarding, "board", partial(board, within_s=0.2))
+    words = ("run", "Measure CO2 at tree 5.", "--site", "demo", "--yes", "--confirm", "--on", "dds", "--namespace", "x")
+    done = CliRunner().invoke(assemble(), (*words, "--missions", str(tmp_path)))
+    assert isinstance(done.exception, Ros2Error)
+    assert done.exception.exit_status == 1
+    for what in ("/x/navigate_to_pose", "/x/fromLL", "/x/gps/fix", "/x/battery_state", "/x/co2_sensor/read"):
+        assert what in str(done.exception)
+    assert "thermal_camera" not in str(done.exception)
+    assert list(tmp_path.iterdir()) == []
 
 
 # --- kill -9 --------------------------------------------------------------------------------------------------------
