@@ -12,14 +12,15 @@ from hypothesis import strategies as st
 
 from driver_contract import DriverContract, drive_goal, finish
 from examples import examples
-from fieldhand.clock import Clock
+from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver
 from fieldhand.execution.drivers.ros2.driver import LOST_S, Ros2Driver
 from fieldhand.execution.drivers.ros2.goal import CANCEL_S, ActionClient
+from fieldhand.execution.drivers.ros2.senses import Senses
 from fieldhand.site.model import Place, Site
 from rig import husky
-from ros2.in_memory import Disturbed
+from ros2.in_memory import Disturbed, Graph
 from ros2.scripted import Script, ScriptedAction
 from ros2.scripted_robot import ACTIONS, SAMPLED, SITE, World, bindings, navigating, world
 
@@ -410,6 +411,35 @@ def test_odometry_that_is_set_anew_has_driven_nothing() -> None:
     w.robot.driven_m -= 500.0
     progress = finish(driver, w.clock)
     assert progress.metres == pytest.approx(w.robot.driven_m + 500.0, abs=1.0)
+
+
+def test_messages_that_are_taken_together_were_not_sent_together() -> None:
+    """What was driven between them is told from a jump by their own stamps."""
+    clock = SimulatedClock()
+    graph = Graph(clock.now)
+    senses = Senses(graph.node(), bindings(), SITE.projection, speed_m_s=1.0, clock=clock.now, steady=clock.now)
+    topic = graph.node().publish("/husky/odom", "nav_msgs/msg/Odometry")
+    for seconds, x in ((0, 0.0), (5, 5.0), (10, 10.0), (11, 500.0), (16, 505.0)):
+        topic.send(
+            {"header": {"stamp": {"sec": seconds, "nanosec": 0}}, "pose": {"pose": {"position": {"x": x, "y": 0.0}}}}
+        )
+    senses.listen()
+    assert senses.metres == pytest.approx(15.0)
+
+
+def test_metres_that_are_told_late_count() -> None:
+    """Nobody listened for a while, and the last of them come after the drive is over."""
+    w = world()
+    w.graph.disturb("*odom", Disturbed(delay_s=(0.3, 0.3)))
+    driver = w.connect()
+    driver.start_drive(drive())
+    for _ in range(3):
+        for _ in range(20):
+            w.clock.advance(0.25)
+            w.robot.step()
+    progress = finish(driver, w.clock)
+    assert progress.state == "succeeded"
+    assert progress.metres == pytest.approx(w.robot.driven_m, abs=0.1)
 
 
 def test_a_robot_that_is_killed_in_mid_drive_fails_the_drive() -> None:

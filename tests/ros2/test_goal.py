@@ -201,6 +201,18 @@ def test_one_that_refuses_to_be_cancelled_is_said_to_move_still() -> None:
     assert (outcome.how, outcome.moving, outcome.what) == ("untold", True, "/navigate refuses to be cancelled")
 
 
+def test_a_server_gets_the_goal_once_the_one_before_it_that_was_killed_is_forgotten() -> None:
+    r = rig(Script())
+    killed = r.graph.node()
+    before = ScriptedAction(killed, NAME, TYPE, r.clock.now, lambda goal: Script())
+    killed.vanish()
+    r.client.start({"number": 0})
+    assert r.finish().how == "succeeded"
+    assert r.clock.now() >= NOTICED_S
+    assert len(r.server.received) == 1
+    assert not before.received
+
+
 def test_two_servers_get_no_goal() -> None:
     r = rig(Script())
     second = ScriptedAction(r.graph.node(), NAME, TYPE, r.clock.now, lambda goal: Script())
