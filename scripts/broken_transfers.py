@@ -79,7 +79,7 @@ class Field:
         command = [sys.executable, "-m", "fieldhand", "agent", "--robot", "husky", "--site", "demo"]
         command += ["--store", str(self.folder / "store"), "--port", str(self.port), "--speed", "max"]
         self.agent = subprocess.Popen(command, env=self.env, stderr=subprocess.PIPE)
-        for _ in range(600):
+        for _ in range(2400):
             with suppress(OSError), closing(socket.create_connection(("127.0.0.1", self.port), timeout=1)):
                 return
             if self.agent.poll() is not None:
@@ -319,7 +319,7 @@ def transfer(field: Field, judge: Judge, kind: str, waiting: str, before: bytes 
         judge.allowed.add(name)
         link.deliver(data, unseal(data, source="m").hashes)
         link.order(name, "start")
-        for _ in range(600):
+        for _ in range(2400):
             stands = link.events(name, 0, 0.2)
             if stands.idle and stands.mission.state == "ended":
                 break

@@ -185,6 +185,7 @@ def test_what_has_ended_is_reported_once_before_the_next_begins(station: Station
     station.crew.join(30)
     station.again()
     station.crew.make_up()
+    station.crew.join(30)
     assert reported == [first.name, second.name]
 
 
@@ -200,20 +201,25 @@ def test_a_report_that_could_not_be_written_is_made_up_for(station: Station, cut
     found = standing(station, good())
     assert (found.state, found.status, found.report) == ("ended", "completed", "")
     assert ("the disk is full" in found.fault) == (cut == "disk")
-    station.conclude = lambda given: (given.folder / "report.html").write_text("done")
+    gate = threading.Event()
+    station.conclude = lambda given: gate.wait(30) and (given.folder / "report.html").write_text("done")
     station.again()
-    assert standing(station, good()).report == ""
     station.crew.make_up()
+    assert standing(station, good()).report == "", "the agent answers while it is written"
+    gate.set()
+    station.crew.join(30)
     assert standing(station, good()).report.endswith("report.html")
 
 
 def test_an_agent_on_which_nothing_ran_has_nothing_to_make_up_for(station: Station) -> None:
     station.conclude = lambda _: pytest.fail("there is nothing to report")
     station.crew.make_up()
+    station.crew.join(30)
     station.carry = lambda _: None
     tell(station, good(), "start")
     station.again()
     station.crew.make_up()
+    station.crew.join(30)
 
 
 @pytest.mark.parametrize("said", ["pause", "resume", "return", "abort"])

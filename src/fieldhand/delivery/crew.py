@@ -169,16 +169,21 @@ class Crew:
         return cut.sha256
 
     def make_up(self) -> None:
-        """Report the mission that was begun last, if it has ended and the power went before its report was written."""
+        """Report the mission that was begun last, if it has ended and the power went before its report was written.
+
+        It goes on in a thread of its own, as a mission does: the agent answers meanwhile.
+        """
         held = self._depot.last_begun()
         standing = None if held is None else self.standing(held)
         if standing is None or standing.state != "ended" or standing.report:
             return
         self._ended.pop(standing.held.sha256, None)
         try:
-            self._conclude(self._read(standing.held))
+            given = self._read(standing.held)
         except FieldhandError as error:
             log.warning("mission %s: %s", standing.held.name, error)
+            return
+        self._begin_thread(standing.held, lambda: self._conclude(given))
 
     def rest(self, wait: Callable[[], bool]) -> None:
         """Let the mission under way stand still, because the program ends; ``resume`` goes on with it."""
@@ -271,10 +276,16 @@ class Crew:
         self._faults.pop(held.sha256, None)
 
         def carry() -> None:
+            self._carry(given)
+            if missions.status(given.folder).now.state == "ended":
+                self._conclude(given)
+
+        self._begin_thread(held, carry)
+
+    def _begin_thread(self, held: Held, work: Callable[[], object]) -> None:
+        def run() -> None:
             try:
-                self._carry(given)
-                if missions.status(given.folder).now.state == "ended":
-                    self._conclude(given)
+                work()
             except FieldhandError as error:
                 self._faults[held.sha256] = str(error)
                 log.warning("mission %s: %s", held.name, error)
@@ -284,7 +295,7 @@ class Crew:
                 log.exception("mission %s", held.name)
 
         self._active = held.sha256
-        self._thread = threading.Thread(target=carry, name=f"mission {held.name}", daemon=True)
+        self._thread = threading.Thread(target=run, name=f"mission {held.name}", daemon=True)
         self._thread.start()
 
 
