@@ -125,7 +125,14 @@ def test_a_file_of_a_gigabyte_is_refused_by_its_size(tmp_path: Path, monkeypatch
     path = tmp_path / "big.mission"
     with path.open("wb") as file:
         file.truncate(1_000_000_000)
-    monkeypatch.setattr(Path, "open", lambda *_: pytest.fail("it was opened"))
+    opened = Path.open
+
+    def unread(path: Path, mode: str) -> Any:
+        file = opened(path, mode, buffering=0)
+        monkeypatch.setattr(file, "read", lambda *_: pytest.fail("it was read"), raising=False)
+        return file
+
+    monkeypatch.setattr(Path, "open", unread)
     with pytest.raises(BundleError, match="1,000 MB"):
         read_bundle_file(path)
 

@@ -33,6 +33,7 @@ COMMANDS: dict[str, tuple[str, ...]] = {
     "watch": ("https://127.0.0.1:1",),
     "keys new": ("--name", "Ada"),
     "robot show": ("husky",),
+    "sim-robot": ("--site", "demo"),
     "robot calibrate": ("husky",),
     "bench orienteering": (
         "--graphs",
@@ -48,7 +49,7 @@ READ = {"--world", "--task", "--missions", "--token-file", "--ca", "--graphs"}
 def commands(app: typer.Typer, before: str = "") -> Iterator[tuple[str, Callable[..., None]]]:
     for command in app.registered_commands:
         assert command.callback is not None
-        yield f"{before}{command.name or command.callback.__name__}", command.callback
+        yield f"{before}{command.name or command.callback.__name__.replace('_', '-')}", command.callback
     for group in app.registered_groups:
         assert group.typer_instance is not None
         yield from commands(group.typer_instance, f"{before}{group.typer_instance.info.name} ")
