@@ -21,6 +21,9 @@ from typing import Literal, Protocol
 
 Message = Mapping[str, object]
 
+#: Bytes of a message that is read. Nothing that a mission needs is larger, and in memory it grows a hundredfold.
+MOST_BYTES = 4 * 1024 * 1024
+
 #: What implements ROS's middleware at the other end, where it can be told.
 Rmw = Literal["cyclonedds", "fastrtps", "connext", "zenoh", "unknown"]
 

@@ -13,7 +13,7 @@ from cyclonedds.pub import DataWriter, Publisher
 from cyclonedds.sub import DataReader, Subscriber
 from cyclonedds.topic import Topic
 
-from fieldhand.errors import InputError, Ros2Error
+from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.ros2.dds import names
 from fieldhand.execution.drivers.ros2.dds.discovery import Discovery
 from fieldhand.execution.drivers.ros2.dds.names import UserData
@@ -21,11 +21,10 @@ from fieldhand.execution.drivers.ros2.dds.quality import qos_of
 from fieldhand.execution.drivers.ros2.dds.services import SERVICE, DdsClient, DdsServer
 from fieldhand.execution.drivers.ros2.dds.topics import DdsPublisher, DdsSubscription, close
 from fieldhand.execution.drivers.ros2.dds.wire import Wire
+from fieldhand.execution.drivers.ros2.domain import domain_of
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.transport import SENSOR, Peer, Quality
 
-#: Of domains, where ports are left for 120 processes (RTPS 9.6.1).
-_MOST_DOMAIN = 232
 #: What DDS takes off the network before we see it: more than a picture of a good camera has.
 _MOST_RECEIVED = "32 MiB"
 
@@ -47,7 +46,7 @@ class DdsTransport:
     """
 
     def __init__(self, interfaces: Interfaces, domain: int | None = None) -> None:
-        self.domain = _domain(domain)
+        self.domain = domain_of(domain)
         self.interfaces = interfaces
         self._wire = Wire(interfaces)
         self._ends: list[Any] = []
@@ -136,14 +135,6 @@ def _bounded(domain: int) -> Domain | None:
         if error.code == DDSException.DDS_RETCODE_PRECONDITION_NOT_MET:
             return None
         raise
-
-
-def _domain(given: int | None) -> int:
-    text = str(given) if given is not None else os.environ.get("ROS_DOMAIN_ID", "").strip() or "0"
-    if not text.isascii() or not text.isdigit() or int(text) > _MOST_DOMAIN:
-        where = "" if given is not None else "ROS_DOMAIN_ID"
-        raise InputError(f"{text!r} is no DDS domain", where=where, advice=f"give a number from 0 to {_MOST_DOMAIN}")
-    return int(text)
 
 
 def _new_id() -> str:

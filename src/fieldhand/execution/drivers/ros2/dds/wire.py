@@ -10,10 +10,7 @@ from cyclonedds.idl import make_idl_struct, types
 
 from fieldhand.execution.drivers.ros2.dds.names import wire_type
 from fieldhand.execution.drivers.ros2.interfaces import FieldType, Interfaces
-from fieldhand.execution.drivers.ros2.transport import Message
-
-#: Bytes of a message that is read. Nothing that a mission needs is larger, and in memory it grows a hundredfold.
-MOST_BYTES = 4 * 1024 * 1024
+from fieldhand.execution.drivers.ros2.transport import MOST_BYTES, Message
 
 #: No field of ROS ends like this, and no name of Python's does: ``from``, ``serialize``.
 _END = "_"

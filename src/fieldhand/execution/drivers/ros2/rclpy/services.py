@@ -1,0 +1,93 @@
+"""Endpoints of services."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rclpy.impl.implementation_singleton import rclpy_implementation
+
+from fieldhand.execution.drivers.ros2.rclpy import types
+from fieldhand.execution.drivers.ros2.rclpy.discovery import Discovery
+from fieldhand.execution.drivers.ros2.transport import Message, Quality
+
+RCLError = rclpy_implementation.RCLError
+
+#: Reliable, volatile, keep the last 10, as ROS has it.
+SERVICE = Quality()
+
+
+class RclpyClient:
+    """A :class:`~fieldhand.execution.drivers.ros2.transport.Client`.
+
+    Requests go past rclpy's own futures, which would wait for an executor: the middleware numbers them, and replies
+    carry the number.
+    """
+
+    def __init__(self, node: Any, discovery: Discovery, service: str, service_type: str, client: Any) -> None:
+        self._node, self._discovery, self._service = node, discovery, service
+        self._type, self._client = service_type, client
+        self._last = 0
+        self.open = True
+
+    def servers(self) -> int:
+        # Ready means that one can hear and be heard; some middlewares ask for the name alone.
+        if not self.open or not self._client.service_is_ready():
+            return 0
+        return sum(peer.type == self._type for peer in self._discovery.servers_of(self._service))
+
+    def ask(self, request: Message) -> int:
+        sample = types.packed(f"{self._type}_Request", request)
+        if self.open:
+            with self._client.handle:
+                self._last = int(self._client.handle.send_request(sample))
+        return self._last
+
+    def replies(self) -> tuple[tuple[int, Message], ...]:
+        taken: list[tuple[int, Message]] = []
+        for _ in range(SERVICE.depth if self.open else 0):
+            try:
+                with self._client.handle:
+                    header, response = self._client.handle.take_response(self._client.srv_type.Response)
+                if header is None:
+                    break
+                reply = types.unpacked(f"{self._type}_Response", response)
+            except (RCLError, ValueError):
+                continue  # what does not fit its type is lost, as on any network
+            taken.append((int(header.request_id.sequence_number), reply))
+        return tuple(taken)
+
+    def close(self) -> None:
+        if self.open:
+            self.open = False
+            self._node.destroy_client(self._client)
+
+
+class RclpyServer:
+    """A :class:`~fieldhand.execution.drivers.ros2.transport.Server`."""
+
+    def __init__(self, node: Any, service_type: str, service: Any) -> None:
+        self._node, self._type, self._server = node, service_type, service
+        self.open = True
+
+    def requests(self) -> tuple[tuple[object, Message], ...]:
+        taken: list[tuple[object, Message]] = []
+        for _ in range(SERVICE.depth if self.open else 0):
+            try:
+                with self._server.handle:
+                    request, header = self._server.handle.service_take_request(self._server.srv_type.Request)
+                if header is None or request is None:
+                    break
+                taken.append((header, types.unpacked(f"{self._type}_Request", request)))
+            except (RCLError, ValueError):
+                continue  # what does not fit its type is lost, as on any network
+        return tuple(taken)
+
+    def reply(self, to: object, response: Message) -> None:
+        sample = types.packed(f"{self._type}_Response", response)
+        if self.open:
+            self._server.send_response(sample, to)
+
+    def close(self) -> None:
+        if self.open:
+            self.open = False
+            self._node.destroy_service(self._server)

@@ -1,0 +1,130 @@
+"""A node of a ROS 2 graph by rclpy."""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, TypeVar
+
+from rclpy.context import Context
+from rclpy.exceptions import NameValidationException
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.node import Node
+
+from fieldhand.errors import Ros2Error
+from fieldhand.execution.drivers.ros2.dds.names import request_name, topic_name
+from fieldhand.execution.drivers.ros2.domain import domain_of
+from fieldhand.execution.drivers.ros2.rclpy import types
+from fieldhand.execution.drivers.ros2.rclpy.discovery import Discovery
+from fieldhand.execution.drivers.ros2.rclpy.quality import profile_of
+from fieldhand.execution.drivers.ros2.rclpy.services import SERVICE, RclpyClient, RclpyServer
+from fieldhand.execution.drivers.ros2.rclpy.topics import RclpyPublisher, RclpySubscription
+from fieldhand.execution.drivers.ros2.transport import SENSOR, Peer, Quality
+
+RCLError = rclpy_implementation.RCLError
+
+_End = TypeVar("_End", RclpySubscription, RclpyPublisher, RclpyClient, RclpyServer)
+
+
+class RclpyTransport:
+    """A :class:`~fieldhand.execution.drivers.ros2.transport.Transport` of the ROS that is sourced.
+
+    Its context is its own and hears no arguments of the process: a node of somebody else that lives here keeps its
+    name, its remappings and its signals.
+
+    Args:
+        domain: Of ROS; None means ``ROS_DOMAIN_ID`` of the environment, else 0.
+
+    Raises:
+        InputError: The domain is none.
+        Ros2Error: No node can be made.
+    """
+
+    def __init__(self, domain: int | None = None) -> None:
+        self.domain = domain_of(domain)
+        self._ends: list[Any] = []
+        self._open = True
+        self._context = Context()
+        try:
+            self._context.init([], initialize_logging=False, domain_id=self.domain)
+            # Names tell our own endpoints from the others', so no two nodes may share one.
+            self._node = Node(
+                f"fieldhand_{secrets.token_hex(4)}",
+                context=self._context,
+                use_global_arguments=False,
+                enable_rosout=False,
+                start_parameter_services=False,
+            )
+        except (RCLError, RuntimeError) as error:
+            self._context.try_shutdown()
+            raise Ros2Error(
+                f"rclpy can make no node on domain {self.domain} ({error})",
+                advice="look at RMW_IMPLEMENTATION, at the network's interfaces, and at the middleware's configuration",
+            ) from error
+        self._discovery = Discovery(self._node)
+
+    @property
+    def name(self) -> str:
+        return "rclpy"
+
+    def subscribe(self, topic: str, type_name: str, quality: Quality = SENSOR) -> RclpySubscription:
+        topic_name(topic)
+        with _in_words(topic, type_name):
+            made = self._node.create_subscription(
+                types.class_of(type_name), topic, _never, profile_of(quality), raw=True
+            )
+        return self._kept(RclpySubscription(self._node, self._discovery, type_name, made))
+
+    def publish(self, topic: str, type_name: str, quality: Quality = Quality()) -> RclpyPublisher:  # noqa: B008 - frozen
+        topic_name(topic)
+        with _in_words(topic, type_name):
+            made = self._node.create_publisher(types.class_of(type_name), topic, profile_of(quality))
+        return self._kept(RclpyPublisher(self._node, type_name, made))
+
+    def client(self, service: str, type_name: str) -> RclpyClient:
+        request_name(service)
+        with _in_words(service, type_name):
+            made = self._node.create_client(types.class_of(type_name), service, qos_profile=profile_of(SERVICE))
+        return self._kept(RclpyClient(self._node, self._discovery, service, type_name, made))
+
+    def serve(self, service: str, type_name: str) -> RclpyServer:
+        request_name(service)
+        with _in_words(service, type_name):
+            made = self._node.create_service(
+                types.class_of(type_name), service, _never, qos_profile=profile_of(SERVICE)
+            )
+        return self._kept(RclpyServer(self._node, type_name, made))
+
+    def writers_of(self, topic: str) -> tuple[Peer, ...]:
+        return self._discovery.writers_of(topic) if self._open else ()
+
+    def servers_of(self, service: str) -> tuple[Peer, ...]:
+        return self._discovery.servers_of(service) if self._open else ()
+
+    def close(self) -> None:
+        for end in self._ends:
+            end.close()
+        self._ends.clear()
+        if self._open:
+            self._open = False
+            self._node.destroy_node()
+            self._context.try_shutdown()
+
+    def _kept(self, end: _End) -> _End:
+        self._ends = [*(e for e in self._ends if e.open), end]
+        return end
+
+
+@contextmanager
+def _in_words(name: str, type_name: str) -> Iterator[None]:
+    """What rclpy cannot make, said as over DDS."""
+    try:
+        yield
+    except (RCLError, NameValidationException, ValueError) as error:
+        why = str(error).partition(", at ")[0]  # what follows are lines of ROS's source
+        raise Ros2Error(f"{name} cannot be used as {type_name} ({why})") from error
+
+
+def _never(*_: object) -> None:
+    """For an executor, which there is not."""
