@@ -24,7 +24,8 @@ def load() -> None:
     import fieldhand
 
     for module in pkgutil.walk_packages(fieldhand.__path__, "fieldhand."):
-        if not module.name.endswith("__main__"):
+        # What needs a ROS that is sourced is loaded by whoever asks for it.
+        if not module.name.endswith("__main__") and ".ros2.rclpy." not in module.name:
             importlib.import_module(module.name)
     from fieldhand.planning.english.planner import EnglishPlanner
     from fieldhand.robot.loader import load_robot

@@ -261,7 +261,7 @@ def test_without_ros_it_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.delitem(sys.modules, "fieldhand.execution.drivers.ros2.rclpy.transport", raising=False)
     monkeypatch.setitem(sys.modules, "rclpy.context", None)
     monkeypatch.delenv("ROS_DISTRO", raising=False)
-    with pytest.raises(InputError, match=r"no ROS 2 is sourced here.*without ROS use --transport dds"):
+    with pytest.raises(InputError, match=r"no ROS 2 is sourced here.*without ROS, reach the robot by dds"):
         open_rclpy()
     monkeypatch.setenv("ROS_DISTRO", "humble")
     with pytest.raises(InputError, match=r"ROS 2 humble is sourced, but its rclpy cannot be loaded by Python 3"):

@@ -101,7 +101,7 @@ def test_a_middleware_whose_services_are_not_heard(
     assert topic_unusable(here, interfaces, "/fix", FIX) is None  # topics are
     found = action_unusable(here, interfaces, "/go", NAVIGATE)
     says(found, f"the robot runs rmw_{rmw}", "set RMW_IMPLEMENTATION=rmw_cyclonedds_cpp on the robot")
-    says(found, "cannot be called over the dds transport", "or run with --transport rclpy here")
+    says(found, "cannot be called over the dds transport", "or reach it by rclpy from here")
     monkeypatch.setattr(Node, "name", "rclpy")
     assert action_unusable(here, interfaces, "/go", NAVIGATE) is None
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, get_args
 import typer
 
 from fieldhand.errors import InputError
+from fieldhand.execution.drivers.ros2.domain import MOST_DOMAIN
 
 if TYPE_CHECKING:
     from fieldhand.cli.approving import Consent
@@ -21,20 +22,18 @@ if TYPE_CHECKING:
     from fieldhand.task.frames import Task
 
 SIMULATION = "simulation"
-#: Of domains: with more, ROS's own ports collide.
-_MOST_DOMAIN = 232
 
 OnOption = Annotated[
     str | None,
     typer.Option(
         "--on",
-        metavar="simulation|dds",
-        help="On what: the simulation (default), or the robot over ROS 2, reached by DDS with no ROS installed.",
+        metavar="simulation|dds|rclpy",
+        help="On what: the simulation (default), or the robot over ROS 2: dds needs no ROS here, rclpy does.",
     ),
 ]
 DomainOption = Annotated[
     int | None,
-    typer.Option("--domain", min=0, max=_MOST_DOMAIN, help="ROS domain of the robot; else ROS_DOMAIN_ID, else 0."),
+    typer.Option("--domain", min=0, max=MOST_DOMAIN, help="ROS domain of the robot; else ROS_DOMAIN_ID, else 0."),
 ]
 NamespaceOption = Annotated[
     str | None, typer.Option("--namespace", help="Of the robot's names in ROS, in place of the profile's; / for none.")
@@ -52,6 +51,7 @@ def connection_of(
     Raises:
         InputError: One of them cannot be used, or contradicts another.
     """
+    from fieldhand.execution.drivers.ros2.domain import domain_of
     from fieldhand.execution.vehicle import Connection, TransportName
 
     if on is None or on == SIMULATION:
@@ -69,7 +69,7 @@ def connection_of(
         )
     return Connection(
         transport=transport,
-        domain=_domain_of(environ) if domain is None else domain,
+        domain=domain_of(domain, environ),
         namespace=None if namespace is None else _namespace(namespace),
         sim_time=sim_time,
     )
@@ -172,17 +172,6 @@ def see_off(ground: Ground, review: Review, vehicle: Vehicle, consent: Consent) 
     if not consent.quiet:
         note(f"{ground.robot.name} stands {away_m:.1f} m from the start, battery at {charge:.0f} %")
     missions.require_charged(review, ground.site, ground.robot, charge, confirm=consent.confirm)
-
-
-def _domain_of(environ: Mapping[str, str]) -> int:
-    said = environ.get("ROS_DOMAIN_ID", "").strip()
-    if not said:
-        return 0
-    if not (said.isascii() and said.isdigit() and int(said) <= _MOST_DOMAIN):
-        raise InputError(
-            f"'{said[:40]}' is no domain", where="ROS_DOMAIN_ID", advice=f"give a number from 0 to {_MOST_DOMAIN}"
-        )
-    return int(said)
 
 
 def _namespace(said: str) -> str:

@@ -13,14 +13,12 @@ if TYPE_CHECKING:
     from fieldhand.execution.drivers.ros2.probes import Finding
     from fieldhand.robot.model import RobotProfile
 
-_TRANSPORTS = ("dds",)
-
 
 def check(
     name: Annotated[str, typer.Argument(metavar="ROBOT", help="Built-in robot or a profile file (YAML).")],
     live: Annotated[bool, typer.Option("--live", help="Try every binding on the robot, without moving it.")] = False,
     transport: Annotated[
-        str, typer.Option("--transport", metavar="dds", help="How the robot is reached: by DDS, with no ROS installed.")
+        str, typer.Option("--transport", metavar="dds|rclpy", help="dds needs no ROS here, rclpy one that is sourced.")
     ] = "dds",
     domain: Annotated[
         int | None, typer.Option("--domain", help="ROS domain of the robot; else ROS_DOMAIN_ID, else 0.")
@@ -53,15 +51,10 @@ def _tried(profile: RobotProfile, interfaces: Any, transport: str, domain: int |
     import time
     from contextlib import closing
 
-    from fieldhand.errors import InputError
     from fieldhand.execution.drivers.ros2.check import check_live
-    from fieldhand.execution.drivers.ros2.dds import open_dds
+    from fieldhand.execution.drivers.ros2.opening import open_transport
 
-    if transport not in _TRANSPORTS:
-        raise InputError(
-            f"there is no transport {transport!r}", where="--transport", advice=f"give {' or '.join(_TRANSPORTS)}"
-        )
-    with closing(open_dds(interfaces, domain)) as node:
+    with closing(open_transport(transport, interfaces, domain)) as node:
         return check_live(profile, node, interfaces, within_s=within_s, steady=time.monotonic, sleep=time.sleep)
 
 

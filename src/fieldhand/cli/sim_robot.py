@@ -10,17 +10,14 @@ import typer
 
 from fieldhand.cli.options import LenientOption, RobotOption, SiteOption
 from fieldhand.cli.outputs import to_whole_file
+from fieldhand.execution.drivers.ros2.domain import MOST_DOMAIN
 
 if TYPE_CHECKING:
-    from fieldhand.execution.drivers.ros2.interfaces import Interfaces
-    from fieldhand.execution.drivers.ros2.transport import Transport
     from fieldhand.execution.drivers.ros2.twin.robot import Said
     from fieldhand.execution.world import World
     from fieldhand.robot.bindings import Ros2Bindings
     from fieldhand.robot.model import RobotProfile
 
-#: Of domains: with more, ROS's own ports collide.
-_MOST_DOMAIN = 232
 #: Faster, and between two looks at its messages a robot would have driven for minutes.
 _FASTEST = 1000.0
 
@@ -35,10 +32,10 @@ def sim_robot(
     speed: Annotated[
         float, typer.Option("--speed", help="Its seconds in one of ours; other than 1, the time is on /clock.")
     ] = 1.0,
-    transport: Annotated[str, typer.Option("--transport", help="What carries its messages: dds.")] = "dds",
+    transport: Annotated[str, typer.Option("--transport", help="What carries its messages: dds, or rclpy.")] = "dds",
     dds: Annotated[bool, typer.Option("--dds", help="The same as --transport dds.")] = False,
     domain: Annotated[
-        int | None, typer.Option("--domain", min=0, max=_MOST_DOMAIN, help="ROS domain; else ROS_DOMAIN_ID, else 0.")
+        int | None, typer.Option("--domain", min=0, max=MOST_DOMAIN, help="ROS domain; else ROS_DOMAIN_ID, else 0.")
     ] = None,
     namespace: Annotated[
         str | None, typer.Option("--namespace", help="Of its names in ROS, in place of the profile's; / for none.")
@@ -59,6 +56,7 @@ def sim_robot(
     from fieldhand.cli.inputs import open_ground
     from fieldhand.clock import ScaledClock
     from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+    from fieldhand.execution.drivers.ros2.opening import open_transport
     from fieldhand.execution.drivers.ros2.twin.robot import SimulatedRobot, bindings_of
     from fieldhand.execution.drivers.ros2.twin.serving import serve
     from fieldhand.execution.drivers.ros2.twin.state import Identity, read_state, write_state
@@ -76,7 +74,7 @@ def sim_robot(
     made_for = Identity(site=ground.site.content_sha256, robot=profile.sha256, world=_hash_of(given))
     memory = None if state is None else read_state(state, made_for)
     interfaces = Interfaces.of(bindings.distro, bindings.interfaces)
-    node = _node("dds" if dds else transport, interfaces, domain)
+    node = open_transport("dds" if dds else transport, interfaces, domain)
     try:
         sim_time = bindings.use_sim_time or speed != 1.0
         simulated = SimulatedRobot(
@@ -126,21 +124,6 @@ def _namespace(said: str) -> str:
 
 def _hash_of(world: World) -> str:
     return "" if world.data is None else hashlib.sha256(world.data).hexdigest()
-
-
-def _node(transport: str, interfaces: Interfaces, domain: int | None) -> Transport:
-    """A node of the graph.
-
-    Raises:
-        InputError: There is no such transport, or what it needs is not installed.
-        Ros2Error: The network cannot be used.
-    """
-    from fieldhand.errors import InputError
-    from fieldhand.execution.drivers.ros2.dds import open_dds
-
-    if transport != "dds":
-        raise InputError(f"there is no transport '{transport[:80]}'", where="--transport", advice="choose dds")
-    return open_dds(interfaces, domain)
 
 
 def _greet(

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from fieldhand.site.model import Site
 
 #: What carries messages to a robot.
-TransportName = Literal["dds"]
+TransportName = Literal["dds", "rclpy"]
 
 #: Takes each event of a mission.
 Writer = Callable[[Event], None]

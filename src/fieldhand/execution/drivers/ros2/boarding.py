@@ -10,9 +10,9 @@ from dataclasses import replace
 from fieldhand.clock import Clock, ScaledClock, SystemWallClock
 from fieldhand.errors import ProfileError
 from fieldhand.execution.drivers.ros2 import ros_clock
-from fieldhand.execution.drivers.ros2.dds import open_dds
 from fieldhand.execution.drivers.ros2.driver import READY_WITHIN_S, Ros2Driver
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.opening import open_transport
 from fieldhand.execution.drivers.ros2.ros_clock import RosClock
 from fieldhand.execution.drivers.ros2.transport import Transport
 from fieldhand.execution.vehicle import Connection, Vehicle
@@ -48,7 +48,7 @@ def join(by: Connection, bindings: Ros2Bindings) -> tuple[Transport, Interfaces]
         Ros2Error: The network cannot be used.
     """
     interfaces = Interfaces.of(bindings.distro, bindings.interfaces)
-    return open_dds(interfaces, by.domain), interfaces
+    return open_transport(by.transport, interfaces, by.domain), interfaces
 
 
 @contextmanager

@@ -71,7 +71,7 @@ def service_unusable(transport: Transport, interfaces: Interfaces, service: str,
     if transport.name != "rclpy" and deaf is not None:
         return Unusable(
             what=f"the robot runs {rmw_package(deaf.rmw)}, whose services cannot be called over the dds transport",
-            advice="set RMW_IMPLEMENTATION=rmw_cyclonedds_cpp on the robot, or run with --transport rclpy here",
+            advice="set RMW_IMPLEMENTATION=rmw_cyclonedds_cpp on the robot, or reach it by rclpy from here",
         )
     if len(typed) > 1:
         return Unusable(

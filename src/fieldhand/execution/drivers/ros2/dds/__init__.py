@@ -42,6 +42,6 @@ def open_dds(interfaces: Interfaces, domain: int | None = None) -> DdsTransport:
         raise InputError(
             "DDS is not installed here",
             advice='install it with: pip install "fieldhand[ros2-dds]"; there is no package of it for a Jetson: '
-            "use --transport rclpy there",
+            "it is reached by rclpy from there",
         ) from error
     return DdsTransport(interfaces, domain)

@@ -47,9 +47,9 @@ def _not_sourced(error: ImportError) -> InputError:
     if distro:
         return InputError(
             f"ROS 2 {distro} is sourced, but its rclpy cannot be loaded by Python {python} ({error})",
-            advice="run this with the Python that this ROS was built for (from 3.11 on), or use --transport dds",
+            advice="run this with the Python that this ROS was built for (from 3.11 on), or reach the robot by dds",
         )
     return InputError(
         "no ROS 2 is sourced here: rclpy was not found",
-        advice="source it first, such as: . /opt/ros/jazzy/setup.bash; without ROS use --transport dds",
+        advice="source it first, such as: . /opt/ros/jazzy/setup.bash; without ROS, reach the robot by dds",
     )

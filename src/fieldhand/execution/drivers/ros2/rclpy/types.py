@@ -107,8 +107,8 @@ def _require_sourced(interface: str, wanted: str) -> None:
     except (LookupError, OSError) as error:
         raise Ros2Error(
             f"the type {wanted} is not known here: the package {package} is not in the ROS that is sourced",
-            advice=f"install {package} or source the workspace that has it, or use --transport dds, which takes "
-            "definitions from the robot's profile",
+            advice=f"install {package} or source the workspace that has it, or reach the robot by dds, which takes "
+            "definitions from its profile",
         ) from error
     if rest not in {line.rpartition(".")[0] for line in has.splitlines()}:
         raise Ros2Error(

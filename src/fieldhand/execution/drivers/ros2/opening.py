@@ -1,0 +1,39 @@
+"""What carries messages to a robot, by its name."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, get_args
+
+from fieldhand.errors import InputError
+from fieldhand.execution.vehicle import TransportName
+
+if TYPE_CHECKING:
+    from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+    from fieldhand.execution.drivers.ros2.transport import Transport
+
+
+def open_transport(name: str, interfaces: Interfaces, domain: int | None = None) -> Transport:
+    """A node in a ROS 2 graph.
+
+    Args:
+        name: One of :data:`~fieldhand.execution.vehicle.TransportName`.
+        interfaces: The types that DDS knows; rclpy knows those that are sourced.
+        domain: Of ROS; None means ``ROS_DOMAIN_ID`` of the environment, else 0.
+
+    Raises:
+        InputError: There is no such transport, the domain is none, or what it needs is not here.
+        Ros2Error: The network cannot be used.
+    """
+    if name == "rclpy":
+        from fieldhand.execution.drivers.ros2.rclpy import open_rclpy
+
+        return open_rclpy(domain)
+    if name == "dds":
+        from fieldhand.execution.drivers.ros2.dds import open_dds
+
+        return open_dds(interfaces, domain)
+    raise InputError(
+        f"there is no transport '{name[:80]}'",
+        where="--transport",
+        advice=f"give {' or '.join(get_args(TransportName))}",
+    )
