@@ -11,7 +11,6 @@ import os
 import subprocess
 import sys
 from collections.abc import Iterator
-from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -21,34 +20,20 @@ from fieldhand.execution.drivers.ros2.rclpy import open_rclpy
 from fieldhand.execution.drivers.ros2.transport import MOST_BYTES, SENSOR, STATUS, Quality, Transport
 from ros2.other_end import SEND, TO_MAP, opened
 from ros2.patience import until
+from ros2.sourced import NOT_CYCLONE, graph, sourced
 
 RELIABLE = Quality()
-#: Services of one middleware are not understood by another.
-ONE_RMW = "cyclonedds" not in os.environ.get("RMW_IMPLEMENTATION", "cyclonedds")
-
-#: This machine alone, without multicast, which its own network has not everywhere.
-UNICAST = (
-    '<CycloneDDS><Domain><General><Interfaces><NetworkInterface name="lo" multicast="false"/></Interfaces>'
-    "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
-    '<MaxAutoParticipantIndex>120</MaxAutoParticipantIndex><Peers><Peer address="127.0.0.1"/></Peers>'
-    "</Discovery></Domain></CycloneDDS>"
-)
-
-sourced = pytest.mark.skipif(find_spec("rclpy") is None, reason="no ROS 2 is sourced")
 
 
 @pytest.fixture(scope="module", autouse=True)
 def domain() -> Iterator[int]:
     """A domain of its own, where those find each other that speak with everybody and those that ask one by one."""
-    number = 201 + os.getpid() % 30
-    with pytest.MonkeyPatch.context() as environment:
-        environment.setenv("CYCLONEDDS_URI", UNICAST)
-        environment.setenv("ROS_DOMAIN_ID", str(number))
+    with graph(201 + os.getpid() % 30) as number:
         yield number
 
 
 def _pair(here: str, there: str) -> object:
-    other = pytest.mark.skipif("dds" in (here, there) and ONE_RMW, reason="the middleware is not Cyclone DDS")
+    other = pytest.mark.skipif("dds" in (here, there) and NOT_CYCLONE, reason="the middleware is not Cyclone DDS")
     return pytest.param((here, there), id=f"{here}-{there}", marks=[sourced, other])
 
 
@@ -158,7 +143,7 @@ def test_a_quality_that_does_not_match_is_no_match_and_is_seen(node: Transport) 
     reader = node.subscribe("/best_effort", "std_msgs/msg/String", RELIABLE)
     (peer,) = until(lambda: node.writers_of("/best_effort"))
     assert (peer.quality.reliable, peer.quality.transient) == (False, False)
-    assert peer.rmw == ("fastrtps" if ONE_RMW else "cyclonedds")
+    assert peer.rmw == ("fastrtps" if NOT_CYCLONE else "cyclonedds")
     assert reader.publishers() == 0
     fits = node.subscribe("/best_effort", "std_msgs/msg/String", SENSOR)
     until(lambda: fits.publishers() == 1)
