@@ -26,7 +26,8 @@ class Simulator:
         self.wall_s, self.said_s, self.pace = 0.0, said_s, pace
         self.graph = Graph(lambda: self.wall_s)
         self.listener = self.graph.node()
-        self.topic = self.graph.node().publish(TOPIC, TYPE)
+        self.node = self.graph.node()
+        self.topic = self.node.publish(TOPIC, TYPE)
 
     def say(self) -> None:
         whole, part = divmod(round(self.said_s * 1e9), 10**9)
@@ -73,6 +74,23 @@ def test_a_simulation_that_is_paused_keeps_nobody_waiting() -> None:
     assert simulator.wall_s < 1
     assert clock.now() == pytest.approx(0, abs=0.01)
     assert clock.speed > 0
+
+
+def test_time_passes_as_ours_once_the_simulation_was_killed_and_as_its_own_once_it_is_back() -> None:
+    simulator = Simulator(10.0)
+    clock = simulator.clock()
+    told_s, gone_s = clock.now(), simulator.wall_s
+    simulator.node.vanish()
+    while simulator.wall_s < gone_s + 60.0:
+        clock.advance(1.0)
+    assert clock.now() - told_s == pytest.approx(simulator.wall_s - gone_s - simulator.graph.noticed_s, abs=0.1)
+    assert clock.speed == 1.0
+    simulator.topic = simulator.graph.node().publish(TOPIC, TYPE)
+    told_s, back_s = clock.now(), simulator.wall_s
+    for _ in range(20):
+        clock.advance(1.0)
+    assert clock.now() - told_s == pytest.approx(10.0 * (simulator.wall_s - back_s), abs=0.2)
+    assert clock.speed == pytest.approx(10.0, rel=0.01)
 
 
 def test_a_mission_runs_on_it_as_on_a_clock_that_passes_by_itself() -> None:

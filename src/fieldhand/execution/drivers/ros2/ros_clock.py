@@ -1,7 +1,8 @@
 """The time of a robot that is itself a simulation: ``/clock``, as ROS has it where ``use_sim_time`` is set.
 
 It passes as fast as that simulation goes, stands still while it is paused, and does not go back when it is started
-anew: what has passed until then stays passed.
+anew: what has passed until then stays passed. Where the simulation has gone, time passes as ours: whoever waits for a
+robot that was killed stops waiting.
 """
 
 from __future__ import annotations
@@ -44,6 +45,7 @@ class RosClock:
         self._passed_s = 0.0
         self._pace = 1.0
         self._measured = (steady(), 0.0)
+        self._alone_s: float | None = None
 
     @classmethod
     def heard(
@@ -95,7 +97,7 @@ class RosClock:
         return max(_SLOWEST, self._pace)
 
     def now(self) -> float:
-        """Seconds that have passed on the topic since it was first heard."""
+        """Seconds that have passed since the topic was first heard."""
         self._hear()
         return self._passed_s
 
@@ -108,15 +110,24 @@ class RosClock:
     def _hear(self) -> None:
         messages = self._topic.take()
         if not messages:
+            if self._said_s is not None and self._topic.publishers() == 0:
+                self._go_on_alone()
             return
         said_s = _seconds(messages[-1]["clock"])
-        if self._said_s is not None:
+        if self._said_s is not None and self._alone_s is None:
             self._passed_s += max(0.0, said_s - self._said_s)
-        self._said_s = said_s
+        self._said_s, self._alone_s = said_s, None
         wall_s, (from_wall_s, from_s) = self._steady(), self._measured
         if wall_s - from_wall_s >= _PACE_S:
             self._pace = (self._passed_s - from_s) / (wall_s - from_wall_s)
             self._measured = wall_s, self._passed_s
+
+    def _go_on_alone(self) -> None:
+        """Nobody says the time any more."""
+        wall_s = self._steady()
+        if self._alone_s is not None:
+            self._passed_s += wall_s - self._alone_s
+        self._alone_s, self._pace, self._measured = wall_s, 1.0, (wall_s, self._passed_s)
 
 
 def _seconds(stamp: object) -> float:
