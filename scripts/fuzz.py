@@ -138,11 +138,17 @@ def fuzz(name: str, given: argparse.Namespace, corpus: Path, keep: Path, seconds
     """Fuzz in another process, which may hang or die; what it was at then is kept."""
     command = [sys.executable, __file__, name, "--inside", str(corpus), "--keep", str(keep), "--seed", str(seed)]
     command += ["--minutes", str(seconds / 60), "--limit", str(given.limit), "--memory", str(given.memory)]
+    hung = ""
     with (keep / "libfuzzer.log").open("ab") as log:
-        subprocess.run(command, stdout=log, stderr=log, timeout=seconds + 120, check=False)
+        try:
+            subprocess.run(command, stdout=log, stderr=log, timeout=seconds + 300, check=False)
+        except subprocess.TimeoutExpired:
+            hung = "the process did not end"
     held = keep / "figures.json"
     found = Figures(**json.loads(held.read_text())) if held.exists() else Figures()
     held.unlink(missing_ok=True)
+    if hung:
+        found.failures[hung] = 1
     for prefix, what in (("timeout-", "a hang"), ("oom-", "too much memory"), ("crash-", "the process died")):
         for file in keep.glob(f"{prefix}*"):
             found.failures[f"{what}: {file.name}"] = 1
