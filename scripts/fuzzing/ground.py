@@ -110,7 +110,7 @@ def approved() -> AuthorizedTask:
 def flown(world: World, *, task: AuthorizedTask | None = None) -> tuple[Event, ...]:
     """The events of a mission in such a world."""
     here, events = ground(), list[Event]()
-    mission.carry_out(task or approved(), here.site, here.robot, world=world, seed=0, speed=None, emit=events.append)
+    mission.simulate(task or approved(), here.site, here.robot, world=world, seed=0, speed=None, emit=events.append)
     return tuple(events)
 
 
