@@ -5,11 +5,14 @@ from __future__ import annotations
 import os
 import re
 import shlex
+from contextlib import ExitStack
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
 
-from command import fieldhand
+from command import fieldhand, in_background
+from ros2.conftest import LOOPBACK
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -17,6 +20,8 @@ SHELL = re.compile(r"^```sh\n(.*?)^```", re.MULTILINE | re.DOTALL)
 #: Commands that serve until they are stopped have tests of their own, and so has the page that needs a robot.
 SERVERS = ("fieldhand serve",)
 ROBOT = "delivery"
+#: A robot that goes on beside the commands after it, and what those need that reach it.
+SIM_ROBOT, OVER_DDS = "fieldhand sim-robot", ("--on dds", "--live")
 
 
 def commands(page: Path) -> list[str]:
@@ -26,14 +31,22 @@ def commands(page: Path) -> list[str]:
 
 
 @pytest.mark.parametrize("page", [page for page in PAGES if page.stem != ROBOT], ids=lambda p: p.stem)
-def test_every_command_runs(page: Path, tmp_path: Path) -> None:
-    for command in commands(page):
-        if command.startswith(SERVERS):
-            continue
-        words = shlex.split(command, comments=True)[1:]
-        env = os.environ | {"FIELDHAND_CONFIG": str(tmp_path / "config")}
-        run = fieldhand(*words, cwd=tmp_path, env=env, fresh=page.stem == "README")
-        assert run.status == 0, f"{command}\n{run.out[-2000:]}\n{run.err[-2000:]}"
+def test_every_command_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("FIELDHAND_CONFIG", str(tmp_path / "config"))
+    monkeypatch.setenv("CYCLONEDDS_URI", LOOPBACK)
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(200 + os.getpid() % 33))
+    dds = find_spec("cyclonedds") is not None
+    with ExitStack() as robots:
+        for command in commands(page):
+            words = shlex.split(command, comments=True)[1:]
+            if command.startswith(SERVERS) or (not dds and any(needs in command for needs in OVER_DDS)):
+                continue
+            if command.startswith(SIM_ROBOT):
+                if dds:
+                    robots.enter_context(in_background(*words, out=tmp_path / "robot"))
+                continue
+            run = fieldhand(*words, cwd=tmp_path, fresh=page.stem == "README")
+            assert run.status == 0, f"{command}\n{run.out[-2000:]}\n{run.err[-2000:]}"
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda p: p.stem)

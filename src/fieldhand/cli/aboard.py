@@ -70,7 +70,7 @@ def connection_of(
     return Connection(
         transport=transport,
         domain=domain_of(domain, environ),
-        namespace=None if namespace is None else _namespace(namespace),
+        namespace=None if namespace is None else namespace_of(namespace),
         sim_time=sim_time,
     )
 
@@ -174,7 +174,12 @@ def see_off(ground: Ground, review: Review, vehicle: Vehicle, consent: Consent) 
     missions.require_charged(review, ground.site, ground.robot, charge, confirm=consent.confirm)
 
 
-def _namespace(said: str) -> str:
+def namespace_of(said: str) -> str:
+    """A namespace as it was given.
+
+    Raises:
+        InputError: It is none.
+    """
     from fieldhand.robot.bindings_document import as_namespace
 
     try:

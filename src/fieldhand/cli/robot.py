@@ -41,21 +41,29 @@ def show_robot(
     xsd: Annotated[
         Path | None, typer.Option("--xsd", callback=to_file, help="Write the schema of this robot's Tasks here.")
     ] = None,
+    yaml: Annotated[
+        Path | None, typer.Option("--yaml", callback=to_file, help="Write its profile here, to be changed.")
+    ] = None,
     json: JsonOption = False,
 ) -> None:
-    """Say what a robot can do and measure; --xsd writes the schema that its Tasks must satisfy."""
+    """Say what a robot can do and measure; --xsd writes the schema that its Tasks must satisfy, --yaml its profile."""
     from dataclasses import asdict
 
     from fieldhand.cli import show
-    from fieldhand.robot.loader import load_robot
+    from fieldhand.robot.loader import parse_profile, profile_bytes
 
-    profile = load_robot(name)
+    data, source = profile_bytes(name)
+    profile = parse_profile(data, source=source)
     if xsd is not None:
         from fieldhand.cli.inputs import write_file
         from fieldhand.robot.capabilities import capabilities_of
         from fieldhand.task.schema import schema_xsd
 
         write_file(xsd, schema_xsd(capabilities_of(profile)))
+    if yaml is not None:
+        from fieldhand.cli.inputs import write_file
+
+        write_file(yaml, data)
     if json:
         show.print_json(asdict(profile))
         return
@@ -63,6 +71,8 @@ def show_robot(
         show.out.print(line)
     if xsd is not None:
         show.out.print(f"Schema: {xsd}")
+    if yaml is not None:
+        show.out.print(f"Profile: {yaml}")
 
 
 def _lines(profile: RobotProfile) -> list[str]:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from fieldhand.cli.aboard import NamespaceOption, namespace_of
 from fieldhand.cli.options import JsonOption
 
 if TYPE_CHECKING:
@@ -23,12 +24,15 @@ def check(
     domain: Annotated[
         int | None, typer.Option("--domain", help="ROS domain of the robot; else ROS_DOMAIN_ID, else 0.")
     ] = None,
+    namespace: NamespaceOption = None,
     within: Annotated[
         float, typer.Option("--within", min=1.0, max=600.0, help="Seconds to wait for what is not there yet.")
     ] = 10.0,
     json: JsonOption = False,
 ) -> None:
     """Hold what a profile says of ROS 2 against the types of the robot's release; --live also tries it on the robot."""
+    from dataclasses import replace
+
     from fieldhand.cli import show
     from fieldhand.execution.drivers.ros2.check import bindings_of, check_types
     from fieldhand.execution.drivers.ros2.interfaces import Interfaces
@@ -36,6 +40,9 @@ def check(
 
     profile = load_robot(name)
     bindings = bindings_of(profile)
+    if namespace is not None:
+        bindings = replace(bindings, namespace=namespace_of(namespace))
+        profile = replace(profile, ros2=bindings)
     interfaces = Interfaces.of(bindings.distro, bindings.interfaces)
     report = _tried(profile, interfaces, transport, domain, within) if live else check_types(profile, interfaces)
     if json:
@@ -64,7 +71,7 @@ def _lines(profile: RobotProfile, report: Report, *, live: bool) -> list[str]:
     lines = [line for finding in report.findings for line in _told(finding)]
     bindings = f"{len(report.findings)} bindings of {profile.name}"
     if live and not report.rmw:
-        lines.append("Nothing of this robot was found on this ROS domain.")
+        lines.append("Nothing of this robot was found on this ROS domain (--domain, ROS_DOMAIN_ID).")
     elif live:
         lines.append(f"The robot runs {' and '.join(map(rmw_package, report.rmw))}.")
     if not report.missing:

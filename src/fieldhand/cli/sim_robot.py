@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from fieldhand.cli.aboard import NamespaceOption, namespace_of
 from fieldhand.cli.options import LenientOption, RobotOption, SiteOption
 from fieldhand.cli.outputs import to_whole_file
 from fieldhand.execution.drivers.ros2.domain import MOST_DOMAIN
@@ -37,9 +38,7 @@ def sim_robot(
     domain: Annotated[
         int | None, typer.Option("--domain", min=0, max=MOST_DOMAIN, help="ROS domain; else ROS_DOMAIN_ID, else 0.")
     ] = None,
-    namespace: Annotated[
-        str | None, typer.Option("--namespace", help="Of its names in ROS, in place of the profile's; / for none.")
-    ] = None,
+    namespace: NamespaceOption = None,
     state: Annotated[
         Path | None,
         typer.Option(
@@ -69,7 +68,7 @@ def sim_robot(
     mission.check_world(given, ground.site, ground.robot)
     bindings = bindings_of(ground.robot)
     if namespace is not None:
-        bindings = replace(bindings, namespace=_namespace(namespace))
+        bindings = replace(bindings, namespace=namespace_of(namespace))
     profile = replace(ground.robot, ros2=bindings)
     made_for = Identity(site=ground.site.content_sha256, robot=profile.sha256, world=_hash_of(given))
     memory = None if state is None else read_state(state, made_for)
@@ -109,17 +108,6 @@ def _paced(speed: float) -> float:
     if not 0 < speed <= _FASTEST:
         raise InputError(f"{speed:g} is no speed", where="--speed", advice=f"give a number above 0, to {_FASTEST:g}")
     return speed
-
-
-def _namespace(said: str) -> str:
-    from fieldhand.errors import InputError
-    from fieldhand.robot.bindings_document import as_namespace
-
-    try:
-        return as_namespace(said)
-    except ValueError as error:
-        what, _, advice = str(error).partition("; ")
-        raise InputError(what, where="--namespace", advice=advice) from None
 
 
 def _hash_of(world: World) -> str:

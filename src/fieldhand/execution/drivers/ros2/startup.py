@@ -17,6 +17,9 @@ from fieldhand.execution.drivers.ros2.transport import Client, Quality, Transpor
 #: How many of the things that are missing are named.
 _MOST_NAMED = 8
 
+#: What is missing, and what to do; empty where nothing is to be said.
+_Missing = tuple[str, str]
+
 _ONE_WAY = "it was found, but does not answer"
 
 
@@ -56,9 +59,7 @@ class Startup:
         until = self._steady() + within_s
         while missing := list(self._missing()):
             if self._steady() >= until:
-                named = "; ".join(missing[:_MOST_NAMED])
-                more = f"; and {len(missing) - _MOST_NAMED} more" if len(missing) > _MOST_NAMED else ""
-                raise Ros2Error(f"the robot is not ready, {within_s:g} s on: {named}{more}")
+                raise Ros2Error(f"the robot is not ready, {within_s:g} s on: {_told(missing)}")
             self._rest()
             self._senses.listen()
 
@@ -78,29 +79,29 @@ class Startup:
                 )
             self._rest()
 
-    def _missing(self) -> Iterator[str]:
+    def _missing(self) -> Iterator[_Missing]:
         yield from self._missing_navigation()
         for sense in self._senses.all:
             yield from self._silent(sense)
         if (why := self._far()) is not None:
-            yield why
+            yield why, ""
         charge = self._senses.charge_percent
         if charge is not None and not 0.0 <= charge <= MOST_PERCENT:
-            yield f"the battery says {charge:g} percent; correct its scale or unit in the profile's ros2 part"
+            yield f"the battery says {charge:g} percent", "correct its scale or unit in the profile's ros2 part"
         if (pressed := self._senses.stopped()) is not None:
-            yield f"{pressed}; release it and begin again"
+            yield pressed, "release it and begin again"
         for name, bound in self._captures.bound.items():
             yield from self._missing_capture(name, bound)
 
-    def _missing_navigation(self) -> Iterator[str]:
+    def _missing_navigation(self) -> Iterator[_Missing]:
         navigation = self._navigation
         yield from self._no_action("navigation", navigation.client)
         if navigation.from_ll is not None:
             yield from self._no_service("the map", navigation.from_ll, navigation.from_ll_name, FROM_LL)
         if navigation.speed is not None and navigation.speed.subscribers() == 0:
-            yield f"the speed limit {navigation.speed_name}: nobody hears it; see whether Nav2's controller is active"
+            yield f"the speed limit {navigation.speed_name}: nobody hears it", "see whether Nav2's controller is active"
 
-    def _missing_capture(self, name: str, bound: Bound) -> Iterator[str]:
+    def _missing_capture(self, name: str, bound: Bound) -> Iterator[_Missing]:
         call = bound.binding.call
         if bound.action is not None:
             yield from self._no_action(name, bound.action)
@@ -114,27 +115,37 @@ class Startup:
                 why = topic_unusable(self._transport, self._interfaces, topic, message.type, quality)
                 yield _line(f"{quantity} of {name}", topic, why)
 
-    def _no_action(self, what: str, client: ActionClient) -> Iterator[str]:
+    def _no_action(self, what: str, client: ActionClient) -> Iterator[_Missing]:
         why = action_unusable(self._transport, self._interfaces, client.name, client.type)
         if why is not None or client.servers() == 0:
             yield _line(what, client.name, why)
 
-    def _no_service(self, what: str, client: Client, name: str, type_name: str) -> Iterator[str]:
+    def _no_service(self, what: str, client: Client, name: str, type_name: str) -> Iterator[_Missing]:
         why = service_unusable(self._transport, self._interfaces, name, type_name)
         if why is not None or client.servers() == 0:
             yield _line(what, name, why)
 
-    def _silent(self, sense: Sense) -> Iterator[str]:
+    def _silent(self, sense: Sense) -> Iterator[_Missing]:
         if sense.known():
             return
         why = topic_unusable(self._transport, self._interfaces, sense.name, sense.binding.type, sense.quality)
         if why is not None or sense.subscription.publishers() == 0:
             yield _line(sense.what, sense.name, why)
         elif sense.heard:
-            yield f"{sense.what} {sense.name}: {sense.doubt}"
+            yield f"{sense.what} {sense.name}: {sense.doubt}", ""
         else:
-            yield f"{sense.what} {sense.name}: nothing came yet; see whether the robot sends it"
+            yield f"{sense.what} {sense.name}: nothing came yet", "see whether the robot sends it"
 
 
-def _line(what: str, name: str, why: Unusable | None) -> str:
-    return f"{what} {name}: {_ONE_WAY if why is None else why}"
+def _line(what: str, name: str, why: Unusable | None) -> _Missing:
+    return (f"{what} {name}: {_ONE_WAY}", "") if why is None else (f"{what} {name}: {why.what}", why.advice)
+
+
+def _told(missing: list[_Missing]) -> str:
+    """All of it in one line; an advice that several share stands once, behind the last of them."""
+    named = missing[:_MOST_NAMED]
+    advised: dict[str, list[str]] = {}
+    for what, advice in named:
+        advised.setdefault(advice, []).append(what)
+    parts = ["; ".join(filter(None, (", ".join(whats), advice))) for advice, whats in advised.items()]
+    return "; ".join([*parts, *([f"and {len(missing) - len(named)} more"] if len(missing) > len(named) else [])])
