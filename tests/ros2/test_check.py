@@ -227,6 +227,8 @@ def test_the_command_says_it_line_by_line() -> None:
     record = json.loads(alone.out)
     assert (record["usable"], record["live"], record["rmw"], len(record["bindings"])) == (False, True, [], 10)
     assert {b["what"] for b in record["bindings"]} == {"nobody sends it", "nobody answers it", "nobody hears it"}
+    below = fieldhand("robot", "check", "husky", "--namespace", "robot7", "--json")
+    assert "/robot7/navigate_to_pose" in {b["name"] for b in json.loads(below.out)["bindings"]}
     refused = fieldhand("robot", "check", "husky", "--live", "--transport", "tcp")
     assert (refused.status, refused.out) == (2, "")
     assert "no transport 'tcp'" in refused.err

@@ -551,6 +551,8 @@ def test_everything_that_is_missing_is_named_at_once() -> None:
                  "read_co2 /husky/sample", "read_ambient_temperature /thermometer",
                  "canopy_temperature of take_thermal_picture /husky/canopy"):  # fmt: skip
         assert name in said, name
+    advised = [part.strip() for part in said.split(";") if "ROS_DOMAIN_ID" in part]
+    assert len(advised) == len(set(advised)) == 1
 
 
 def test_only_what_the_mission_needs_must_be_there() -> None:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from fieldhand.clock import PacedClock
 from fieldhand.errors import Ros2Error
-from fieldhand.execution.drivers.ros2.ros_clock import TOPIC, TYPE, RosClock
+from fieldhand.execution.drivers.ros2.ros_clock import TOPIC, TYPE, RosClock, overlooked
 from fieldhand.execution.mission_clock import MissionClock
 from ros2.in_memory import Graph
 
@@ -130,3 +130,10 @@ def test_a_clock_of_another_type_is_said() -> None:
     simulator.graph.node().publish(TOPIC, "std_msgs/msg/Header")
     with pytest.raises(Ros2Error, match="of another type"):
         simulator.clock(within_s=0.1)
+
+
+def test_a_time_that_is_not_taken_is_told() -> None:
+    simulator = Simulator()
+    assert "--sim-time" in overlooked(simulator.listener)
+    simulator.topic.close()
+    assert overlooked(simulator.listener) == ""

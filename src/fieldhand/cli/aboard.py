@@ -171,6 +171,8 @@ def see_off(ground: Ground, review: Review, vehicle: Vehicle, consent: Consent) 
     charge = vehicle.driver.charge_percent()
     if not consent.quiet:
         note(f"{ground.robot.name} stands {away_m:.1f} m from the start, battery at {charge:.0f} %")
+        if vehicle.remark:
+            note(vehicle.remark)
     missions.require_charged(review, ground.site, ground.robot, charge, confirm=consent.confirm)
 
 

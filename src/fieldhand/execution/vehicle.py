@@ -56,6 +56,7 @@ class Vehicle:
         charge_percent: Of the battery when the mission begins: the guard reckons from it.
         wall: The time of day; None where there is none.
         by: How it is reached; None for the simulation.
+        remark: What whoever begins a mission should know of it; empty where there is nothing.
         disk: What its disk makes of what is written on it: that of a simulation may be full.
     """
 
@@ -64,6 +65,7 @@ class Vehicle:
     charge_percent: float
     wall: WallClock | None = None
     by: Connection | None = None
+    remark: str = ""
     disk: Callable[[Writer], Writer] = _no_limit
 
     @property

@@ -89,6 +89,7 @@ def board(
             # The time of day says nothing of a simulation that runs at a pace of its own.
             wall=None if bindings.use_sim_time else SystemWallClock(),
             by=by,
+            remark="" if bindings.use_sim_time else ros_clock.overlooked(transport),
         )
     finally:
         transport.close()

@@ -130,6 +130,13 @@ class RosClock:
         self._alone_s, self._pace, self._measured = wall_s, 1.0, (wall_s, self._passed_s)
 
 
+def overlooked(transport: Transport) -> str:
+    """What to know where the time of :data:`TOPIC` is not taken; empty where nobody says one."""
+    if not any(peer.type == TYPE for peer in transport.writers_of(TOPIC)):
+        return ""
+    return f"a simulation says its own time on {TOPIC}, and times are taken from this computer; for its own: --sim-time"
+
+
 def _seconds(stamp: object) -> float:
     """Seconds of a ``builtin_interfaces/msg/Time``."""
     assert isinstance(stamp, Mapping)  # noqa: S101  the transport gives what the type says
