@@ -11,9 +11,10 @@ from pathlib import Path
 import pytest
 import yaml
 
+from command import fieldhand
 from fieldhand.errors import ProfileError
 from fieldhand.robot.fields import Keyed
-from fieldhand.robot.loader import MAX_BYTES, builtin_names, load_robot, parse_profile
+from fieldhand.robot.loader import MAX_BYTES, builtin_names, load_robot, parse_profile, profile_bytes
 from fieldhand.robot.model import Level, Parameter
 
 ROVER = {
@@ -249,3 +250,8 @@ def test_labels_are_read_by_language() -> None:
     for bad in ("{Spanish: x}", '{es: ""}', '{es: "a\\nb"}'):
         with pytest.raises(ProfileError, match="labels"):
             parse_profile(text.replace("\n  read_co2:\n", f"\n  read_co2:\n    labels: {bad}\n").encode())
+
+
+def test_a_built_in_profile_is_written_out_as_it_stands(tmp_path: Path) -> None:
+    assert fieldhand("robot", "amiga", "--yaml", "mine.yaml", cwd=tmp_path).status == 0
+    assert (tmp_path / "mine.yaml").read_bytes() == profile_bytes("amiga")[0]
