@@ -17,7 +17,10 @@ from fieldhand.execution.drivers.ros2.transport import Client, Quality, Transpor
 #: How many of the things that are missing are named.
 _MOST_NAMED = 8
 
-_ONE_WAY = "it was found, but does not answer"
+_ONE_WAY = (
+    "it was found, but there is no way to it and back; see whether its definition is another than that of the"
+    " profile's distro, and whether a firewall lets only one direction through"
+)
 
 
 class Startup:
