@@ -19,7 +19,7 @@ from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.transport import Quality
 from ros2.patience import until
 from ros2.scripted import Script, ScriptedAction
-from ros2.scripted_robot import INTERFACES, Robot, bindings
+from ros2.scripted_robot import INTERFACES, Robot, bindings, interfaces
 
 NUMBER, TO_ROBOT, FROM_ROBOT, ALL = "std_msgs/msg/Int32", "/to_robot", "/from_robot", Quality(depth=10)
 
@@ -45,14 +45,14 @@ class Process:
 
         Args:
             definitions: In place of those that the computer has.
-            hashes: Say of which definition types are; before Iron nobody did.
+            hashes: Say of which definition types are, those of ``definitions`` among them; before Iron nobody did.
             thermometer_type: Of this service, in place of what the computer has.
         """
         self.end()
-        interfaces = Interfaces.of(distro, INTERFACES | dict(definitions))
+        known = Interfaces.of(distro, INTERFACES | dict(definitions)) if definitions else interfaces(distro)
         if not hashes:
-            interfaces.type_hash = lambda _: ""  # type: ignore[method-assign]
-        self.nodes = [open_dds(interfaces) for _ in range(robots)]
+            known.type_hash = lambda _: ""  # type: ignore[method-assign]
+        self.nodes = [open_dds(known) for _ in range(robots)]
         bound = bindings(distro=distro, namespace=namespace)
         self.robots = [Robot(node, self.clock, bound) for node in self.nodes]
         for robot in self.robots:

@@ -142,6 +142,7 @@ class Robot:
     canopy: float | None = 31.5
     shift_m: float = 0.0
     fix_every: int = 1
+    fix_shift_m: float = 0.0
     accepts: bool = True
     is_lost: bool = False
     driven_m: float = 0.0
@@ -179,7 +180,7 @@ class Robot:
         self._drive()
         self._serve()
         if number % self.fix_every == 0:
-            lat, lon = SITE.projection.degrees([self.xy])[0]
+            lat, lon = SITE.projection.degrees([(self.xy[0] + self.fix_shift_m, self.xy[1])])[0]
             status = -1 if self.is_lost else self.fix_status
             covariance = (self.sigma_m**2, 0.0, 0.0, 0.0, self.sigma_m**2, 0.0, 0.0, 0.0, 1.0)
             self._say("fix", {

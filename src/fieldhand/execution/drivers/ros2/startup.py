@@ -9,7 +9,6 @@ from fieldhand.execution.drivers.ros2.capture import Bound, Captures
 from fieldhand.execution.drivers.ros2.goal import CANCEL_S, ActionClient
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.navigation import FROM_LL, Navigation
-from fieldhand.execution.drivers.ros2.plausible import MOST_PERCENT
 from fieldhand.execution.drivers.ros2.seen import Unusable, action_unusable, service_unusable, topic_unusable
 from fieldhand.execution.drivers.ros2.senses import Sense, Senses
 from fieldhand.execution.drivers.ros2.transport import Client, Quality, Transport
@@ -87,9 +86,6 @@ class Startup:
             yield from self._silent(sense)
         if (why := self._far()) is not None:
             yield why
-        charge = self._senses.charge_percent
-        if charge is not None and not 0.0 <= charge <= MOST_PERCENT:
-            yield f"the battery says {charge:g} percent; correct its scale or unit in the profile's ros2 part"
         if (pressed := self._senses.stopped()) is not None:
             yield f"{pressed}; release it and begin again"
         for name, bound in self._captures.bound.items():
