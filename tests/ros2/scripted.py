@@ -54,6 +54,11 @@ class ScriptedAction:
         self._feedback = node.publish(f"{name}/_action/feedback", f"{type_name}_FeedbackMessage", Quality())
         self._status = node.publish(f"{name}/_action/status", "action_msgs/msg/GoalStatusArray", STATUS)
 
+    def close(self) -> None:
+        """The process of the server ends, in order."""
+        for end in (self._send, self._result, self._cancel, self._feedback, self._status):
+            end.close()
+
     @property
     def executing(self) -> list[Served]:
         return [g for g in self.goals.values() if g.state == "executing"]

@@ -13,7 +13,7 @@ from fieldhand.clock import SimulatedClock
 from fieldhand.execution.drivers.ros2.driver import Ros2Driver
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.navigation import FROM_LL, SPEED_LIMIT
-from fieldhand.execution.drivers.ros2.transport import Message, Quality
+from fieldhand.execution.drivers.ros2.transport import Message, Quality, Transport
 from fieldhand.robot.bindings import (
     ActionBinding,
     BatteryBinding,
@@ -123,7 +123,7 @@ SAMPLED = Script(lasts_s=2.0, result={"ok": True, "co2": (0.0, 0.0412)})
 class Robot:
     """The robot's end. Everything that it does wrong is a switch."""
 
-    node: Node
+    node: Transport
     clock: SimulatedClock
     bound: Ros2Bindings
     xy: tuple[float, float] = SITE.start.xy
@@ -142,6 +142,8 @@ class Robot:
     canopy: float | None = 31.5
     shift_m: float = 0.0
     fix_every: int = 1
+    fix_shift_m: float = 0.0
+    accepts: bool = True
     is_lost: bool = False
     driven_m: float = 0.0
     limits: list[float] = field(default_factory=list)
@@ -152,7 +154,7 @@ class Robot:
         self.navigation = ScriptedAction(
             self.node, name(b.navigation.action), b.navigation.type, self.clock.now, self._set_out
         )
-        self.sampler = ScriptedAction(self.node, "/husky/sample", SAMPLE, self.clock.now, lambda goal: self.sample)
+        self.sampler = ScriptedAction(self.node, name("sample"), SAMPLE, self.clock.now, lambda goal: self.sample)
         self.thermometer = self.node.serve("/thermometer", READ)
         self.from_ll = self.node.serve(name("fromLL"), FROM_LL)
         self.heard = self.node.subscribe(name("speed_limit"), SPEED_LIMIT, Quality())
@@ -170,7 +172,7 @@ class Robot:
         self._ticks = itertools.count()
 
     def step(self) -> None:
-        if self.node.vanished_s is not None:
+        if isinstance(self.node, Node) and self.node.vanished_s is not None:
             return
         number, self.is_lost = next(self._ticks), self.lost(self)
         self.navigation.step()
@@ -178,7 +180,7 @@ class Robot:
         self._drive()
         self._serve()
         if number % self.fix_every == 0:
-            lat, lon = SITE.projection.degrees([self.xy])[0]
+            lat, lon = SITE.projection.degrees([(self.xy[0] + self.fix_shift_m, self.xy[1])])[0]
             status = -1 if self.is_lost else self.fix_status
             covariance = (self.sigma_m**2, 0.0, 0.0, 0.0, self.sigma_m**2, 0.0, 0.0, 0.0, 1.0)
             self._say("fix", {
@@ -211,7 +213,12 @@ class Robot:
         """A goal of Nav2: it lasts until the robot is there."""
         self.way = [(x + self.shift_m, y) for x, y in self._corners(goal)]
         return Script(
-            lasts_s=math.inf, feedback_every_s=0.2, cancels=not self.refuses_cancel, cancel_takes_s=0.3, result={}
+            accepts=self.accepts,
+            lasts_s=math.inf,
+            feedback_every_s=0.2,
+            cancels=not self.refuses_cancel,
+            cancel_takes_s=0.3,
+            result={},
         )
 
     def _corners(self, goal: Any) -> list[tuple[float, float]]:

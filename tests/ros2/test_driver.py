@@ -17,7 +17,7 @@ from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver
 from fieldhand.execution.drivers.ros2.driver import LOST_S, Ros2Driver
 from fieldhand.execution.drivers.ros2.goal import CANCEL_S, ActionClient
-from fieldhand.execution.drivers.ros2.senses import Senses
+from fieldhand.execution.drivers.ros2.senses import JUMPED_S, Senses
 from fieldhand.site.model import Place, Site
 from rig import husky
 from ros2.in_memory import Disturbed, Graph
@@ -394,6 +394,73 @@ def test_a_battery_that_says_nan_keeps_its_last_charge() -> None:
     assert driver.charge_percent() == pytest.approx(75.0, abs=0.1)
 
 
+def test_a_battery_that_says_the_impossible_has_said_nothing() -> None:
+    w = world(percentage=0.4)
+    driver = w.connect()
+    driver.start_drive(drive())
+    w.robot.percentage = 87.0
+    progress = finish(driver, w.clock)
+    assert (progress.state, progress.what[:21]) == ("failed", "the battery is silent")
+    assert driver.charge_percent() == pytest.approx(40.0, abs=0.1)
+    assert not w.robot.navigation.executing
+
+
+def test_odometry_that_falls_silent_ends_the_drive_for_nobody_counts_its_metres() -> None:
+    w = world()
+    driver = w.connect()
+    driver.start_drive(drive())
+    w.robot.silent = {"odom"}
+    progress = finish(driver, w.clock)
+    assert progress.what == "the odometry is silent: nothing came on /husky/odom for 2 s"
+    assert not w.robot.navigation.executing
+
+
+def test_a_position_that_jumps_is_lost_until_it_stays_there() -> None:
+    w = world()
+    driver = w.connect()
+    driver.start_drive(drive())
+    w.clock.advance(3.0)
+    driver.poll()
+    stood = driver.position()
+    w.robot.fix_shift_m = 40.0
+    w.clock.advance(0.2)
+    progress = finish(driver, w.clock)
+    said = "the position jumped by 40 m, farther than the robot drives in that time"
+    assert (progress.state, progress.fault, progress.what) == ("failed", "lost", said)
+    assert not w.robot.navigation.executing
+    assert math.dist((stood.x, stood.y), (driver.position().x, driver.position().y)) < 1.0
+    begun = w.clock.now()
+    while driver.lost() is not None:
+        w.clock.advance(0.2)
+    assert w.clock.now() - begun <= JUMPED_S
+    assert driver.position().x == pytest.approx(w.robot.xy[0] + 40.0, abs=0.5)
+
+
+def test_the_fixes_of_two_robots_on_one_topic_are_no_position() -> None:
+    w = world()
+    driver = w.connect()
+    here = w.robot.xy
+    seen = set()
+    for n in range(100):
+        w.robot.fix_shift_m = 40.0 * (n % 2)
+        w.clock.advance(0.1)
+        seen.add(driver.lost())
+        assert math.dist(here, (driver.position().x, driver.position().y)) < 0.1
+    assert "the position jumped by 40 m, farther than the robot drives in that time" in seen
+
+
+def test_a_robot_whose_fix_turns_out_to_be_on_another_site_is_lost() -> None:
+    w = world()
+    driver = w.connect()
+    w.robot.fix_shift_m = 90_000.0
+    for _ in range(100):
+        w.clock.advance(0.1)
+        driver.lost()
+    assert driver.lost() == "the robot stands 90 km from the start of grid: it is on another site"
+    driver.start_drive(drive())
+    assert driver.poll().fault == "lost"
+
+
 def test_metres_along_the_fixes_where_there_is_no_odometry() -> None:
     w = world(bindings(odometry=None))
     driver = w.connect()
@@ -467,6 +534,38 @@ def test_a_server_killed_in_mid_goal_while_the_sensors_live() -> None:
     assert "/husky/navigate_to_pose was silent for 15 s; then" in progress.what
     assert "does not confirm that it was cancelled" in progress.what
     assert "use its emergency stop" in progress.what
+
+
+def test_what_the_network_does_not_take_is_sent_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    w = world()
+    driver = w.connect()
+    driver.start_drive(drive())
+    w.clock.advance(2.0)
+
+    def refuses(_: object) -> int:
+        raise Ros2Error("DDS does not send this message")
+
+    with monkeypatch.context() as broken:
+        for client in driver._navigation.client._clients:
+            broken.setattr(client, "ask", refuses)
+        driver.cancel()
+        w.clock.advance(2.0)
+        assert driver.poll().state == "running"
+        assert w.robot.navigation.executing
+    assert finish(driver, w.clock).state == "cancelled"
+    assert not w.robot.navigation.executing
+
+
+def test_who_looks_no_more_leaves_no_goal_behind() -> None:
+    w = world()
+    driver = w.connect()
+    driver.start_drive(drive())
+    w.clock.advance(2.0)
+    driver.leave(sleep=w.clock.advance)
+    assert not w.robot.navigation.executing
+    begun = w.clock.now()
+    driver.leave(sleep=w.clock.advance)
+    assert w.clock.now() == begun
 
 
 def test_a_robot_that_does_not_stop_is_not_said_to_stand() -> None:
@@ -592,7 +691,10 @@ def test_services_of_another_middleware_are_refused_with_what_to_set() -> None:
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        ({"percentage": 87.0}, "the battery says 8700 percent; correct its scale"),
+        (
+            {"percentage": 87.0},
+            "the battery /husky/battery: it says 8700 percent, which is no charge; correct its scale",
+        ),
         ({"percentage": math.nan}, "the battery /husky/battery: it says no number at percentage"),
         ({"fix_status": -1}, "the position /husky/fix: no satellite fix"),
         ({"pressed": True}, "the emergency stop was pressed (/husky/stop); release it"),
@@ -602,6 +704,13 @@ def test_services_of_another_middleware_are_refused_with_what_to_set() -> None:
 )
 def test_a_robot_that_is_not_ready_is_said_to_be(change: dict[str, Any], said: str) -> None:
     assert said in why(world(**change))
+
+
+def test_an_emergency_stop_that_cannot_be_read_is_none_that_is_not_pressed() -> None:
+    stop = bindings().stop
+    assert stop is not None
+    w = world(bindings(stop=replace(stop, path="pressed")))
+    assert "the emergency stop /husky/stop: pressed is None, neither true nor false" in why(w)
 
 
 def test_a_profile_that_says_nothing_of_ros_is_refused() -> None:
@@ -623,3 +732,21 @@ def test_a_goal_that_an_earlier_mission_left_behind_is_over_before_the_driver_is
     driver = w.connect()
     assert not w.robot.navigation.executing
     assert driver.poll().state == "idle"
+
+
+@pytest.mark.parametrize("refuses", [False, True])
+def test_a_goal_that_was_left_behind_is_waited_for_even_if_nobody_tells_of_it(refuses: bool) -> None:
+    w = world(refuses_cancel=refuses)
+    earlier = ActionClient(
+        w.graph.node(), "/husky/navigate_to_pose", w.robot.bound.navigation.type, steady=w.clock.now, accept_s=5.0
+    )
+    earlier.start({"pose": {"pose": {"position": {"x": 500.0}}}})
+    earlier.step()
+    w.clock.advance(2.0)
+    w.graph.disturb("*/_action/status", Disturbed(delay_s=(8.0, 8.0)))
+    w.robot.navigation._tell()
+    if refuses:
+        assert "did not confirm within 15 s that nothing is carried out there; see what else commands" in why(w)
+    else:
+        w.connect()
+        assert not w.robot.navigation.executing

@@ -71,6 +71,7 @@ def board(
     """
     bindings = bound(robot, by)
     transport, interfaces = join(by, bindings)
+    driver: Ros2Driver | None = None
     try:
         clock: Clock = RosClock.heard(transport, within_s) if bindings.use_sim_time else ScaledClock()
         driver = Ros2Driver.connect(
@@ -92,6 +93,8 @@ def board(
             remark="" if bindings.use_sim_time else ros_clock.overlooked(transport),
         )
     finally:
+        if driver is not None:
+            driver.leave()
         transport.close()
 
 

@@ -39,6 +39,8 @@ READY_WITHIN_S = 20.0
 LOST_S = 5.0
 #: Messages that tell of metres after a drive is over until all of its own are told, and seconds to wait for them.
 LAST_METRES, LAST_METRES_S = 2, 0.5
+#: Seconds in which what is left of a goal has to end when nobody looks any more.
+LEAVE_S = 3.0
 #: Metres from the site's start beyond which a robot is on another site.
 _FAR_M = 5_000.0
 
@@ -72,6 +74,7 @@ class Ros2Driver:
         new_id: Callable[[], bytes] = lambda: uuid.uuid4().bytes,
     ) -> None:
         bindings = _bindings_of(robot, actions)
+        self._site = site
         self._clock, self._steady, self._look_every_s = clock, steady, look_every_s
         self._senses = Senses(
             transport, bindings, site.projection, speed_m_s=robot.speed_m_s, clock=clock.now, steady=steady
@@ -199,6 +202,21 @@ class Ros2Driver:
         self._attend()
         return self._senses.stopped()
 
+    def leave(self, sleep: Callable[[float], None] = time.sleep) -> None:
+        """End what the robot is at, if anything is left of it: nobody looks any more. Waits a moment for that.
+
+        Args:
+            sleep: Waits so many seconds of the steady clock.
+        """
+        clients = (self._navigation.client, *self._captures.actions)
+        until = self._steady() + LEAVE_S
+        for client in clients:
+            client.cancel("nobody looks any more")
+        while any(client.busy for client in clients) and self._steady() < until:
+            for client in clients:
+                client.step()
+            sleep(LOOK_EVERY_S)
+
     def close(self) -> None:
         """Let the robot go, without a word to it: what it is at is cancelled before, or goes on."""
         self._senses.close()
@@ -273,7 +291,7 @@ class Ros2Driver:
         return self._senses.position
 
     def _is_lost(self) -> str | None:
-        why = self._senses.lost()
+        why = self._senses.lost() or self._far_from(self._site)
         if why is None and self._lost is not None:
             since, said = self._lost
             return said if self._steady() - since < LOST_S else None

@@ -35,6 +35,8 @@ from fieldhand.execution.drivers.ros2.transport import STATUS, Client, Message, 
 RESULT_AGAIN_S = 3.0
 #: Seconds until a cancellation that was not answered is repeated.
 CANCEL_AGAIN_S = 1.0
+#: Stands for the number of a request that did not go out; none that did has it.
+_LOST = -1
 #: Seconds in which a cancelled goal has to end. More than execution waits before it says that the robot does not stop.
 CANCEL_S = 15.0
 
@@ -84,6 +86,7 @@ class ActionClient:
         self._cancelled: dict[int, tuple[bytes, bool]] = {}
         self._given_up: dict[bytes, float] = {}
         self._sweeps: set[int] = set()
+        self._stopping: set[bytes] = set()
         self._sweep_s, self._swept = -math.inf, False
 
     # --- what is asked -------------------------------------------------------------------------------------------
@@ -98,11 +101,16 @@ class ActionClient:
         Args:
             goal: The fields of the action's goal.
         """
-        if self._goal is not None and self._outcome is None:
+        if self.busy:
             raise RuntimeError(f"a goal of {self.name} is running: a client has one at a time")
         now = self._steady()
         self.feedback = {}
         self._goal, self._outcome = GoalRecord(id=self._new_id(), message=goal, begun_s=now, heard_s=now), None
+
+    @property
+    def busy(self) -> bool:
+        """Whether a goal was begun that is not over."""
+        return self._goal is not None and self._outcome is None
 
     def cancel(self, why: str = "") -> None:
         """Ask for the end of the goal; it is over when :meth:`step` says so. Does nothing the second time.
@@ -133,8 +141,10 @@ class ActionClient:
         self._hear(now)
         if not self._swept and now - self._sweep_s >= CANCEL_AGAIN_S:
             self._sweep_s = now
-            self._sweeps.add(self._cancel.ask({}))
-        return self._swept and not any(status in BUSY for status in self._statuses.values())
+            self._sweeps.add(self._asked_of(self._cancel, {}))
+        # Statuses come on another way than the answer: those that it ends may not be told yet.
+        self._stopping -= {goal_id for goal_id, status in self._statuses.items() if status in BY_STATUS}
+        return self._swept and not self._stopping and not any(status in BUSY for status in self._statuses.values())
 
     def close(self) -> None:
         """End it, without a word to the robot."""
@@ -161,7 +171,8 @@ class ActionClient:
         for number, reply in self._cancel.replies():
             self._hear_cancelled(*self._cancelled.get(number, (b"", False)), reply)
             self._cancelled[number] = b"", False
-            self._swept = self._swept or number in self._sweeps
+            if number in self._sweeps:
+                self._hear_swept(reply)
 
     def _alive(self, goal_id: bytes, now: float, feedback: Message | None = None) -> None:
         """The robot is at a goal."""
@@ -217,6 +228,13 @@ class ActionClient:
         goal.refused = code == CANCEL_REJECTED
         # A request that was still on its way was not known then, either.
         goal.forgotten = goal.forgotten or code == CANCEL_TERMINATED or (code == CANCEL_UNKNOWN_GOAL and settled)
+
+    def _hear_swept(self, reply: Message) -> None:
+        """Which goals it ends; one that refuses is asked again."""
+        listed = reply.get("goals_canceling")
+        self._swept = self._swept or reply.get("return_code") != CANCEL_REJECTED
+        for entry in listed if isinstance(listed, tuple) else ():
+            self._stopping.add(_id(value_at(entry, "goal_id.uuid")))
 
     # --- what is done --------------------------------------------------------------------------------------------
 
@@ -279,10 +297,19 @@ class ActionClient:
         silent = now - goal.heard_s >= RESULT_AGAIN_S or goal.ended is not None
         if goal.accepted and (asked_s is None or (silent and now - asked_s >= RESULT_AGAIN_S)):
             goal.asked_result_s = now
-            self._asked[self._result.ask({"goal_id": {"uuid": goal.id}})] = goal.id
+            self._asked[self._asked_of(self._result, {"goal_id": {"uuid": goal.id}})] = goal.id
 
     def _ask_cancel(self, goal_id: bytes, *, settled: bool) -> None:
-        self._cancelled[self._cancel.ask({"goal_info": {"goal_id": {"uuid": goal_id}}})] = goal_id, settled
+        number = self._asked_of(self._cancel, {"goal_info": {"goal_id": {"uuid": goal_id}}})
+        self._cancelled[number] = goal_id, settled
+
+    @staticmethod
+    def _asked_of(client: Client, request: Message) -> int:
+        """Ask; what the network does not take is lost like any other, and asked again."""
+        try:
+            return client.ask(request)
+        except Ros2Error:
+            return _LOST
 
     def _stop(self, goal: GoalRecord, sent_s: float, stop_s: float, now: float) -> Outcome | None:
         """Ask for its end until it is confirmed."""

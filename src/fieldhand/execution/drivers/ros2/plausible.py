@@ -9,15 +9,12 @@ import math
 from collections.abc import Callable
 
 from fieldhand.execution.drivers.ros2.fields import number_at, value_at
-from fieldhand.execution.drivers.ros2.senses import doubt_of
+from fieldhand.execution.drivers.ros2.senses import MOST_PERCENT, doubt_of
 from fieldhand.execution.drivers.ros2.transport import Message
 from fieldhand.robot.bindings import BatteryBinding, FieldBinding, PositionBinding, StopBinding
 from fieldhand.robot.model import Quantity
 
 Judge = Callable[[Message], str]
-
-#: Percent: batteries that are full say somewhat more than 100.
-MOST_PERCENT = 105.0
 
 
 class Implausible(Exception):

@@ -56,7 +56,7 @@ def topic_unusable(
         return _other_type("sent", peers, type_name)
     if all(_less(p.quality, quality) for p in typed):
         return _less(typed[0].quality, quality)
-    return _other_definition(interfaces, typed, type_name, type_name)
+    return _other_definition([p.type_hash for p in typed], interfaces.type_hash(type_name), type_name)
 
 
 def service_unusable(transport: Transport, interfaces: Interfaces, service: str, type_name: str) -> Unusable | None:
@@ -78,7 +78,10 @@ def service_unusable(transport: Transport, interfaces: Interfaces, service: str,
             what=f"{len(typed)} servers answer it: which robot would hear?",
             advice="if these are two robots, give each a namespace or a ROS_DOMAIN_ID of its own",
         )
-    return _other_definition(interfaces, typed, f"{type_name}_Request", type_name)
+    wrong = _other_definition([p.type_hash for p in typed], interfaces.type_hash(f"{type_name}_Request"), type_name)
+    return wrong or _other_definition(
+        [p.reply_hash for p in typed], interfaces.type_hash(f"{type_name}_Response"), type_name
+    )
 
 
 def action_unusable(transport: Transport, interfaces: Interfaces, action: str, type_name: str) -> Unusable | None:
@@ -131,10 +134,9 @@ def _less(offered: Quality, wanted: Quality) -> Unusable | None:
     return None
 
 
-def _other_definition(interfaces: Interfaces, peers: list[Peer], message: str, shown: str) -> Unusable | None:
+def _other_definition(theirs: list[str], ours: str, shown: str) -> Unusable | None:
     """The same name and other fields: it would match, and be misread. From Iron on it can be told."""
-    ours = interfaces.type_hash(message)
-    if all(p.type_hash and p.type_hash != ours for p in peers):
+    if all(said and said != ours for said in theirs):
         return Unusable(
             what=f"the robot has another definition of {shown} than is known here",
             advice="set the robot's distro in the profile, or give its definition under ros2: interfaces",

@@ -27,6 +27,14 @@ _ODOMETRY_STEP_M, _FIX_STEP_M = 0.02, 0.25
 #: A step that would have taken more than that many times the robot's speed is no driving: the odometry was set anew.
 _JUMP, _JUMP_M = 5.0, 2.0
 
+#: Percent: batteries that are full say somewhat more than 100.
+MOST_PERCENT = 105.0
+#: Seconds for which fixes must follow each other elsewhere until they are believed: the robot was carried there, or its
+#: receiver corrects itself. Until then it is lost: one that jumps to and fro is two robots, or none.
+JUMPED_S = 3.0
+#: Times the standard deviation that is allowed: so much fixes may jump.
+_NOISE = 5.0
+
 #: Where metres are counted.
 _ODOMETRY_X, _ODOMETRY_Y = FieldBinding(path="pose.pose.position.x"), FieldBinding(path="pose.pose.position.y")
 
@@ -54,7 +62,8 @@ class Sense:
 
     def known(self) -> bool:
         """Whether it has said something. What is kept for who comes late, and never was sent, never changed."""
-        return self.at_s is not None or (self.binding.transient and self.subscription.publishers() > 0)
+        kept = self.binding.transient and not self.heard
+        return self.at_s is not None or (kept and self.subscription.publishers() > 0)
 
     def take(self) -> tuple[Message, ...]:
         """What has arrived."""
@@ -65,7 +74,7 @@ class Sense:
     def silent(self, now: float) -> str | None:
         """Why nothing is known any more; None while something is."""
         if self.at_s is None:
-            return None if self.known() else f"nothing came on {self.name} yet"
+            return None if self.known() else self.doubt or f"nothing came on {self.name} yet"
         passed = now - self.at_s
         return f"nothing came on {self.name} for {passed:.0f} s" if passed > self.binding.stale_s else None
 
@@ -95,6 +104,53 @@ class _Way:
         if step <= _JUMP * self._speed * passed + _JUMP_M:
             self.metres += step
         self._last = now, stamp, xy
+
+
+class _Track:
+    """Whether fixes follow each other as a robot drives.
+
+    Args:
+        slack_m: Metres that they may be apart without any time between.
+        speed_m_s: Of the robot.
+        clock: In whose seconds it drives as fast as that.
+        steady: Seconds that pass whatever that does.
+    """
+
+    def __init__(
+        self, slack_m: float, speed_m_s: float, clock: Callable[[], float], steady: Callable[[], float]
+    ) -> None:
+        self._slack_m, self._speed, self._clock, self._steady = slack_m, speed_m_s, clock, steady
+        self._last: _Point | None = None
+        self._elsewhere: tuple[float, _Point] | None = None
+
+    def jumped_m(self, xy: tuple[float, float], message: Message) -> float:
+        """How far away a fix lies from those that are believed; 0 where it follows them."""
+        point = _Point(self._clock(), _stamp_of(message), xy)
+        if self._last is None or self._follows(self._last, point):
+            self._last, self._elsewhere = point, None
+            return 0.0
+        since = self._steady()
+        if self._elsewhere is not None and self._follows(self._elsewhere[1], point):
+            since = self._elsewhere[0]
+        self._elsewhere = since, point
+        if self._steady() - since < JUMPED_S:
+            return math.dist(self._last.xy, xy)
+        self._last, self._elsewhere = point, None
+        return 0.0
+
+    def _follows(self, before: _Point, point: _Point) -> bool:
+        # Messages that were taken together were not sent together.
+        passed = max(point.taken_s - before.taken_s, point.stamp_s - before.stamp_s)
+        return math.dist(before.xy, point.xy) <= _JUMP * self._speed * passed + self._slack_m
+
+
+@dataclass(frozen=True)
+class _Point:
+    """Where a fix lies, when it was taken, and when it was made."""
+
+    taken_s: float
+    stamp_s: float
+    xy: tuple[float, float]
 
 
 class Senses:
@@ -136,6 +192,8 @@ class Senses:
         self._battery = sense("the battery", bindings.battery.topic)
         self._odometry = sense("the odometry", bindings.odometry) if bindings.odometry else None
         self._stop = sense("the emergency stop", bindings.stop.topic) if bindings.stop else None
+        slack_m = max(_JUMP_M, _NOISE * bindings.position.most_sigma_m)
+        self._track = _Track(slack_m, speed_m_s, clock, steady)
         self._way = _Way(_ODOMETRY_STEP_M if self._odometry else _FIX_STEP_M, speed_m_s, clock)
         self._position: Position | None = None
         self._charge: float | None = None
@@ -172,11 +230,7 @@ class Senses:
         for message in self._fix.take():
             self._hear_fix(message, now)
         for message in self._battery.take():
-            # NaN is what a battery says that does not measure: it has said nothing.
-            if (charge := number_at(message, self._battery_value)) is not None:
-                self._charge, self._battery.at_s = charge, now
-            else:
-                self._battery.doubt = f"it says no number at {self._battery_value.path}"
+            self._hear_battery(message, now)
         for message in self._odometry.take() if self._odometry else ():
             self._hear_odometry(message, now)
         for message in self._stop.take() if self._stop else ():
@@ -187,9 +241,9 @@ class Senses:
         return self._fix.doubt or self._fix.silent(self._steady())
 
     def silent(self) -> str | None:
-        """Why no goal can be carried out: the battery or the emergency stop is silent."""
+        """Why no goal can be carried out: the battery, the emergency stop, or what counts metres is silent."""
         now = self._steady()
-        for sense in (self._battery, self._stop):
+        for sense in (self._battery, self._stop, self._odometry):
             if sense is not None and (why := sense.silent(now)) is not None:
                 return f"{sense.what} is silent: {why}"
         return None
@@ -208,14 +262,28 @@ class Senses:
         self._fix.doubt = doubt or ""
         if doubt is not None:
             return
-        self._fix.at_s = now
         lat, lon = message["latitude"], message["longitude"]
         assert isinstance(lat, float)  # noqa: S101  else it was doubted
         assert isinstance(lon, float)  # noqa: S101
         x, y = (float(v) for v in self._projection.metres(lat, lon)[0])
+        if (jumped_m := self._track.jumped_m((x, y), message)) > 0.0:
+            self._fix.doubt = f"the position jumped by {jumped_m:.0f} m, farther than the robot drives in that time"
+            return
+        self._fix.at_s = now
         self._position = Position(x=x, y=y, lat=lat, lon=lon)
         if self._odometry is None:
             self._way.add((x, y), message)
+
+    def _hear_battery(self, message: Message, now: float) -> None:
+        charge = number_at(message, self._battery_value)
+        if charge is None:
+            # NaN is what a battery says that does not measure: it has said nothing.
+            self._battery.doubt = f"it says no number at {self._battery_value.path}"
+        elif not 0.0 <= charge <= MOST_PERCENT:
+            advice = "correct its scale or unit in the profile's ros2 part"
+            self._battery.doubt = f"it says {charge:g} percent, which is no charge; {advice}"
+        else:
+            self._charge, self._battery.at_s = charge, now
 
     def _hear_odometry(self, message: Message, now: float) -> None:
         assert self._odometry is not None  # noqa: S101  asked for by who has one
@@ -227,8 +295,13 @@ class Senses:
     def _hear_stop(self, message: Message, now: float) -> None:
         assert self._stop is not None  # noqa: S101  asked for by who has one
         assert self._stop_binding is not None  # noqa: S101
+        value = value_at(message, self._stop_binding.path)
+        if not isinstance(value, bool):
+            # Else one that nobody can read would pass for one that is not pressed.
+            self._stop.doubt = f"{self._stop_binding.path} is {value!r}, neither true nor false"
+            return
         self._stop.at_s = now
-        if value_at(message, self._stop_binding.path) == self._stop_binding.stopped:
+        if value == self._stop_binding.stopped:
             self._stopped = f"the emergency stop was pressed ({self._stop.name})"
 
 

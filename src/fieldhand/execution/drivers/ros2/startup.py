@@ -9,7 +9,6 @@ from fieldhand.execution.drivers.ros2.capture import Bound, Captures
 from fieldhand.execution.drivers.ros2.goal import CANCEL_S, ActionClient
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.navigation import FROM_LL, Navigation
-from fieldhand.execution.drivers.ros2.plausible import MOST_PERCENT
 from fieldhand.execution.drivers.ros2.seen import Unusable, action_unusable, service_unusable, topic_unusable
 from fieldhand.execution.drivers.ros2.senses import Sense, Senses
 from fieldhand.execution.drivers.ros2.transport import Client, Quality, Transport
@@ -20,7 +19,11 @@ _MOST_NAMED = 8
 #: What is missing, and what to do; empty where nothing is to be said.
 _Missing = tuple[str, str]
 
-_ONE_WAY = "it was found, but does not answer"
+_ONE_WAY = (
+    "it was found, but there is no way to it and back",
+    "see whether its definition is another than that of the profile's distro, and whether a firewall lets only one"
+    " direction through",
+)
 
 
 class Startup:
@@ -85,9 +88,6 @@ class Startup:
             yield from self._silent(sense)
         if (why := self._far()) is not None:
             yield why, ""
-        charge = self._senses.charge_percent
-        if charge is not None and not 0.0 <= charge <= MOST_PERCENT:
-            yield f"the battery says {charge:g} percent", "correct its scale or unit in the profile's ros2 part"
         if (pressed := self._senses.stopped()) is not None:
             yield pressed, "release it and begin again"
         for name, bound in self._captures.bound.items():
@@ -138,7 +138,8 @@ class Startup:
 
 
 def _line(what: str, name: str, why: Unusable | None) -> _Missing:
-    return (f"{what} {name}: {_ONE_WAY}", "") if why is None else (f"{what} {name}: {why.what}", why.advice)
+    found, advice = _ONE_WAY if why is None else (why.what, why.advice)
+    return f"{what} {name}: {found}", advice
 
 
 def _told(missing: list[_Missing]) -> str:

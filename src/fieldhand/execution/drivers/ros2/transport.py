@@ -57,6 +57,7 @@ class Peer:
         type: Its type, in ROS's form where it can be told, else as the wire has it.
         quality: What it offers, or asks for.
         type_hash: Of its type's definition (``RIHS01_...``), from Iron on; empty where it gives none.
+        reply_hash: The same of the replies of a server, whose type is that of its requests.
     """
 
     participant: str
@@ -64,6 +65,7 @@ class Peer:
     type: str
     quality: Quality
     type_hash: str = ""
+    reply_hash: str = ""
 
 
 class Subscription(Protocol):

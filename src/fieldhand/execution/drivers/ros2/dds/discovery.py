@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from cyclonedds.builtin import BuiltinDataReader, BuiltinTopicDcpsPublication, BuiltinTopicDcpsSubscription
@@ -35,11 +36,10 @@ class Discovery:
 
     def servers_of(self, service: str) -> tuple[Peer, ...]:
         """Everything that reads the requests of a service."""
-        return self._peers(self._readers, request_name(service))
-
-    def repliers_of(self, service: str) -> tuple[Peer, ...]:
-        """Everything that writes the replies of a service."""
-        return self._peers(self._writers, reply_name(service))
+        # Of several servers in one process it cannot be told whose replies are which.
+        replies = {p.participant: p.type_hash for p in self._peers(self._writers, reply_name(service))}
+        found = self._peers(self._readers, request_name(service))
+        return tuple(replace(p, reply_hash=replies.get(p.participant, "")) for p in found)
 
     def _peers(self, seen: _Seen, wire_name: str) -> tuple[Peer, ...]:
         there = seen.now(wire_name)

@@ -1,0 +1,128 @@
+"""The scripted robot in a process of its own, over real DDS; it does one step each time that it is told to.
+
+Lines of JSON come in, one goes out for each. What both ends have sent before a step has arrived when it begins: each
+sends a number behind it, and waits for the other's.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from fieldhand.clock import SimulatedClock
+from fieldhand.execution.drivers.ros2.dds import open_dds
+from fieldhand.execution.drivers.ros2.dds.transport import DdsTransport
+from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.transport import Quality
+from ros2.patience import until
+from ros2.scripted import Script, ScriptedAction
+from ros2.scripted_robot import INTERFACES, Robot, bindings, interfaces
+
+NUMBER, TO_ROBOT, FROM_ROBOT, ALL = "std_msgs/msg/Int32", "/to_robot", "/from_robot", Quality(depth=10)
+
+
+class Process:
+    """What the lines say, each done by the method of its name."""
+
+    def __init__(self) -> None:
+        self.clock = SimulatedClock()
+        self.nodes: list[DdsTransport] = []
+
+    def new(
+        self,
+        robots: int = 1,
+        distro: Any = "jazzy",
+        namespace: str = "/husky",
+        definitions: Mapping[str, str] = {},
+        hashes: bool = True,
+        thermometer_type: str = "",
+        **switches: Any,
+    ) -> None:
+        """Another robot in place of the one before, or several.
+
+        Args:
+            definitions: In place of those that the computer has.
+            hashes: Say of which definition types are, those of ``definitions`` among them; before Iron nobody did.
+            thermometer_type: Of this service, in place of what the computer has.
+        """
+        self.end()
+        known = Interfaces.of(distro, INTERFACES | dict(definitions)) if definitions else interfaces(distro)
+        if not hashes:
+            known.type_hash = lambda _: ""  # type: ignore[method-assign]
+        self.nodes = [open_dds(known) for _ in range(robots)]
+        bound = bindings(distro=distro, namespace=namespace)
+        self.robots = [Robot(node, self.clock, bound) for node in self.nodes]
+        for robot in self.robots:
+            if thermometer_type:
+                robot.thermometer.close()
+                robot.thermometer = robot.node.serve("/thermometer", thermometer_type)
+        self.change(**switches)
+        self.heard = self.nodes[0].subscribe(TO_ROBOT, NUMBER, ALL)
+        self.said = self.nodes[0].publish(FROM_ROBOT, NUMBER, ALL)
+
+    def change(
+        self, *, without: str = "", blocked: Sequence[float] = (), thermometer: Any = "", **switches: Any
+    ) -> None:
+        """Switches of the robot.
+
+        Args:
+            without: The server of this ends.
+            blocked: What stands in its way: x, y and radius.
+            thermometer: What it answers; None for nothing.
+        """
+        for robot in self.robots:
+            if without:
+                getattr(robot, without).close()
+            if blocked:
+                robot.blocked = lambda xy: math.dist(xy, blocked[:2]) < blocked[2]
+            if thermometer != "":
+                robot.reading = lambda _: thermometer
+            for name, value in switches.items():
+                setattr(robot, name, set(value) if name == "silent" else value)
+
+    def another(self) -> None:
+        """A second robot is switched on, under the same names."""
+        node = open_dds(self.nodes[0].interfaces)
+        self.nodes.append(node)
+        navigation = self.robots[0].bound.navigation
+        whole = self.robots[0].bound.whole_name(navigation.action)
+        ScriptedAction(node, whole, navigation.type, self.clock.now, lambda _: Script())
+
+    def meet(self) -> None:
+        """Until the computer is found."""
+        until(lambda: self.heard.publishers() == 1 and self.said.subscribers() == 1)
+
+    def step(self, seconds: float, number: int) -> None:
+        """Let time pass."""
+        until(lambda: {"data": number} in self.heard.take())
+        self.clock.advance(seconds)
+        for robot in self.robots:
+            robot.step()
+        self.said.send({"data": number})
+
+    def end(self) -> None:
+        """Leave the graph."""
+        for node in self.nodes:
+            node.close()
+
+    def state(self) -> dict[str, object]:
+        """What the robot is at."""
+        robot = self.robots[0]
+        return {"executing": len(robot.navigation.executing) + len(robot.sampler.executing), "xy": robot.xy,
+                "goals": len(robot.navigation.received), "driven_m": robot.driven_m}  # fmt: skip
+
+
+def main() -> None:
+    process = Process()
+    for line in sys.stdin:
+        does, given = json.loads(line)
+        getattr(process, does)(**given)
+        print(json.dumps(process.state()), flush=True)
+    process.end()
+
+
+if __name__ == "__main__":
+    main()
