@@ -4,10 +4,6 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Mapping
-from contextlib import ExitStack
-from dataclasses import dataclass, field, replace
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -19,27 +15,7 @@ from fieldhand.errors import InputError
 if TYPE_CHECKING:
     from fastapi import FastAPI
 
-    from fieldhand.approval.bundle.opening import Bundle
-    from fieldhand.delivery.crew import Crew
-    from fieldhand.delivery.depot import Depot
-    from fieldhand.execution.vehicle import Connection
-    from fieldhand.execution.world import World
-    from fieldhand.missions import Mission
-
-
-@dataclass(frozen=True, kw_only=True)
-class Station:
-    """A robot that waits for missions.
-
-    Attributes:
-        app: What answers.
-        let_go: Ends what was opened beside.
-    """
-
-    app: FastAPI
-    depot: Depot
-    crew: Crew
-    let_go: ExitStack = field(default_factory=ExitStack)
+    from fieldhand.program.station import Station
 
 
 def agent(
@@ -82,6 +58,7 @@ def agent(
     from fieldhand.cli.aboard import connection_of, refuse_simulation_options
     from fieldhand.cli.flight import parse_speed
     from fieldhand.delivery.token import read_token
+    from fieldhand.program.station import compose_station
 
     require_extra()
     pace = parse_speed(speed or "1")
@@ -91,132 +68,46 @@ def agent(
     tls = _tls(cert, key)
     _require_guarded(host, token=token is not None, tls=tls is not None, insecure=insecure)
     require_free(host, port)
-    station = compose_agent(
+    station = compose_station(
         os.environ,
         robot=robot,
         sites=tuple(site or ()),
         store=store,
-        host=host,
-        token=token,
         world=world,
         seed=seed,
         speed=pace,
         lenient=lenient,
         connection=connection,
+        tell=_tell,
     )
     try:
+        app = create_app(station, token=token, host=host)
         station.crew.make_up()
         if resume and (cut := station.crew.go_on()):
             print(f"going on with mission {cut[:16]}", file=sys.stderr)  # noqa: T201
-        _serve(station, host, port, tls, token)
+        _serve(app, host, port, tls, token)
     finally:
-        _rest(station)
+        station.close()
 
 
-def compose_agent(
-    environ: Mapping[str, str],
-    *,
-    robot: str,
-    sites: tuple[str, ...] = (),
-    store: Path | None = None,
-    host: str = "127.0.0.1",
-    token: str | None,
-    world: Path | None = None,
-    seed: int = 0,
-    speed: float | None = None,
-    lenient: bool = False,
-    connection: Connection | None = None,
-) -> Station:
-    """The agent of a robot, ready to be served.
-
-    Args:
-        connection: How the robot is reached, at each mission anew; None for the simulation.
-
-    Raises:
-        InputError: Robot, site, world, store or trusted keys cannot be used.
-    """
-    from functools import partial
-
-    from fieldhand import missions, past
+def create_app(station: Station, *, token: str | None, host: str) -> FastAPI:
+    """What answers for a station."""
     from fieldhand.agent.app import create_agent
     from fieldhand.agent.routes import Identity
     from fieldhand.api.serving import hosts_for
-    from fieldhand.approval.keys.trust import TrustStore
-    from fieldhand.delivery.crew import Crew
-    from fieldhand.delivery.depot import Depot
-    from fieldhand.delivery.verified import acceptance
-    from fieldhand.execution.world import World, load_world
-    from fieldhand.files import config_folder
-    from fieldhand.robot.loader import load_robot
-    from fieldhand.site.geojson import open_site
 
-    profile = load_robot(robot)
-    places = tuple(open_site(one, lenient=lenient) for one in sites)
-    trusted = TrustStore(config_folder(environ))
-    trusted.known()
-    here = World() if world is None else load_world(world)
-    depot = Depot(
-        store or missions.missions_folder(environ).parent / "agent",
-        accept=acceptance(robot=profile, sites=places, trusted=trusted, now=_now),
-        now=_now,
+    who = Identity(
+        robot=station.robot.name,
+        robot_sha256=station.robot.sha256,
+        sites=tuple(place.name for place in station.sites),
+        on=station.on,
+        missing=station.missing,
     )
-    who = Identity(robot=profile.name, robot_sha256=profile.sha256, sites=tuple(place.name for place in places))
-    let_go, conclude = ExitStack(), partial(_conclude, past.history_folder(environ))
-    if connection is None:
-        crew = Crew(
-            depot,
-            carry=partial(missions.carry_out, speed=speed, emit=lambda _: None),
-            world=here.data,
-            check=partial(_require_sound, here),
-            conclude=conclude,
-            seed=seed,
-        )
-    else:
-        from fieldhand.execution.drivers.ros2.boarding import Lookout, board, bound, join
-        from fieldhand.program.aboard import Aboard
-
-        bindings = bound(profile, connection)
-        lookout, aboard = Lookout(join(connection, bindings)[0], bindings), Aboard(connection, board)
-        let_go.callback(lookout.close)
-        let_go.callback(aboard.close)
-        crew = Crew(depot, carry=aboard.carry, check=aboard.check, conclude=conclude, seed=seed)
-        who = replace(who, on=str(connection), missing=lookout.missing)
-    app = create_agent(depot, crew, who, token=token, hosts=hosts_for(host))
-    return Station(app=app, depot=depot, crew=crew, let_go=let_go)
+    return create_agent(station.depot, station.crew, who, token=token, hosts=hosts_for(host))
 
 
-def _now() -> datetime:
-    return datetime.now(UTC)
-
-
-def _conclude(history: Path, given: Mission) -> None:
-    """Leave the report of a mission in its folder, and keep what it cost."""
-    from fieldhand import mission, missions, past
-
-    done = past.conclude(
-        given.authorized,
-        given.site,
-        given.robot,
-        missions.events_of(given.folder),
-        estimate=mission.review(given.authorized.task, given.site, given.robot).estimate,
-        folder=given.folder,
-        history=history,
-        at=_now(),
-        bundle=given.bundle,
-    )
-    if done.not_kept:
-        print(f"warning: {done.not_kept}", file=sys.stderr)  # noqa: T201
-
-
-def _require_sound(world: World, bundle: Bundle) -> None:
-    """The checks of whoever runs a mission by hand: the world fits it, and no check finds an error."""
-    from fieldhand import mission
-    from fieldhand.errors import NotApprovedError
-
-    mission.check_world(world, bundle.site, bundle.robot)
-    errors = mission.review(bundle.authorized.task, bundle.site, bundle.robot).errors
-    if errors:
-        raise NotApprovedError("; ".join(str(problem.line()) for problem in errors))
+def _tell(line: str) -> None:
+    print(f"warning: {line}", file=sys.stderr)  # noqa: T201
 
 
 def _tls(cert: Path | None, key: Path | None) -> tuple[Path, Path] | None:
@@ -265,7 +156,7 @@ def _require_guarded(host: str, *, token: bool, tls: bool, insecure: bool) -> No
     )
 
 
-def _serve(station: Station, host: str, port: int, tls: tuple[Path, Path] | None, token: str | None) -> None:
+def _serve(app: FastAPI, host: str, port: int, tls: tuple[Path, Path] | None, token: str | None) -> None:
     import uvicorn
 
     shown = f"[{host}]" if ":" in host else host
@@ -275,7 +166,7 @@ def _serve(station: Station, host: str, port: int, tls: tuple[Path, Path] | None
     if token is None:
         print("warning: there is no token; who reaches this address can tell the robot to run", file=sys.stderr)  # noqa: T201
     uvicorn.run(
-        station.app,
+        app,
         host=host,
         port=port,
         log_level="warning",
@@ -289,18 +180,3 @@ def _serve(station: Station, host: str, port: int, tls: tuple[Path, Path] | None
         ssl_certfile=None if tls is None else str(tls[0]),
         ssl_keyfile=None if tls is None else str(tls[1]),
     )
-
-
-def _rest(station: Station) -> None:
-    """Let the robot stand still before the program ends."""
-    import time
-
-    until = time.monotonic() + 5.0
-
-    def wait() -> bool:
-        time.sleep(0.02)
-        return time.monotonic() < until
-
-    station.crew.rest(wait)
-    station.let_go.close()
-    station.depot.close()

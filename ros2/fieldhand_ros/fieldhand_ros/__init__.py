@@ -1,0 +1,1 @@
+"""Fieldhand inside ROS 2."""

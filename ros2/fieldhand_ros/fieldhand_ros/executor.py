@@ -1,0 +1,310 @@
+"""A lifecycle node that takes one signed mission and carries it out on the robot of its graph.
+
+    configure    verify the mission, keep it                 refused: a signature, a robot, a site that do not fit
+    activate     see that the robot answers                  refused: what of it is missing
+    deactivate   stand still: what is under way is paused
+    cleanup      forget the mission                          refused: it is under way
+
+What it is told by services goes the same way as what an agent is told over the network (``fieldhand agent``): this
+node has no rules of its own. The mission drives the robot from a thread and a ROS context of its own, so that nothing
+that this node's executor does can hold it up.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import threading
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
+from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+from fieldhand.delivery.crew import ORDERS, Said
+from fieldhand.delivery.ledger import Held
+from fieldhand.delivery.standing import Standing
+from fieldhand.delivery.wire import shown
+from fieldhand.errors import FieldhandError, InputError
+from fieldhand.execution.vehicle import Connection
+from fieldhand.program.station import Station, compose_station
+
+DONE, REFUSED = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FAILURE
+
+#: Seconds within which the robot has to answer, a mission hears an order, and a robot stands still.
+ANSWERS_WITHIN_S, HEARS_WITHIN_S, RESTS_WITHIN_S = 15.0, 5.0, 30.0
+#: Seconds between two looks while something is waited for, and between two of status and diagnostics.
+LOOK_S, TELL_S = 0.05, 1.0
+#: What a robot that stands still may be told as well.
+_WHEN_INACTIVE = ("pause", "abort")
+
+
+class Executor(LifecycleNode):
+    """The node ``executor``."""
+
+    def __init__(self) -> None:
+        super().__init__("executor")
+        for name, default in (
+            ("mission", ""),
+            ("robot", ""),
+            ("sites", [""]),
+            ("missions", ""),
+            ("config", ""),
+            ("robot_namespace", ""),
+            ("seed", 0),
+            ("go_on", False),
+        ):
+            self.declare_parameter(name, default)
+        self._station: Station | None = None
+        self._held: Held | None = None
+        self._active = False
+        #: Why the last transition was refused.
+        self._problem = ""
+        #: The lifecycle changes in one thread, and status is told from another.
+        self._guard = threading.RLock()
+        orders = ReentrantCallbackGroup()
+        for said in ORDERS:
+            self.create_service(Trigger, f"~/{said}", self._answer(said), callback_group=orders)
+        kept = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        self._status = self.create_publisher(String, "~/status", kept)
+        self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", 10)
+        self._told = ""
+        self.create_timer(TELL_S, self._tell, callback_group=MutuallyExclusiveCallbackGroup())
+
+    # --- lifecycle -----------------------------------------------------------------------------------------------
+
+    def on_configure(self, _: LifecycleState) -> TransitionCallbackReturn:
+        """Verify the mission and keep it."""
+        return self._transition(self._configure)
+
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """See that the robot answers; go on with what a power cut has cut off, where that is wanted."""
+        done = self._transition(self._activate)
+        return super().on_activate(state) if done == DONE else done
+
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Let the robot stand still."""
+        self._active = False
+        self._transition(self._rest)
+        return super().on_deactivate(state)
+
+    def on_cleanup(self, _: LifecycleState) -> TransitionCallbackReturn:
+        """Forget the mission."""
+        return self._transition(self._clean_up)
+
+    def on_shutdown(self, _: LifecycleState) -> TransitionCallbackReturn:
+        """Let the robot stand still, and let go of it."""
+        self.let_go()
+        return DONE
+
+    def on_error(self, _: LifecycleState) -> TransitionCallbackReturn:
+        """After a fault of this program: the robot stands still, and the node can be configured anew."""
+        self.let_go()
+        return DONE
+
+    def let_go(self) -> None:
+        """Let the robot stand still; a mission that is under way is paused, and can be gone on with."""
+        with self._guard:
+            station, self._station, self._held, self._active = self._station, None, None, False
+        if station is not None:
+            station.close()
+
+    def _transition(self, make: Callable[[], None]) -> TransitionCallbackReturn:
+        """A transition, refused with its reason where it cannot be made."""
+        try:
+            make()
+        except FieldhandError as error:
+            self._problem = str(error)
+            self.get_logger().error(self._problem)
+            return REFUSED
+        self._problem = ""
+        return DONE
+
+    def _configure(self) -> None:
+        file, robot = self._text("mission"), self._text("robot")
+        for name, value in (("mission", file), ("robot", robot)):
+            if not value:
+                raise InputError(f"the parameter {name} is not set", where=self.get_name(), advice="set it first")
+        config, store, namespace = (self._text(name) for name in ("config", "missions", "robot_namespace"))
+        station = compose_station(
+            os.environ | ({"FIELDHAND_CONFIG": config} if config else {}),
+            robot=robot,
+            sites=tuple(site for site in self._value("sites") if site),
+            store=Path(store) if store else None,
+            seed=self._value("seed"),
+            connection=Connection(
+                transport="rclpy",
+                domain=self.context.get_domain_id(),
+                namespace=_namespace(namespace) if namespace else None,
+                sim_time=self._value("use_sim_time"),
+            ),
+            tell=self.get_logger().warning,
+        )
+        try:
+            held = station.take(Path(file))
+        except FieldhandError:
+            station.close()
+            raise
+        with self._guard:
+            self._station, self._held = station, held
+        self.get_logger().info(f"{held.name}, signed by {held.signer}: {held.request}")
+
+    def _activate(self) -> None:
+        station = self._at_hand()
+        until = time.monotonic() + ANSWERS_WITHIN_S
+        while missing := station.missing():
+            if time.monotonic() >= until:
+                raise InputError(
+                    f"of the robot is missing: {'; '.join(missing)}",
+                    where=station.on,
+                    advice="start it; if it runs, compare names, robot_namespace and ROS_DOMAIN_ID",
+                )
+            time.sleep(LOOK_S)
+        station.crew.make_up()
+        self._active = True
+        if self._value("go_on") and (cut := station.crew.go_on()):
+            self.get_logger().info(f"going on with mission {cut[:16]}")
+
+    def _rest(self) -> None:
+        self._at_hand().rest(RESTS_WITHIN_S)
+
+    def _clean_up(self) -> None:
+        if self._at_hand().crew.active is not None:
+            raise InputError(
+                "the mission is under way: it is paused",
+                where=self.get_name(),
+                advice="abort it; or end the node, it can be gone on with then",
+            )
+        self.let_go()
+
+    # --- orders --------------------------------------------------------------------------------------------------
+
+    def _answer(self, said: Said) -> Callable[[Any, Any], Any]:
+        def answer(_: Any, response: Any) -> Any:
+            try:
+                response.success, response.message = self._tell_mission(said)
+            except FieldhandError as error:
+                response.success, response.message = False, str(error)
+            if not response.success:
+                self.get_logger().warning(f"{said}: {response.message}")
+            return response
+
+        return answer
+
+    def _tell_mission(self, said: Said) -> tuple[bool, str]:
+        station, held = self._at_hand(), self._held
+        if held is None or (not self._active and said not in _WHEN_INACTIVE):
+            raise InputError(f"the node is not active: it cannot {said}", advice="activate it first")
+        until = time.monotonic() + HEARS_WITHIN_S
+
+        def wait() -> bool:
+            time.sleep(LOOK_S)
+            return time.monotonic() < until
+
+        if not station.crew.tell(held, said, f"{said} was called over ROS 2", wait=wait):
+            return False, f"the mission has not heard it within {HEARS_WITHIN_S:g} s; it will"
+        standing = station.crew.standing(held)
+        return True, standing.doing or standing.state
+
+    def _at_hand(self) -> Station:
+        station = self._station
+        if station is None:
+            raise InputError("there is no mission", where=self.get_name(), advice="configure the node first")
+        return station
+
+    # --- status --------------------------------------------------------------------------------------------------
+
+    def _tell(self) -> None:
+        with self._guard:
+            station, held = self._station, self._held
+            standing = None if station is None or held is None else station.crew.standing(held)
+            missing = () if station is None else station.missing()
+        said = {
+            "robot": "" if station is None else station.robot.name,
+            "on": "" if station is None else station.on,
+            "active": self._active,
+            "missing": list(missing),
+            "problem": self._problem,
+            "mission": None if standing is None else shown(standing).model_dump(mode="json"),
+        }
+        text = json.dumps(said, ensure_ascii=False)
+        if text != self._told:
+            self._told = text
+            self._status.publish(String(data=text))
+        status = diagnosed(self.get_name(), standing, missing, self._problem)
+        status.hardware_id = said["robot"]
+        array = DiagnosticArray(status=[status])
+        array.header.stamp = self.get_clock().now().to_msg()
+        self._diagnostics.publish(array)
+
+    def _value(self, name: str) -> Any:
+        return self.get_parameter(name).value
+
+    def _text(self, name: str) -> str:
+        return str(self._value(name)).strip()
+
+
+def diagnosed(node: str, standing: Standing | None, missing: tuple[str, ...], problem: str) -> DiagnosticStatus:
+    """How the mission stands, as diagnostics have it."""
+    level, message = DiagnosticStatus.OK, "no mission"
+    values = {"missing": "; ".join(missing), "problem": problem}
+    if standing is not None:
+        message = standing.doing or standing.state
+        values |= {
+            "mission": standing.held.name,
+            "state": standing.state,
+            "status": standing.status,
+            "reason": standing.reason,
+            "travelled_m": f"{standing.travelled_m:.1f}",
+        }
+        if standing.charge_percent is not None:
+            values["charge_percent"] = f"{standing.charge_percent:.1f}"
+        if standing.state in ("paused", "interrupted") or missing:
+            level = DiagnosticStatus.WARN
+        if standing.state == "lost" or standing.status == "faulted":
+            level = DiagnosticStatus.ERROR
+    if missing:
+        level, message = max(level, DiagnosticStatus.WARN), f"the robot does not answer: {missing[0]}"
+    fault = problem or ("" if standing is None else standing.fault)
+    if fault:
+        level, message = DiagnosticStatus.ERROR, fault
+    return DiagnosticStatus(
+        level=level,
+        name=f"{node}: mission",
+        message=message,
+        values=[KeyValue(key=key, value=value) for key, value in values.items() if value],
+    )
+
+
+def _namespace(said: str) -> str:
+    from fieldhand.robot.bindings_document import as_namespace
+
+    try:
+        return as_namespace(said)
+    except ValueError as error:
+        what, _, advice = str(error).partition("; ")
+        raise InputError(what, where="robot_namespace", advice=advice) from None
+
+
+def main() -> None:
+    """What ``ros2 run fieldhand_ros executor`` runs."""
+    rclpy.init()
+    node = Executor()
+    executor = MultiThreadedExecutor(8)
+    executor.add_node(node)
+    with suppress(KeyboardInterrupt, ExternalShutdownException):
+        executor.spin()
+    node.let_go()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,195 @@
+"""A robot that waits for signed missions, whatever it is told by: the agent's addresses, or services of ROS 2."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from fieldhand.delivery.crew import Crew
+from fieldhand.delivery.depot import Depot
+from fieldhand.delivery.ledger import Held
+
+if TYPE_CHECKING:
+    from fieldhand.approval.bundle.opening import Bundle
+    from fieldhand.execution.vehicle import Connection
+    from fieldhand.execution.world import World
+    from fieldhand.missions import Mission
+    from fieldhand.robot.model import RobotProfile
+    from fieldhand.site.model import Site
+
+#: Seconds within which the robot stands still before a program ends, and between two looks whether it does.
+_RESTS_WITHIN_S, _LOOK_S = 5.0, 0.02
+
+
+@dataclass(frozen=True, kw_only=True)
+class Station:
+    """What takes missions and carries them out, one at a time.
+
+    Attributes:
+        sites: On which the robot may work; empty for any.
+        on: On what missions are carried out, in words.
+        missing: What of the robot does not answer now, in words; nothing where missions are simulated.
+        let_go: Ends what was opened beside.
+    """
+
+    robot: RobotProfile
+    sites: tuple[Site, ...]
+    depot: Depot
+    crew: Crew
+    on: str = "simulation"
+    missing: Callable[[], tuple[str, ...]] = tuple
+    let_go: ExitStack = field(default_factory=ExitStack)
+
+    def take(self, file: Path) -> Held:
+        """Verify a mission that lies on this machine, and keep it; from then on it may be started.
+
+        Raises:
+            BundleError: It cannot be read, or is no mission for this robot.
+            NotTrustedError: Nobody who is trusted here has signed it.
+            ExecutionError: The same mission is here with a later approval.
+            StoreError: It cannot be kept.
+        """
+        import hashlib
+
+        from fieldhand.approval.bundle.container import read_bundle_file
+
+        data = read_bundle_file(file)
+        with self.depot.receiving() as part:
+            part.write(data)
+            return self.depot.take(part, hashlib.sha256(data).hexdigest())[0]
+
+    def rest(self, within_s: float = _RESTS_WITHIN_S) -> None:
+        """Let the robot stand still, if a mission is under way; ``resume`` goes on with it."""
+        until = time.monotonic() + within_s
+
+        def wait() -> bool:
+            time.sleep(_LOOK_S)
+            return time.monotonic() < until
+
+        self.crew.rest(wait)
+
+    def close(self) -> None:
+        """Let the robot stand still, and let go of everything: the program ends."""
+        self.rest()
+        self.let_go.close()
+        self.depot.close()
+
+
+def compose_station(
+    environ: Mapping[str, str],
+    *,
+    robot: str,
+    sites: tuple[str, ...] = (),
+    store: Path | None = None,
+    world: Path | None = None,
+    seed: int = 0,
+    speed: float | None = None,
+    lenient: bool = False,
+    connection: Connection | None = None,
+    tell: Callable[[str], None],
+) -> Station:
+    """The station of a robot.
+
+    Args:
+        environ: Says where trusted keys lie, and what else is kept.
+        robot, sites: Names or files.
+        store: Folder of its missions; None for the one in the user's state folder.
+        world, speed: Of the simulation.
+        seed: Of the simulation, and of the guard.
+        lenient: How sites are read.
+        connection: How the robot is reached, at each mission anew; None for the simulation.
+        tell: Takes a line about what could not be done at the end of a mission.
+
+    Raises:
+        InputError: Robot, site, world, store or trusted keys cannot be used.
+    """
+    from functools import partial
+
+    from fieldhand import missions, past
+    from fieldhand.approval.keys.trust import TrustStore
+    from fieldhand.delivery.verified import acceptance
+    from fieldhand.execution.world import World, load_world
+    from fieldhand.files import config_folder
+    from fieldhand.robot.loader import load_robot
+    from fieldhand.site.geojson import open_site
+
+    profile = load_robot(robot)
+    places = tuple(open_site(one, lenient=lenient) for one in sites)
+    trusted = TrustStore(config_folder(environ))
+    trusted.known()
+    here = World() if world is None else load_world(world)
+    depot = Depot(
+        store or missions.missions_folder(environ).parent / "agent",
+        accept=acceptance(robot=profile, sites=places, trusted=trusted, now=_now),
+        now=_now,
+    )
+    conclude = partial(_conclude, past.history_folder(environ), tell)
+    if connection is None:
+        crew = Crew(
+            depot,
+            carry=partial(missions.carry_out, speed=speed, emit=lambda _: None),
+            world=here.data,
+            check=partial(_require_sound, here),
+            conclude=conclude,
+            seed=seed,
+        )
+        return Station(robot=profile, sites=places, depot=depot, crew=crew)
+    from fieldhand.execution.drivers.ros2.boarding import Lookout, board, bound, join
+    from fieldhand.program.aboard import Aboard
+
+    with ExitStack() as stack:
+        stack.callback(depot.close)
+        bindings = bound(profile, connection)
+        lookout, aboard = Lookout(join(connection, bindings)[0], bindings), Aboard(connection, board)
+        stack.pop_all()
+    let_go = ExitStack()
+    let_go.callback(lookout.close)
+    let_go.callback(aboard.close)
+    return Station(
+        robot=profile,
+        sites=places,
+        depot=depot,
+        crew=Crew(depot, carry=aboard.carry, check=aboard.check, conclude=conclude, seed=seed),
+        on=str(connection),
+        missing=lookout.missing,
+        let_go=let_go,
+    )
+
+
+def _now() -> datetime:
+    return datetime.now(UTC)
+
+
+def _conclude(history: Path, tell: Callable[[str], None], given: Mission) -> None:
+    """Leave the report of a mission in its folder, and keep what it cost."""
+    from fieldhand import mission, missions, past
+
+    done = past.conclude(
+        given.authorized,
+        given.site,
+        given.robot,
+        missions.events_of(given.folder),
+        estimate=mission.review(given.authorized.task, given.site, given.robot).estimate,
+        folder=given.folder,
+        history=history,
+        at=_now(),
+        bundle=given.bundle,
+    )
+    if done.not_kept:
+        tell(done.not_kept)
+
+
+def _require_sound(world: World, bundle: Bundle) -> None:
+    """The checks of whoever runs a mission by hand: the world fits it, and no check finds an error."""
+    from fieldhand import mission
+    from fieldhand.errors import NotApprovedError
+
+    mission.check_world(world, bundle.site, bundle.robot)
+    errors = mission.review(bundle.authorized.task, bundle.site, bundle.robot).errors
+    if errors:
+        raise NotApprovedError("; ".join(str(problem.line()) for problem in errors))
