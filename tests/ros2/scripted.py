@@ -22,6 +22,7 @@ class Script:
     feedback_every_s: float | None = 0.5
     cancels: bool = True
     cancel_takes_s: float = 0.5
+    feedback: Callable[[], Message] = dict
     on_step: Callable[[Message, float], None] = lambda goal, part: None
 
 
@@ -98,7 +99,7 @@ class ScriptedAction:
             self._end(served, script.ends)
         elif script.feedback_every_s is not None and now >= served.fed_s + script.feedback_every_s:
             served.fed_s = now
-            self._feedback.send({"goal_id": {"uuid": served.id}, "feedback": {}})
+            self._feedback.send({"goal_id": {"uuid": served.id}, "feedback": script.feedback()})
 
     def _cancelling(self, goal_info: Mapping[str, Any], now: float) -> Message:
         goal_id = goal_info.get("goal_id", {}).get("uuid", bytes(16))

@@ -142,6 +142,7 @@ class Robot:
     canopy: float | None = 31.5
     shift_m: float = 0.0
     fix_every: int = 1
+    map_turned_deg: float = 0.0
     fix_shift_m: float = 0.0
     accepts: bool = True
     is_lost: bool = False
@@ -219,7 +220,16 @@ class Robot:
             cancels=not self.refuses_cancel,
             cancel_takes_s=0.3,
             result={},
+            feedback=self._feedback,
         )
+
+    def _feedback(self) -> Message:
+        if "GPS" in self.bound.navigation.type:
+            return {}
+        x, y = into_map(SITE.projection.degrees([self.xy])[0])
+        turn = math.radians(self.map_turned_deg)
+        at = {"x": x * math.cos(turn) - y * math.sin(turn), "y": x * math.sin(turn) + y * math.cos(turn)}
+        return {"current_pose": {"header": {"frame_id": "map"}, "pose": {"position": at}}}
 
     def _corners(self, goal: Any) -> list[tuple[float, float]]:
         if "gps_poses" in goal:

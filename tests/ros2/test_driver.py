@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -129,6 +130,20 @@ def test_a_robot_that_says_it_has_arrived_and_stands_elsewhere_has_failed() -> N
     progress = finish(driver, w.clock)
     assert (progress.state, progress.fault) == ("failed", "failed")
     assert "says that it has arrived, but the robot stands 2.0 m away, at most 0.3 m are allowed" in progress.what
+
+
+@pytest.mark.parametrize("kind", ["NavigateToPose", "NavigateThroughPoses"])
+def test_a_map_that_is_turned_otherwise_than_the_profile_says_is_found_before_it_leads_astray(kind: Any) -> None:
+    w = world(bindings(navigation=navigating(type=f"nav2_msgs/action/{kind}")), map_turned_deg=90.0)
+    driver = w.connect()
+    driver.start_drive(drive())
+    progress = finish(driver, w.clock)
+    assert (progress.state, progress.fault) == ("failed", "failed")
+    assert re.match(
+        r"by its fix the robot stands \d+ m from where /husky/navigate_to_pose takes it to be", progress.what
+    )
+    assert not w.robot.navigation.executing
+    assert w.robot.driven_m < 1.5
 
 
 @pytest.mark.parametrize(

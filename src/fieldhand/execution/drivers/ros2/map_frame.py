@@ -22,6 +22,9 @@ Point = tuple[float, float]
 #: What the robot's map makes of a leg may be so much longer or shorter: in parts, for maps that are scaled, and metres.
 _SCALE, _SLACK_M = 0.01, 0.25
 
+#: Metres of a leg by which one can tell how the map is turned.
+_TURN_M = 1.0
+
 _X, _Y = FieldBinding(path="map_point.x"), FieldBinding(path="map_point.y")
 
 
@@ -72,6 +75,30 @@ def asked_for(
                 advice="see whether navsat_transform knows the robot's datum",
             )
     return tuple(points)
+
+
+def by_way(path_m: Sequence[Point], points: Sequence[Point]) -> Callable[[Point], Point] | None:
+    """Where any point of the site lies in the map, from a way of which both is known.
+
+    Args:
+        path_m: Its corners in the site's metres.
+        points: The same in the map.
+
+    Returns:
+        None where the way is too short to tell which way the map is turned.
+    """
+    legs = zip(itertools.pairwise(path_m), itertools.pairwise(points), strict=True)
+    (here, there), (a, b) = max(legs, key=lambda leg: math.dist(*leg[0]))
+    if math.dist(here, there) < _TURN_M:
+        return None
+    turn = yaw_of(a, b) - yaw_of(here, there)
+    sin, cos = math.sin(turn), math.cos(turn)
+
+    def placed(point: Point) -> Point:
+        east, north = point[0] - here[0], point[1] - here[1]
+        return a[0] + cos * east - sin * north, a[1] + sin * east + cos * north
+
+    return placed
 
 
 def yaw_of(here: Point, there: Point) -> float:

@@ -13,25 +13,52 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Generator, Mapping, Sequence
+from dataclasses import dataclass
 
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import DriveGoal, Position
 from fieldhand.execution.drivers.ros2.asking import Limit
+from fieldhand.execution.drivers.ros2.fields import number_at, value_at
 from fieldhand.execution.drivers.ros2.goal import ActionClient
-from fieldhand.execution.drivers.ros2.map_frame import Point, asked_for, geographic_pose, in_map, pose, yaw_of
+from fieldhand.execution.drivers.ros2.map_frame import (
+    Point,
+    asked_for,
+    by_way,
+    geographic_pose,
+    in_map,
+    pose,
+    yaw_of,
+)
 from fieldhand.execution.drivers.ros2.nav2_codes import CODES, MISSED_WAYPOINT
 from fieldhand.execution.drivers.ros2.outcome import Ending, Outcome
 from fieldhand.execution.drivers.ros2.transport import Client, Message, Publisher, Transport
-from fieldhand.robot.bindings import NavigationBinding, NavigationFault, Ros2Bindings
+from fieldhand.robot.bindings import FieldBinding, NavigationBinding, NavigationFault, Ros2Bindings
 
 FROM_LL, SPEED_LIMIT = "robot_localization/srv/FromLL", "nav2_msgs/msg/SpeedLimit"
 
 #: Seconds after the end of a goal in which the position must have come within the tolerance: fixes come late.
 SETTLE_S = 3.0
+#: Metres by which the robot's place in its map may differ from its fix: antennas stand elsewhere, and fixes come late.
+ELSEWHERE_M = 5.0
+_FRAME = "current_pose.header.frame_id"
+_X, _Y = (FieldBinding(path=f"current_pose.pose.position.{axis}") for axis in "xy")
 #: Metres below which a leg has no direction.
 _NO_LEG_M = 0.01
 
 Steps = Generator[None, None, Ending]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """A drive as Nav2 is to carry it out.
+
+    Attributes:
+        goals: Each with where it ends in the site's metres.
+        in_map: Where a point of the site lies in the map; None where nobody here knows.
+    """
+
+    goals: Sequence[tuple[Message, Point]]
+    in_map: Callable[[Point], Point] | None = None
 
 
 class Navigation:
@@ -86,15 +113,15 @@ class Navigation:
     def _by_degrees(self) -> bool:
         return self.binding.type == "nav2_msgs/action/FollowGPSWaypoints"
 
-    def goals(self, goal: DriveGoal) -> Generator[None, None, list[tuple[Message, Point]]]:
-        """The goals of Nav2 that make up a drive, each with where it ends in the site's metres.
+    def plan(self, goal: DriveGoal) -> Generator[None, None, Plan]:
+        """The goals of Nav2 that make up a drive.
 
         Raises:
             Ros2Error: The robot's service that knows its map does not answer, or not rightly.
         """
         binding = self.binding
         if self._by_degrees:
-            return [(_by_degrees(goal), goal.path_m[-1])]
+            return Plan(goals=[(_by_degrees(goal), goal.path_m[-1])])
         if self.from_ll is not None:
             limit = Limit(binding.accept_s, self.steady, self.steady)
             points = yield from asked_for(self.from_ll, self.from_ll_name, goal, limit, self.steady)
@@ -102,14 +129,17 @@ class Navigation:
             points = in_map(binding.datum, goal.path_degrees)
         else:
             raise Ros2Error("neither datum nor from_ll says where the map lies", advice="name one in the profile")
+        placed = by_way(goal.path_m, points)
         poses = [pose(binding.frame, points[i], points[j]) for i, j in _legs(goal.path_m)]
         if binding.type == "nav2_msgs/action/NavigateThroughPoses":
             # Kilted: nav_msgs/Goals, a header with the poses.
             header: Message = {"frame_id": binding.frame}
             listed = {"header": header, "goals": tuple(poses)} if self.distro == "kilted" else tuple(poses)
-            return [({"poses": listed, "behavior_tree": binding.behavior_tree}, goal.path_m[-1])]
+            whole: Message = {"poses": listed, "behavior_tree": binding.behavior_tree}
+            return Plan(goals=[(whole, goal.path_m[-1])], in_map=placed)
         ends = [goal.path_m[j] for _, j in _legs(goal.path_m)]
-        return [({"pose": p, "behavior_tree": binding.behavior_tree}, end) for p, end in zip(poses, ends, strict=True)]
+        each: list[Message] = [{"pose": p, "behavior_tree": binding.behavior_tree} for p in poses]
+        return Plan(goals=list(zip(each, ends, strict=True)), in_map=placed)
 
     def limit_speed(self, speed_m_s: float) -> None:
         """Let the robot drive no faster.
@@ -146,6 +176,7 @@ class Drive:
             binding.slower * goal.length_m / goal.speed_m_s + binding.extra_s, navigation.clock, navigation.steady
         )
         self._cancelled = False
+        self._judged: Message = {}
         self._steps = self._carry_out()
         self._ending: Ending | None = None
 
@@ -166,23 +197,23 @@ class Drive:
 
     def _carry_out(self) -> Steps:
         self._navigation.limit_speed(self._goal.speed_m_s)
-        planning = self._navigation.goals(self._goal)
+        planning = self._navigation.plan(self._goal)
         while True:
             if self._cancelled:
                 return Ending(state="cancelled")
             try:
                 next(planning)
             except StopIteration as planned:
-                goals = planned.value
+                plan: Plan = planned.value
                 break
             yield
-        for message, there in goals:
-            ending = yield from self._drive(message, there)
+        for message, there in plan.goals:
+            ending = yield from self._drive(message, there, plan)
             if ending.state != "succeeded":
                 return ending
         return Ending(state="succeeded")
 
-    def _drive(self, message: Message, there: Point) -> Steps:
+    def _drive(self, message: Message, there: Point, plan: Plan) -> Steps:
         """One goal of Nav2."""
         client = self._navigation.client
         client.start(message)
@@ -191,11 +222,34 @@ class Drive:
                 client.cancel()
             elif self._limit.over:
                 client.cancel(f"the drive is not over after {self._limit.seconds:.0f} s")
+            elif (why := self._elsewhere(plan)) is not None:
+                client.cancel(why)
             yield
         ending = ending_of(outcome, self._navigation.binding, cancelled=self._cancelled)
         if ending.state == "succeeded":
             ending = yield from self._arrive(there)
         return ending
+
+    def _elsewhere(self, plan: Plan) -> str | None:
+        """Why the robot's map is not what it is taken for: it would drive to somewhere else from the first metre on."""
+        navigation = self._navigation
+        feedback, at = navigation.client.feedback, navigation.position()
+        if feedback is self._judged:
+            return None  # the robot has driven on since
+        self._judged = feedback
+        # A message that was not filled in has no frame.
+        if plan.in_map is None or at is None or value_at(feedback, _FRAME) != navigation.binding.frame:
+            return None
+        x, y = number_at(feedback, _X), number_at(feedback, _Y)
+        if x is None or y is None:
+            return None
+        away = math.dist(plan.in_map((at.x, at.y)), (x, y))
+        if away <= ELSEWHERE_M + navigation.binding.tolerance_m:
+            return None
+        return (
+            f"by its fix the robot stands {away:.0f} m from where {navigation.client.name} takes it to be;"
+            " see whether datum, its heading and frame are those of its map"
+        )
 
     def _arrive(self, there: Point) -> Steps:
         """Hold the robot's own position against where it was to go."""
