@@ -103,6 +103,9 @@ def test_a_middleware_whose_services_are_not_heard(
     says(found, f"the robot runs rmw_{rmw}", "set RMW_IMPLEMENTATION=rmw_cyclonedds_cpp on the robot")
     says(found, "cannot be called over the dds transport", "or reach it by rclpy from here")
     monkeypatch.setattr(Node, "name", "rclpy")
+    found = action_unusable(here, interfaces, "/go", NAVIGATE)
+    says(found, f"the robot runs rmw_{rmw}", "set the robot's RMW_IMPLEMENTATION here, too")
+    here.rmw = rmw
     assert action_unusable(here, interfaces, "/go", NAVIGATE) is None
 
 

@@ -10,9 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from fieldhand.execution.drivers.ros2.dds.names import NO_SERVICES
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
-from fieldhand.execution.drivers.ros2.transport import SENSOR, STATUS, Peer, Quality, Rmw, Transport
+from fieldhand.execution.drivers.ros2.transport import SENSOR, STATUS, Peer, Quality, Rmw, Transport, understand
 
 _PACKAGES: dict[Rmw, str] = {
     "cyclonedds": "rmw_cyclonedds_cpp",
@@ -67,8 +66,14 @@ def service_unusable(transport: Transport, interfaces: Interfaces, service: str,
     typed = [p for p in peers if p.type == type_name]
     if not typed:
         return _other_type("answered", peers, type_name)
-    deaf = next((p for p in typed if p.rmw in NO_SERVICES), None)
-    if transport.name != "rclpy" and deaf is not None:
+    deaf = next((p for p in typed if not understand(transport.rmw, p.rmw)), None)
+    if deaf is not None and transport.name == "rclpy":
+        return Unusable(
+            what=f"the robot runs {rmw_package(deaf.rmw)} and this side {rmw_package(transport.rmw)}: no service goes "
+            "between them",
+            advice="set the robot's RMW_IMPLEMENTATION here, too",
+        )
+    if deaf is not None:
         return Unusable(
             what=f"the robot runs {rmw_package(deaf.rmw)}, whose services cannot be called over the dds transport",
             advice="set RMW_IMPLEMENTATION=rmw_cyclonedds_cpp on the robot, or reach it by rclpy from here",

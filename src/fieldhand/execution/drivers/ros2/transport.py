@@ -28,6 +28,11 @@ MOST_BYTES = 4 * 1024 * 1024
 Rmw = Literal["cyclonedds", "fastrtps", "connext", "zenoh", "unknown"]
 
 
+def understand(one: Rmw, other: Rmw) -> bool:
+    """Whether services go between two middlewares: Cyclone's say otherwise than the rest whose a request is."""
+    return "unknown" in (one, other) or one == other or "cyclonedds" not in (one, other)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Quality:
     """Quality of service. A reader and a writer find each other only if the writer offers what the reader asks for.
@@ -153,6 +158,11 @@ class Transport(Protocol):
     @property
     def name(self) -> str:
         """``dds`` or ``rclpy``."""
+        ...
+
+    @property
+    def rmw(self) -> Rmw:
+        """The middleware whose services it understands."""
         ...
 
     def subscribe(self, topic: str, type_name: str, quality: Quality = SENSOR) -> Subscription:

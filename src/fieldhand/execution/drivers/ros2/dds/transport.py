@@ -23,7 +23,7 @@ from fieldhand.execution.drivers.ros2.dds.topics import DdsPublisher, DdsSubscri
 from fieldhand.execution.drivers.ros2.dds.wire import Wire
 from fieldhand.execution.drivers.ros2.domain import domain_of
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
-from fieldhand.execution.drivers.ros2.transport import SENSOR, Peer, Quality
+from fieldhand.execution.drivers.ros2.transport import SENSOR, Peer, Quality, Rmw
 
 #: What DDS takes off the network before we see it: more than a picture of a good camera has.
 _MOST_RECEIVED = "32 MiB"
@@ -65,6 +65,10 @@ class DdsTransport:
     @property
     def name(self) -> str:
         return "dds"
+
+    @property
+    def rmw(self) -> Rmw:
+        return "cyclonedds"
 
     def subscribe(self, topic: str, type_name: str, quality: Quality = SENSOR) -> DdsSubscription:
         reader = self._reader(names.topic_name(topic), type_name, quality, {})

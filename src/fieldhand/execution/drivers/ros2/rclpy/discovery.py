@@ -13,6 +13,8 @@ from fieldhand.execution.drivers.ros2.transport import Peer, Quality, Rmw
 #: The bytes of an endpoint's name that are its process (RTPS 9.3.1.2).
 _PARTICIPANT = 12
 
+_NAMED: tuple[Rmw, ...] = ("cyclonedds", "fastrtps", "connext", "zenoh")
+
 
 class Discovery:
     """Asks ROS's graph.
@@ -23,7 +25,9 @@ class Discovery:
 
     def __init__(self, node: Any) -> None:
         self._node = node
-        self._zenoh = "zenoh" in get_rmw_implementation_identifier()
+        said = get_rmw_implementation_identifier()
+        self.rmw: Rmw = next((rmw for rmw in _NAMED if rmw in said), "unknown")
+        self._zenoh = self.rmw == "zenoh"
 
     def writers_of(self, topic: str) -> tuple[Peer, ...]:
         """Everything that writes a topic."""

@@ -8,7 +8,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 
 from fieldhand.execution.drivers.ros2.rclpy import types
 from fieldhand.execution.drivers.ros2.rclpy.discovery import Discovery
-from fieldhand.execution.drivers.ros2.transport import Message, Quality
+from fieldhand.execution.drivers.ros2.transport import Message, Quality, understand
 
 RCLError = rclpy_implementation.RCLError
 
@@ -33,7 +33,8 @@ class RclpyClient:
         # Ready means that one can hear and be heard; some middlewares ask for the name alone.
         if not self.open or not self._client.service_is_ready():
             return 0
-        return sum(peer.type == self._type for peer in self._discovery.servers_of(self._service))
+        own = self._discovery.rmw
+        return sum(p.type == self._type and understand(own, p.rmw) for p in self._discovery.servers_of(self._service))
 
     def ask(self, request: Message) -> int:
         sample = types.packed(f"{self._type}_Request", request)

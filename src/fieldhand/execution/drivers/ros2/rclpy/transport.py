@@ -20,7 +20,7 @@ from fieldhand.execution.drivers.ros2.rclpy.discovery import Discovery
 from fieldhand.execution.drivers.ros2.rclpy.quality import profile_of
 from fieldhand.execution.drivers.ros2.rclpy.services import SERVICE, RclpyClient, RclpyServer
 from fieldhand.execution.drivers.ros2.rclpy.topics import RclpyPublisher, RclpySubscription
-from fieldhand.execution.drivers.ros2.transport import SENSOR, Peer, Quality
+from fieldhand.execution.drivers.ros2.transport import SENSOR, Peer, Quality, Rmw
 
 RCLError = rclpy_implementation.RCLError
 
@@ -67,6 +67,10 @@ class RclpyTransport:
     @property
     def name(self) -> str:
         return "rclpy"
+
+    @property
+    def rmw(self) -> Rmw:
+        return self._discovery.rmw
 
     def subscribe(self, topic: str, type_name: str, quality: Quality = SENSOR) -> RclpySubscription:
         topic_name(topic)
