@@ -116,13 +116,15 @@ def test_a_server_that_is_absent(meet: Meet) -> None:
 
 def test_two_robots_on_one_domain(meet: Meet) -> None:
     said = why(meet(robots=2))
-    assert f"navigation {NAVIGATION}: 2 servers answer it: which robot would hear?; if these are two robots" in said
+    assert f"navigation {NAVIGATION}: 2 servers answer it: which robot would hear?" in said
+    assert "if these are two robots" in said
 
 
 def test_a_namespace_that_is_wrong_and_one_that_is_right(meet: Meet) -> None:
     said = why(meet(bindings(namespace="/fendt")))
     for name in ("/fendt/navigate_to_pose", "/fendt/fix", "/fendt/battery", "/fendt/sample"):
-        assert re.search(rf"{name}: nobody \w+ it; .* compare its name, namespace and ROS_DOMAIN_ID", said), name
+        assert re.search(rf"{name}: nobody \w+ it[,;]", said), name
+    assert "compare its name, namespace and ROS_DOMAIN_ID" in said
     meeting = meet(bindings(namespace="/field/fendt"), namespace="/field/fendt")
     assert meeting.fly(go("r0c0")).status == "completed"
 
