@@ -312,6 +312,47 @@ def test_a_topic_gives_the_next_message_not_one_that_was_there() -> None:
     assert finish(driver, w.clock).what == said
 
 
+@pytest.mark.parametrize("kind", ["action", "service"])
+@settings(max_examples=examples(10, thorough=200))
+@given(after_s=st.floats(0.0, 5.0), late=st.booleans())
+def test_a_sensor_that_is_triggered_may_send_before_it_answers(kind: str, after_s: float, late: bool) -> None:
+    """And what was sent before it was triggered is none of its readings, though it has to be waited for."""
+    name = {"action": "read_co2", "service": "read_ambient_temperature"}[kind]
+    call, topics = ACTIONS[name].call, ACTIONS["take_thermal_picture"].topics
+    assert call is not None
+    binding = replace(ACTIONS[name], call=replace(call, readings={}), topics=topics)
+    w = world(bindings(actions={name: binding}), canopy=20.0)
+    driver = w.connect()
+
+    def triggered(asked: Any) -> None:
+        w.robot.canopy = None
+        w.graph.disturb("/husky/canopy", Disturbed(delay_s=(after_s, after_s)))
+        w.robot.topics["canopy"].send({"temperature": 40.0})
+
+    def read(request: Any) -> dict[str, object]:
+        triggered(request)
+        return {"ok": True}
+
+    def sample(goal: Any) -> Script:
+        triggered(goal)
+        return SAMPLED
+
+    w.robot.reading, w.robot.sampler.script = read, sample
+    w.graph.disturb("/thermometer reply", Disturbed(delay_s=(2.0, 2.0)))
+    if late:
+        w.robot.sampler.close()
+        w.robot.thermometer.close()
+    driver.start_action(capture(name))
+    if late:
+        for _ in range(10):
+            assert not driver.poll().over
+            w.clock.advance(0.2)
+        w.robot.sampler = ScriptedAction(w.robot.node, "/husky/sample", call.type, w.clock.now, sample)
+        w.robot.thermometer = w.robot.node.serve("/thermometer", call.type)
+    progress = finish(driver, w.clock)
+    assert (progress.what, dict(progress.readings)) == ("", {"canopy_temperature": 40.0})
+
+
 def test_a_capture_that_is_not_bound_fails_and_is_named_before_a_mission_that_needs_it() -> None:
     w = world(bindings(actions={}))
     driver = w.connect()

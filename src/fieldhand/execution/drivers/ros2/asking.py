@@ -41,12 +41,19 @@ class Limit:
 
 
 def ask(
-    client: Client, name: str, requests: Sequence[Message], limit: Limit, steady: Callable[[], float]
+    client: Client,
+    name: str,
+    requests: Sequence[Message],
+    limit: Limit,
+    steady: Callable[[], float],
+    *,
+    sending: Callable[[], None] = lambda: None,
 ) -> Generator[None, None, tuple[Message, ...]]:
     """Ask a service once for each request, as steps that wait.
 
     Args:
         name: Of the service, for errors.
+        sending: Called just before each request is sent.
 
     Returns:
         The replies, in the order of the requests.
@@ -75,6 +82,7 @@ def ask(
             limit.renew()  # what was asked is not asked again: a service may do something
         two_s = None
         if servers == 1 and len(asked) < len(requests) and len(asked) - len(answers) < _AT_ONCE:
+            sending()
             asked[client.ask(requests[len(asked)])] = len(asked)
             continue
         if len(answers) < len(requests):

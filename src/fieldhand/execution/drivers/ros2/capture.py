@@ -1,9 +1,10 @@
 """Captures, as the profile binds them: a ROS action or service that is asked, topics that are listened to.
 
-    request ──▶ call ──▶ readings of its result ──▶ next message of each topic ──▶ the mission
+    request ──▶ call ──▶ readings of its result ──▶ first message of each topic since the call ──▶ the mission
 
-A value that is not there, or is NaN, is a reading that is absent: whether that will do is the mission's to judge. A
-topic on which nothing comes is a failure that says which.
+A sensor that is triggered may send its reading before it answers, so topics are listened to from the moment at which
+the call is sent. A value that is not there, or is NaN, is a reading that is absent: whether that will do is the
+mission's to judge. A topic on which nothing comes is a failure that says which.
 """
 
 from __future__ import annotations
@@ -117,6 +118,25 @@ class Captures:
         return Bound(binding=binding, action=action, service=service, topics=topics)
 
 
+class _Heard:
+    """The first message of each topic since what was there before was forgotten."""
+
+    def __init__(self, topics: Mapping[str, tuple[str, Subscription]]) -> None:
+        self._topics = topics
+        self.first: dict[str, Message] = {}
+
+    def forget(self) -> None:
+        """What has arrived until now counts for nothing."""
+        self.listen()
+        self.first.clear()
+
+    def listen(self) -> None:
+        """Look at what has arrived."""
+        for quantity, (_, subscription) in self._topics.items():
+            for message in subscription.take()[:1]:
+                self.first.setdefault(quantity, message)
+
+
 class Capture:
     """One capture, step by step."""
 
@@ -146,16 +166,17 @@ class Capture:
         if bound is None:
             return _failed(f"the profile does not say how {self._goal.action} is done over ROS 2")
         ending = Ending(state="succeeded")
-        call = bound.binding.call
+        call, heard = bound.binding.call, _Heard(bound.topics)
+        heard.forget()
         if call is not None:
             request = message_of({path: self._value(value) for path, value in call.request.items()})
             if bound.action is not None:
-                ending = yield from self._act(bound.action, call, request)
+                ending = yield from self._act(bound.action, call, request, heard)
             elif bound.service is not None:
-                ending = yield from self._serve(bound.service, call, request)
+                ending = yield from self._serve(bound.service, call, request, heard)
         if ending.state != "succeeded" or not bound.topics:
             return ending
-        return (yield from self._listen(bound, dict(ending.readings)))
+        return (yield from self._listen(bound, heard, dict(ending.readings)))
 
     def _value(self, value: RequestValue) -> RequestValue:
         """A constant, a parameter, or what stands for the place in hand."""
@@ -177,15 +198,16 @@ class Capture:
     def _limit(self, seconds: float) -> Limit:
         return Limit(seconds, self._captures.clock, self._captures.steady)
 
-    def _act(self, client: ActionClient, call: CallBinding, request: Message) -> Steps:
+    def _act(self, client: ActionClient, call: CallBinding, request: Message, heard: _Heard) -> Steps:
         limit = self._limit(call.within_s)
-        client.start(request)
+        client.start(request, sending=heard.forget)
         while (outcome := client.step()) is None:
             if self._cancelled:
                 client.cancel()
             elif limit.over:
                 client.cancel(f"{client.name} is not done after {limit.seconds:g} s")
             yield
+            heard.listen()
         return self._ending_of(outcome, call, client.name)
 
     def _ending_of(self, outcome: Outcome, call: CallBinding, name: str) -> Ending:
@@ -199,37 +221,36 @@ class Capture:
             return _failed(f"{name} failed{_told(outcome.result, call)}")
         return _failed(outcome.what or f"somebody else cancelled {name}")
 
-    def _serve(self, client: Client, call: CallBinding, request: Message) -> Steps:
+    def _serve(self, client: Client, call: CallBinding, request: Message, heard: _Heard) -> Steps:
         name, limit = self._captures.whole_name(call.name), self._limit(call.within_s)
-        asking = ask(client, name, [request], limit, self._captures.steady)
+        asking = ask(client, name, [request], limit, self._captures.steady, sending=heard.forget)
         while not self._cancelled:
             try:
                 next(asking)
             except StopIteration as answered:
                 return judged(answered.value[0], call, name)
             yield
+            heard.listen()
         return Ending(state="cancelled")
 
-    def _listen(self, bound: Bound, readings: Readings) -> Steps:
-        """The next message of each topic; what has arrived before is none."""
-        wanted: dict[str, tuple[NextMessage, Limit]] = {}
-        for quantity, (_, subscription) in bound.topics.items():
-            subscription.take()
-            message = bound.binding.topics[quantity]
-            wanted[quantity] = message, self._limit(message.within_s)
-        while wanted:
-            yield
-            if self._cancelled:
-                return Ending(state="cancelled")
+    def _listen(self, bound: Bound, heard: _Heard, readings: Readings) -> Steps:
+        """Wait for what has not come yet."""
+        wanted: dict[str, tuple[NextMessage, Limit]] = {
+            quantity: (message, self._limit(message.within_s)) for quantity, message in bound.binding.topics.items()
+        }
+        while not self._cancelled:
+            heard.listen()
             for quantity, (message, limit) in list(wanted.items()):
-                name, subscription = bound.topics[quantity]
-                came = next(iter(subscription.take()), None)
-                if came is not None:
+                if quantity in heard.first:
                     del wanted[quantity]
-                    readings |= _reading(quantity, number_at(came, message.value))
+                    readings |= _reading(quantity, number_at(heard.first[quantity], message.value))
                 elif limit.over:
+                    name = bound.topics[quantity][0]
                     return _failed(f"nothing came on {name} within {limit.seconds:g} s, so there is no {quantity}")
-        return Ending(state="succeeded", readings=readings)
+            if not wanted:
+                return Ending(state="succeeded", readings=readings)
+            yield
+        return Ending(state="cancelled")
 
 
 def judged(result: Message, call: CallBinding, name: str) -> Ending:

@@ -95,17 +95,14 @@ class ActionClient:
         """How many servers answer all that a goal needs."""
         return min(client.servers() for client in self._clients)
 
-    def start(self, goal: Message) -> None:
-        """Begin a goal; the one before must be over.
-
-        Args:
-            goal: The fields of the action's goal.
-        """
+    def start(self, goal: Message, *, sending: Callable[[], None] = lambda: None) -> None:
+        """Begin a goal of these fields; the one before must be over. ``sending`` is called just before it is sent."""
         if self.busy:
             raise RuntimeError(f"a goal of {self.name} is running: a client has one at a time")
         now = self._steady()
         self.feedback = {}
-        self._goal, self._outcome = GoalRecord(id=self._new_id(), message=goal, begun_s=now, heard_s=now), None
+        self._goal = GoalRecord(id=self._new_id(), message=goal, begun_s=now, heard_s=now, sending=sending)
+        self._outcome = None
 
     @property
     def busy(self) -> bool:
@@ -266,6 +263,7 @@ class ActionClient:
                 return None
             return Outcome(how="rejected", what=f"{servers} servers answer {self.name}: which robot would drive?")
         if servers == 1:
+            goal.sending()
             try:
                 self._sent[self._send.ask({"goal_id": {"uuid": goal.id}, "goal": goal.message})] = goal.id
             except Ros2Error as error:

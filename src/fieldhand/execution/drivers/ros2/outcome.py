@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -61,6 +61,7 @@ class GoalRecord:
     """What is known of a goal that was begun.
 
     Attributes:
+        sending: Called just before it is sent.
         heard_s: When there was a sign of life.
         absent_s: Since when no server is there.
         stop_s: When its end was asked for, and why if by a limit.
@@ -71,6 +72,7 @@ class GoalRecord:
     id: bytes
     message: Message
     begun_s: float
+    sending: Callable[[], None]
     sent_s: float | None = None
     accepted: bool = False
     rejected: bool = False
