@@ -353,6 +353,21 @@ def test_a_sensor_that_is_triggered_may_send_before_it_answers(kind: str, after_
     assert (progress.what, dict(progress.readings)) == ("", {"canopy_temperature": 40.0})
 
 
+def test_a_sensor_that_sends_all_the_time_is_read_when_it_has_measured() -> None:
+    call, topics = ACTIONS["read_co2"].call, ACTIONS["take_thermal_picture"].topics
+    assert call is not None
+    binding = replace(ACTIONS["read_co2"], call=replace(call, readings={}), topics=topics)
+    w = world(bindings(actions={"read_co2": binding}), canopy=20.0)
+
+    def measured(goal: Any, part: float) -> None:
+        w.robot.canopy = 20.0 if part < 1.0 else 40.0
+
+    w.robot.sample = replace(SAMPLED, on_step=measured)
+    driver = w.connect()
+    driver.start_action(capture())
+    assert finish(driver, w.clock).readings == {"canopy_temperature": 40.0}
+
+
 def test_a_capture_that_is_not_bound_fails_and_is_named_before_a_mission_that_needs_it() -> None:
     w = world(bindings(actions={}))
     driver = w.connect()

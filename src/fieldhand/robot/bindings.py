@@ -59,7 +59,7 @@ class TopicBinding:
 
 @dataclass(frozen=True, kw_only=True)
 class NextMessage:
-    """A reading that is the next message of a topic: since the call was sent, or, without one, since the capture began.
+    """A reading that is the next message of a topic after the capture began, or after its call was answered.
 
     Attributes:
         within_s: How long to wait for it.
@@ -101,7 +101,8 @@ class ActionBinding:
     """How an action of the profile is carried out: by a call, by listening, or by a call and then listening.
 
     Attributes:
-        topics: Quantities that are read from topics, each at the first message since the call was sent.
+        topics: Quantities that are read from topics, each at the next message after the call; if none comes in time,
+            at the last one since it was sent.
     """
 
     call: CallBinding | None = None

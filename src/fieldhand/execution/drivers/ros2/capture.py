@@ -1,10 +1,11 @@
 """Captures, as the profile binds them: a ROS action or service that is asked, topics that are listened to.
 
-    request ──▶ call ──▶ readings of its result ──▶ first message of each topic since the call ──▶ the mission
+    request ──▶ call ──▶ readings of its result ──▶ next message of each topic ──▶ the mission
 
-A sensor that is triggered may send its reading before it answers, so topics are listened to from the moment at which
-the call is sent. A value that is not there, or is NaN, is a reading that is absent: whether that will do is the
-mission's to judge. A topic on which nothing comes is a failure that says which.
+A sensor that is triggered may send its reading before it answers, and nothing afterwards; one that sends all the time
+says old values until it has measured. So the next message after the answer counts, and if there is none in time, the
+last one since the call was sent. A value that is not there, or is NaN, is a reading that is absent: whether that will
+do is the mission's to judge. A topic on which nothing comes is a failure that says which.
 """
 
 from __future__ import annotations
@@ -119,22 +120,22 @@ class Captures:
 
 
 class _Heard:
-    """The first message of each topic since what was there before was forgotten."""
+    """The last message of each topic since what was there before was forgotten."""
 
     def __init__(self, topics: Mapping[str, tuple[str, Subscription]]) -> None:
         self._topics = topics
-        self.first: dict[str, Message] = {}
+        self.last: dict[str, Message] = {}
 
     def forget(self) -> None:
         """What has arrived until now counts for nothing."""
         self.listen()
-        self.first.clear()
+        self.last.clear()
 
     def listen(self) -> None:
         """Look at what has arrived."""
         for quantity, (_, subscription) in self._topics.items():
-            for message in subscription.take()[:1]:
-                self.first.setdefault(quantity, message)
+            for message in subscription.take()[-1:]:
+                self.last[quantity] = message
 
 
 class Capture:
@@ -234,16 +235,20 @@ class Capture:
         return Ending(state="cancelled")
 
     def _listen(self, bound: Bound, heard: _Heard, readings: Readings) -> Steps:
-        """Wait for what has not come yet."""
+        """Wait for the next message of each topic; where none comes, the one from before counts."""
+        heard.listen()
+        before = dict(heard.last)
+        heard.forget()
         wanted: dict[str, tuple[NextMessage, Limit]] = {
             quantity: (message, self._limit(message.within_s)) for quantity, message in bound.binding.topics.items()
         }
         while not self._cancelled:
             heard.listen()
             for quantity, (message, limit) in list(wanted.items()):
-                if quantity in heard.first:
+                came = heard.last.get(quantity, before.get(quantity) if limit.over else None)
+                if came is not None:
                     del wanted[quantity]
-                    readings |= _reading(quantity, number_at(heard.first[quantity], message.value))
+                    readings |= _reading(quantity, number_at(came, message.value))
                 elif limit.over:
                     name = bound.topics[quantity][0]
                     return _failed(f"nothing came on {name} within {limit.seconds:g} s, so there is no {quantity}")
