@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 from fieldhand.errors import ProfileError, Ros2Error
 from fieldhand.execution.drivers.ros2 import plausible, ros_clock
@@ -227,19 +228,20 @@ class _Bindings:
     def _call(
         self,
         part: str,
-        kind: str,
+        kind: Literal["action", "service"],
         name: str,
         type_name: str,
         wrong: tuple[str, ...] = (),
         question: Callable[[], Message | None] | None = None,
     ) -> _Bound:
         whole = self._ros2.whole_name(name)
-        if kind == "action":
-            binding = Binding(part=part, kind="action", name=whole, type=type_name)
-            make: Callable[[Transport], Probe] = lambda t: ActionProbe(binding, t, self._interfaces)  # noqa: E731
-        else:
-            binding = Binding(part=part, kind="service", name=whole, type=type_name)
-            make = lambda t: ServiceProbe(binding, t, self._interfaces, question)  # noqa: E731
+        binding = Binding(part=part, kind=kind, name=whole, type=type_name)
+
+        def make(transport: Transport) -> Probe:
+            if kind == "action":
+                return ActionProbe(binding, transport, self._interfaces)
+            return ServiceProbe(binding, transport, self._interfaces, question)
+
         unknown = tuple(self._wrong(type_name, f"{type_name}{'_Goal' if kind == 'action' else '_Request'}", ()))
         return _Bound(binding=binding, wrong=unknown or wrong, make=make)
 
