@@ -33,6 +33,10 @@ A message says what is wrong, where, and what to do. ``exit_status`` is what a c
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from fieldhand.visible import visible
+
 __all__ = [
     "ActionFault",
     "BlockedFault",
@@ -61,19 +65,18 @@ __all__ = [
     "TaskError",
     "UnreachableError",
     "WorldError",
+    "few",
 ]
 
 
 #: Of what an error says, in characters, and of where.
-_LONGEST, _LONGEST_PLACE = 2_000, 500
-#: Not printable by name, and harmless: line breaks, tabs, spaces at which no line breaks.
-_HARMLESS = "\n\t\u00a0\u202f"
+_LONGEST, _LONGEST_PLACE = 900, 300
 
 
 class FieldhandError(Exception):
     """Something that the user has to know, with where it is and what to do about it.
 
-    What it quotes may come from anyone: signs that steer a terminal become escapes, what no screen holds is cut.
+    What it quotes may come from anyone: hidden characters are made visible, what no screen holds is cut.
 
     Args:
         what: What is wrong, in words, without a full stop.
@@ -84,9 +87,9 @@ class FieldhandError(Exception):
     exit_status = 1
 
     def __init__(self, what: str, *, where: str = "", advice: str = "") -> None:
-        self.what = _told(what, _LONGEST)
-        self.where = _told(where, _LONGEST_PLACE)
-        self.advice = _told(advice, _LONGEST)
+        self.what = _cut(visible(what, lines=True), _LONGEST)
+        self.where = _cut(visible(where), _LONGEST_PLACE)
+        self.advice = _cut(visible(advice, lines=True), _LONGEST)
         super().__init__(str(self))
 
     def __str__(self) -> str:
@@ -95,11 +98,17 @@ class FieldhandError(Exception):
         return f"{at}{self.what}{todo}"
 
 
-def _told(text: str, longest: int) -> str:
-    """Text as it can be printed anywhere: no control characters, no halves of characters, no more than fits."""
-    if not text.isprintable():
-        text = "".join(c if c.isprintable() or c in _HARMLESS else ascii(c)[1:-1] for c in text)
+def _cut(text: str, longest: int) -> str:
+    """Return no more of a text than a screen holds."""
     return text if len(text) <= longest else f"{text[: longest - 3]}..."
+
+
+def few(names: Sequence[str], most: int = 12, sign: str = ", ") -> str:
+    """Return the first of some names, and how many more there are: "a, b and 37 more"; "none" where there are none."""
+    if not names:
+        return "none"
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return sign.join(names[:most]) + more
 
 
 class InputError(FieldhandError):

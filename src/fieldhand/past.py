@@ -98,7 +98,7 @@ def report_log(
     from fieldhand.evaluation.report_facts import require_fitting
 
     require_fitting(log.events, task, site, robot, where=log.where)
-    assessment = mission.assess(task, log.events)
+    assessment = mission.assess(task, log.events, robot)
     rests = [*hashes, *([("event log", log.sha256)] if log.sha256 else [])]
     if authorization is None:
         rests = [("Task document", hashlib.sha256(document).hexdigest()), *rests]
@@ -158,7 +158,7 @@ def conclude(
     Raises:
         OutputError: The report cannot be written.
     """
-    assessment = mission.assess(authorized.task, events)
+    assessment = mission.assess(authorized.task, events, robot)
     not_kept = ""
     if history is not None:
         try:

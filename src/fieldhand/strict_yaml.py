@@ -6,6 +6,8 @@ from collections.abc import Hashable
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
+from fieldhand.visible import find_hidden
+
 if TYPE_CHECKING:
     import yaml
 
@@ -40,7 +42,7 @@ def read_yaml(text: str, *, aliases: bool = False) -> Any:
 
     Raises:
         YamlFault: It is not YAML, has a key twice, merged keys, an alias, a tag that its value does not fit, a number
-            that no float holds, or is nested too deep.
+            that no float holds, a hidden character, or is nested too deep.
     """
     import yaml
 
@@ -80,6 +82,9 @@ def _loader(aliases: bool) -> type[yaml.SafeLoader]:
                 # The library trusts that a tag, written or found, fits what stands behind it.
                 tag = str(node.tag).rpartition(":")[2]
                 raise self._error(node, f"{str(node.value)[:40]!r} cannot be read as {tag}") from None
+            hidden = find_hidden(value, lines=True) if isinstance(value, str) else None
+            if hidden is not None:
+                raise self._error(node, f"{hidden.name} stands in the text, which nobody can see")
             if isinstance(value, int) and value.bit_length() > _MOST_BITS:
                 raise self._error(node, "the number is too large")
             return value

@@ -15,7 +15,7 @@ from fieldhand.errors import TaskError
 from fieldhand.task.capabilities import RESERVED_ACTIONS
 from fieldhand.task.codec_read import Reader, local_name
 from fieldhand.task.codec_shapes import NAMESPACE, SURROGATES, Attribute, Child, Head, element_name, shape_of
-from fieldhand.task.codec_text import bare_value, number_text, unwritable_character, written
+from fieldhand.task.codec_text import SEVERAL_LINES, bare_value, hidden_character, number_text, written
 from fieldhand.task.codec_xml import MAX_BYTES, MAX_DEPTH, parse_xml
 from fieldhand.task.frames import Constraints, FaultedExit, Task, Then
 from fieldhand.task.plan import Node, Span
@@ -48,7 +48,7 @@ def encode(task: Task) -> bytes:
     """A Task as a UTF-8 XML document, indented, ending with a line end.
 
     Raises:
-        TaskError: It holds text or a number that XML cannot hold, is nested too deep, or is too large.
+        TaskError: It holds hidden characters or a number that XML cannot hold, is nested too deep, or is too large.
     """
     from lxml import etree
 
@@ -119,8 +119,10 @@ def decode_parts(text: str, options: tuple[type, ...], *, source: str = "") -> t
         TaskError: It is something else; ``source`` says where.
     """
     root = parse_xml(f'<parts xmlns="{NAMESPACE}">{text}</parts>'.encode(), source=source)
+    reader = Reader(source=source)
+    reader.require_visible(root)
     many = Child(field="parts", name="parts", kind="many", options=options, default=())
-    found: tuple[Any, ...] = Reader(source=source).parts(root, Task, many)["parts"]
+    found: tuple[Any, ...] = reader.parts(root, Task, many)["parts"]
     return found
 
 
@@ -193,7 +195,7 @@ def _sub(element: _Element, name: str) -> _Element:
 
 
 def _text(text: str, name: str) -> str:
-    character = unwritable_character(text)
+    character = hidden_character(text, lines=name in SEVERAL_LINES)
     if character:
-        raise TaskError(f"{name} holds the character {character}, which XML cannot hold", advice="take it out")
+        raise TaskError(f"{name} holds the character {character}, which nobody can see", advice="take it out")
     return text

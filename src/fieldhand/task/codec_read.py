@@ -19,7 +19,7 @@ from fieldhand.task.codec_shapes import (
     element_name,
     shape_of,
 )
-from fieldhand.task.codec_text import bare_value, parsed
+from fieldhand.task.codec_text import SEVERAL_LINES, bare_value, hidden_character, parsed
 from fieldhand.task.codec_xml import at_line, line_of
 from fieldhand.task.frames import Task
 
@@ -48,12 +48,28 @@ class Reader:
 
     def task(self, root: _Element) -> Task:
         """The Task in a root element."""
+        self.require_visible(root)
         if root.tag == "task":
             raise self.error(root, "the namespace is missing", f'write <task xmlns="{NAMESPACE}">')
         if root.tag != f"{{{NAMESPACE}}}task":
             raise self.error(root, "is not a Task document", f'the outermost element is <task xmlns="{NAMESPACE}">')
         task: Task = self.value(root, Task)
         return task
+
+    def require_visible(self, root: _Element) -> None:
+        """Refuse characters that nobody sees: what is read back must be what is signed. A draft is not signed."""
+        if self.draft:
+            return
+        for element in root.iter():
+            name = local_name(element)
+            texts = [(f"attribute {key!s}", str(text), False) for key, text in element.attrib.items()]
+            texts += [("name", str(element.tag), False), ("tail", (element.tail or "").strip(), False)]
+            texts.append(("text", (element.text or "").strip(" \n\t"), name in SEVERAL_LINES))
+            for what, text, lines in texts:
+                character = hidden_character(text, lines=lines)
+                if character:
+                    what = f"its {what} holds the character {character}, which nobody can see"
+                    raise self.error(element, what, "take it out")
 
     def value(self, element: _Element, cls: type) -> Any:
         """The dataclass in an element."""

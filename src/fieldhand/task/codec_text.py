@@ -12,22 +12,25 @@ from typing import Any
 
 from fieldhand.task.codec_shapes import Attribute
 from fieldhand.task.selectors import Value
+from fieldhand.visible import find_hidden
 
 NUMBER = r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?"
 INTEGER = r"[+-]?[0-9]{1,18}"
 SPANS = r"([0-9]{1,9}-[0-9]{1,9}( [0-9]{1,9}-[0-9]{1,9})*)?"
 
-_NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+#: Elements whose text may have several lines: a request stands in the Task as it was typed.
+SEVERAL_LINES = frozenset({"request", "read-as"})
 
 
-def unwritable_character(text: str) -> str | None:
-    """The first character of a text that no XML document can hold, such as ``U+0007``; None if there is none.
+def hidden_character(text: str, *, lines: bool = False) -> str | None:
+    """Return the first character of a text that a Task may not hold, such as ``U+202E``; None if there is none.
 
-    XML 1.0 excludes control characters other than tab and line ends, lone surrogates, U+FFFE and U+FFFF. They are
-    refused and not escaped: no one means them, and an escape would shift the character ranges of ``said``.
+    That is every character that nobody sees: what is read back must be what is signed. Those that XML 1.0 excludes are
+    among them. They are refused and not escaped: no one means them, and an escape would shift the character ranges of
+    ``said``.
     """
-    found = _NOT_XML.search(text)
-    return f"U+{ord(found.group()):04X}" if found else None
+    found = find_hidden(text, lines=lines)
+    return None if found is None else found.name
 
 
 def number_text(value: float) -> str:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, get_args
 
 from fieldhand.errors import TaskError
 from fieldhand.task.results import Event
+from fieldhand.visible import json_text
 
 if TYPE_CHECKING:
     from pydantic import TypeAdapter
@@ -20,7 +21,7 @@ _TYPES: dict[str, type[Event]] = {kind.event: kind for kind in get_args(Event)}
 def to_json(event: Event) -> str:
     """An event as one line of an event log."""
     fields = {f.name: getattr(event, f.name) for f in dataclasses.fields(event)}
-    return json.dumps({"event": event.event, **fields}, ensure_ascii=False, default=dict)
+    return json_text({"event": event.event, **fields})
 
 
 def from_json(line: str, *, where: str = "") -> Event | None:

@@ -7,6 +7,7 @@ import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from fieldhand.errors import few
 from fieldhand.task.codec_read import local_name
 from fieldhand.task.codec_shapes import NAMESPACE, AttributeKind
 
@@ -99,7 +100,7 @@ def _message(raw: str, name: str, parent: str, vocabulary: Vocabulary, present: 
         return _not_expected(raw, name, parent, vocabulary)
     if "Missing child element" in raw:
         required = [r for r in vocabulary.required.get(name, []) if r not in present]
-        return f"lacks {_listed([f'<{r}>' for r in required])}" if required else _lacks_one(name, vocabulary)
+        return f"lacks {few([f'<{r}>' for r in required])}" if required else _lacks_one(name, vocabulary)
     if "is not allowed" in raw and attribute:
         known = vocabulary.attributes_of(parent, name)
         return f"has no attribute {attribute[1]!r}{_instead(attribute[1], known)}"
@@ -136,7 +137,7 @@ def _bad_value(raw: str, attribute: str, kind: AttributeKind) -> str:
             allowed = re.findall(r"'([^']*)'", raw.rpartition("{")[2])
             near = difflib.get_close_matches(given, allowed, n=1) if len(allowed) > 1 else []
             hint = f"; did you mean {near[0]!r}?" if near else ""
-            return f"{shown} must be {'one of ' if len(allowed) > 1 else ''}{_listed(allowed)}{hint}"
+            return f"{shown} must be {'one of ' if len(allowed) > 1 else ''}{few(allowed)}{hint}"
         case "minLength":
             return f"the attribute {attribute!r} is empty"
         case ("minInclusive" | "minExclusive" | "maxInclusive" | "maxExclusive") as side:
@@ -146,7 +147,7 @@ def _bad_value(raw: str, attribute: str, kind: AttributeKind) -> str:
 
 
 def _lacks_one(name: str, vocabulary: Vocabulary) -> str:
-    return f"lacks an element inside; one of: {_listed(vocabulary.children.get(name, []))}"
+    return f"lacks an element inside; one of: {few(vocabulary.children.get(name, []))}"
 
 
 def _not_expected(raw: str, name: str, parent: str, vocabulary: Vocabulary) -> str:
@@ -156,7 +157,7 @@ def _not_expected(raw: str, name: str, parent: str, vocabulary: Vocabulary) -> s
         return f"is not known inside <{parent}>{_instead(name, known)}"
     expected = _expected(raw)
     if expected and name not in expected:
-        return f"cannot stand here; expected: {_listed(expected)}"
+        return f"cannot stand here; expected: {few(expected)}"
     return f"is one too many inside <{parent}>"
 
 
@@ -167,8 +168,4 @@ def _expected(raw: str) -> list[str]:
 def _instead(given: str, known: list[str]) -> str:
     near = difflib.get_close_matches(given, known, n=1)
     hint = f"; did you mean {near[0]!r}?" if near else ""
-    return f"{hint}; known: {_listed(known)}" if known else "; it takes none"
-
-
-def _listed(names: list[str]) -> str:
-    return ", ".join(names) if names else "none"
+    return f"{hint}; known: {few(known)}" if known else "; it takes none"

@@ -1,0 +1,146 @@
+"""Make text from outside visible wherever a person reads it: terminal, page, report and files.
+
+Text of a Task, a site, a robot's message or a model's answer may hold characters that move the cursor, reverse the
+direction of writing or show nothing at all, so that a person reads something else than what is there. Every writer of
+the package passes such text through one of the functions here; every reader of files that are signed or planned with
+refuses it with the help of :func:`find_hidden`.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+import sys
+import unicodedata
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+#: Categories of characters that no screen shows: control, format (bidi, zero width), surrogate, private, unassigned,
+#: line and paragraph separators.
+_HIDDEN = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
+#: Letters, marks and symbols that are invisible all the same (Unicode: Default_Ignorable_Code_Point, Braille blank).
+_BLANK = re.compile("[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u2800\u3164\ufe00-\ufe0f\uffa0\U000e0100-\U000e01ef]")
+_NOT_ASCII = re.compile("[^\x00-\x7e]")
+_ESCAPE_OR_NOT_ASCII = re.compile(r"\\(?:u[0-9a-f]{4}|.)|[^\x00-\x7e]")
+_HARMLESS_ESCAPES = frozenset({r"\n", r"\t", r"\"", r"\\"})
+#: What a spreadsheet takes for the beginning of a formula (OWASP, "CSV Injection"), also in full width.
+_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "\uff1d", "\uff0b", "\uff0d", "\uff20")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Hidden:
+    """A character that a person cannot see.
+
+    Attributes:
+        at: Its index in the text.
+        name: Code point and, if Unicode has one, name: ``U+202E RIGHT-TO-LEFT OVERRIDE``.
+    """
+
+    at: int
+    name: str
+
+
+def visible(text: str, *, lines: bool = False) -> str:
+    r"""Return a text in which every hidden character is replaced by its code point, as ``\u{009b}``.
+
+    Args:
+        text: From anyone.
+        lines: Keep line ends and tabs; without it they are replaced, too, so that the text is one line.
+    """
+    if not _has_hidden(text):
+        return text
+    kept = "\n\t" if lines else ""
+    return "".join(c if c in kept or not _is_hidden(c) else f"\\u{{{ord(c):04x}}}" for c in text)
+
+
+def print_error(*lines: str) -> None:
+    """Print lines on standard error, each of them on one line."""
+    for line in lines:
+        print(visible(line), file=sys.stderr, flush=True)  # noqa: T201
+
+
+def find_hidden(text: str, *, lines: bool = False) -> Hidden | None:
+    """Return the first hidden character of a text; None if there is none.
+
+    Args:
+        text: From anyone.
+        lines: Take line ends and tabs for visible.
+    """
+    if not _has_hidden(text):
+        return None
+    kept = "\n\t" if lines else ""
+    for at, character in enumerate(text):
+        if character not in kept and _is_hidden(character):
+            name = unicodedata.name(character, "")
+            return Hidden(at=at, name=f"U+{ord(character):04X}{f' {name}' if name else ''}")
+    return None
+
+
+def json_text(
+    value: Any, *, indent: int | None = None, separators: tuple[str, str] | None = None, allow_nan: bool = True
+) -> str:
+    r"""Return JSON for programs, hidden characters written as escapes (``\u009b``): a parser reads the same text again.
+
+    Mappings of any kind become objects; what JSON does not know is written as its text.
+    """
+    text = _dumped(value, indent, separators, allow_nan=allow_nan)
+    return text if text.isascii() and "\x7f" not in text else _NOT_ASCII.sub(_escaped, text)
+
+
+def visible_json(
+    value: Any, *, indent: int | None = None, separators: tuple[str, str] | None = None, allow_nan: bool = True
+) -> str:
+    r"""Return JSON whose texts are shown to people as they stand: a parser reads them made visible, on lines."""
+    text = _dumped(value, indent, separators, allow_nan=allow_nan)
+    return _ESCAPE_OR_NOT_ASCII.sub(_spelt, text)
+
+
+def csv_text(rows: Iterable[Sequence[object]]) -> str:
+    """Return rows as CSV (RFC 4180), all text visible; what a spreadsheet would compute begins with an apostrophe."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\r\n")
+    writer.writerows([_cell(cell) for cell in row] for row in rows)
+    return out.getvalue()
+
+
+def _cell(value: object) -> object:
+    if not isinstance(value, str):
+        return value
+    return f"'{visible(value)}" if value.startswith(_FORMULA) else visible(value)
+
+
+def _has_hidden(text: str) -> bool:
+    return not text.isprintable() or (not text.isascii() and _BLANK.search(text) is not None)
+
+
+@lru_cache(maxsize=4096)
+def _is_hidden(character: str) -> bool:
+    return unicodedata.category(character) in _HIDDEN or _BLANK.match(character) is not None
+
+
+def _dumped(value: Any, indent: int | None, separators: tuple[str, str] | None, *, allow_nan: bool) -> str:
+    return json.dumps(
+        value, ensure_ascii=False, indent=indent, separators=separators, allow_nan=allow_nan, default=_plain
+    )
+
+
+def _escaped(match: re.Match[str]) -> str:
+    character = match.group()
+    return json.dumps(character)[1:-1] if _is_hidden(character) else character
+
+
+def _spelt(match: re.Match[str]) -> str:
+    """Return a backslash and the code point, in a string of JSON, for a hidden character."""
+    found = match.group()
+    if found in _HARMLESS_ESCAPES:
+        return found
+    character = json.loads(f'"{found}"') if found.startswith("\\") else found
+    return f"\\\\u{{{ord(character):04x}}}" if _is_hidden(character) else found
+
+
+def _plain(value: object) -> object:
+    return dict(value) if isinstance(value, Mapping) else str(value)
