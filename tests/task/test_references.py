@@ -149,6 +149,13 @@ def test_nothing_optional_stands_inside_an_optional_step_nor_it_inside_optional_
     assert "is optional inside 'n2', which is optional as a whole" in problem
 
 
+@pytest.mark.parametrize(("order", "optional", "wrong"), [("given", True, 1), ("best", True, 0), ("given", False, 0)])
+def test_optional_visits_are_made_in_no_given_order(order, optional, wrong):
+    found = references(task_of(ForEach(id="", select=Trees(), body=probe(), order=order, optional=optional)))
+    assert len(found) == wrong
+    assert all("given order" in problem for problem in found)
+
+
 def test_ids_stand_once():
     task = task_of(probe(), probe())
     plan = Sequence(id="n1", steps=(probe(at=Here()), Stop(id="n1"), Stop(id="")))

@@ -184,7 +184,7 @@ def test_require_valid_raises_every_problem_as_one_line():
     assert "line 19, <compare>: " in str(error.value)
     assert "\n" not in str(error.value)
     worse = re.sub(rb"<(budget|resource|faulted|level|here|act|half|goal|stop) ", rb'<\1 colour="red" ', DOCUMENT)
-    with pytest.raises(TaskError, match="; and 3 more; correct the document"):
+    with pytest.raises(TaskError, match=" and 5 more; correct the document"):
         require_valid(worse, ROVER)
 
 

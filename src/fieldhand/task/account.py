@@ -1,7 +1,8 @@
 """What became of each word of the request, by the ranges that a Task carries, whichever planner wrote it.
 
 Only what a Task says is believed: a word that stands in no range became nothing, unless it is one of the words that say
-nothing alone.
+nothing alone. A planner may say of words that they have no part in the plan; of a word that means something
+(:mod:`fieldhand.task.weightless`) and stands nowhere else in the plan's words, that is not believed either.
 """
 
 from __future__ import annotations
@@ -29,6 +30,7 @@ from fieldhand.task.plan import (
     Try,
     walk,
 )
+from fieldhand.task.weightless import FUNCTION_WORDS, is_weightless
 
 #: What words can become. Of two ranges that are the same, the role that stands first here is shown.
 Role = Literal["condition", "limit", "end", "action", "place", "order", "no_part", "nothing", "between"]
@@ -58,16 +60,6 @@ _OF_NODE: dict[type[Node], Role] = {
     Repeat: "order",
     Stop: "end",
 }
-#: Articles, prepositions, conjunctions, pronouns and auxiliaries: alone they ask for nothing. What turns a meaning
-#: round or limits it ("not", "except", "if", "only") is none of them.
-_BETWEEN = frozenset(
-    {"a", "an", "the", "this", "that", "these", "those", "my", "our", "your", "its", "their"}
-    | {"of", "at", "in", "on", "to", "from", "by", "with", "for", "into", "onto", "as", "than", "about"}
-    | {"and", "or", "but", "then", "so", "also", "too"}
-    | {"i", "we", "you", "it", "he", "she", "they", "me", "us", "him", "her", "them", "there", "here", "which", "who"}
-    | {"is", "are", "am", "be", "been", "being", "was", "were", "do", "does", "did", "have", "has", "had"}
-    | {"will", "would", "shall", "should", "can", "could", "may", "might", "must", "let"}
-)
 _WORD = re.compile(r"\w+(?:['\u2019.,\-]\w+)*\s?[%\u00b0]?")
 
 
@@ -109,11 +101,25 @@ def has_ranges(task: Task) -> bool:
 def _words(task: Task) -> Iterator[tuple[int, int, Role]]:
     """Every word of the request that says something alone, with its role: that of the shortest range around it."""
     ranges = sorted(_ranges(task), key=lambda found: (found[0][1] - found[0][0], ROLES.index(found[1])))
+    found: list[tuple[str, int, int, Role]] = []
     for word in _WORD.finditer(task.command.request):
         start, end = word.start(), word.start() + len(word.group().rstrip())
-        if word.group().strip().lower() not in _BETWEEN:
+        text = word.group().strip().lower()
+        if text not in FUNCTION_WORDS:
             holding = (role for (first, last), role in ranges if first <= start and end <= last)
-            yield start, end, next(holding, "nothing")
+            found.append((text, start, end, next(holding, "nothing")))
+    spoken = {_stem(text) for text, _, _, role in found if role not in ("no_part", "nothing") and text.isalpha()}
+    spoken |= {_stem(r.name.lower()) for r in task.resources if r.kind == "robot"}
+    acts = [node for node in walk(task.composition.plan) if isinstance(node, Act)]
+    spoken |= {_stem(word) for act in acts for word in act.action.split("_")}
+    for text, start, end, role in found:
+        dropped = role == "no_part" and not is_weightless(text) and _stem(text) not in spoken
+        yield start, end, "nothing" if dropped else role
+
+
+def _stem(word: str) -> str:
+    """Return a noun without its plural, so that "corners" and "corner" are the same."""
+    return word.removesuffix("s")
 
 
 def _ranges(task: Task) -> Iterator[tuple[Span, Role]]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from fieldhand.brief import brief_repr
 from fieldhand.task.plan import Node, Span
 
 Then = Literal["return_to_end", "return_to_start", "stay"]
@@ -124,7 +125,7 @@ class Resource:
     sha256: str
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Task:
     """A mission as it is planned, approved, carried out and judged (level 1 of the design)."""
 
@@ -133,3 +134,5 @@ class Task:
     composition: Composition
     constraints: Constraints = Constraints()
     resources: tuple[Resource, ...] = ()
+
+    __repr__ = brief_repr

@@ -10,7 +10,7 @@ optional.
 How they behave is fixed here, for the preview and for the robot alike:
 
 * Whatever needs a place drives there first; the last place reached is the *place in hand* (:class:`~.selectors.Here`).
-* ``Act`` without ``at`` is done at the place in hand. A selector that an ``Act`` or ``GoTo`` names must give one place.
+* A selector that an ``Act`` or ``GoTo`` names must give one place.
 * ``ForEach`` resolves its selector once, when it is reached; then it drives to each place and does ``body`` there.
 * A node fails when an action or a drive in it fails for good; ``Try`` catches that, else the mission ends faulted.
 """
@@ -54,7 +54,7 @@ class ForEach:
         order: ``best`` drives least; ``given`` keeps the order of the selector.
         optional: Visits may be shed by the budget guard, least worth first ("as many as you can").
         at_most: Stop after that many visits ("up to 6").
-        reward: Attribute that says what a visit is worth; every visit is worth 1 without it.
+        reward: Attribute that says what a visit is worth; else every visit is worth 1.
         until: Stop once this holds after a visit.
     """
 
@@ -131,12 +131,12 @@ class Act:
     """An atomic task: one action of the robot's profile.
 
     Attributes:
-        at: Where; the place in hand if None.
+        at: Where; else at the place in hand.
         at_said: Those of its ranges of the request that say where.
         count: How many captures at that place.
         parameters: Name and value of each parameter that the profile declares for the action.
         label: Binds the place for later nodes.
-        reading: Binds what the action measures, the last capture's if there are several.
+        reading: Binds what the action measures, of several captures the last.
     """
 
     id: str

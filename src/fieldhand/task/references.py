@@ -35,12 +35,13 @@ def references(task: Task, capabilities: Capabilities | None = None) -> tuple[st
     Ids are unique; goals and state variables name actions of the plan; a place is bound before it is named; a reading
     is taken before it is tested, by a node that can come first on some branch, and neither by an optional step, which
     may be shed; a range has its low end first; nothing optional stands inside an optional step, nor that inside an
-    optional for-each; nested repeats do not multiply beyond ``MAX_ROUNDS``. With capabilities: each of those readings
-    measures the quantity that is tested.
+    optional for-each; optional visits have no given order; nested repeats do not multiply beyond ``MAX_ROUNDS``. With
+    capabilities: each of those readings measures the quantity that is tested.
     """
     nodes = {node.id: node for node in walk(task.composition.plan)}
     problems = [*_ids(task), *_frames(task, nodes), *_endless(task.composition.plan)]
     problems.extend(_twice_optional(task.composition.plan))
+    problems.extend(_ordered_optional(task.composition.plan))
     _visit(task.composition.plan, _Known(), _Found(problems=problems, capabilities=capabilities))
     return tuple(problems)
 
@@ -92,6 +93,17 @@ def _twice_optional(node: Node, around: Node | None = None) -> Iterator[str]:
         yield f"node {node.id!r} is optional inside {around.id!r}, which is optional as a whole; make one of them plain"
     for child in children(node):
         yield from _twice_optional(child, node if is_optional(node) else around)
+
+
+def _ordered_optional(plan: Node) -> Iterator[str]:
+    """Optional visits in a given order: the solver chooses which are made, and in which order."""
+    for node in walk(plan):
+        if isinstance(node, ForEach) and node.optional and node.order == "given":
+            yield (
+                f"node {node.id!r} is optional and has a given order, which optional visits cannot keep: as many are"
+                " made as fit, in the order that drives least; let a 'top' or 'take' choose which places, or leave out"
+                " 'order'"
+            )
 
 
 @dataclass(frozen=True, kw_only=True)

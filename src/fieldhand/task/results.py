@@ -12,7 +12,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
-MissionStatus = Literal["completed", "returned", "faulted", "aborted"]
+MissionStatus = Literal["completed", "returned", "exceeded", "faulted", "aborted"]
+
+Crossable = Literal["charge_percent", "distance_m", "duration_s", "energy_percent"]
+Crossing = Literal["warn", "return", "stop", "reserve", "limit", "way_home", "out_of_reach"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,7 +23,8 @@ class Started:
     """The mission begins. ``seed`` is None where the robot is real.
 
     ``at`` is the wall clock's time then (ISO 8601, UTC), empty where there is none: ``at`` and ``t`` give any event's
-    own, whatever is done to the wall clock meanwhile.
+    own, whatever is done to the wall clock meanwhile. ``reserve_percent`` is the charge that must be left at the end;
+    None in logs of earlier versions.
     """
 
     event: ClassVar[str] = "started"
@@ -34,6 +38,7 @@ class Started:
     charge_percent: float
     seed: int | None = None
     at: str = ""
+    reserve_percent: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -221,6 +226,35 @@ class Waited:
 
 
 @dataclass(frozen=True, kw_only=True)
+class LimitCrossed:
+    """A limit, or a level of the battery, was crossed while the robot drove, worked or stood; each once.
+
+    ``level``: ``warn``, ``return`` and ``stop`` of the battery; ``reserve``: less charge is left than must be;
+    ``limit``: more was used of ``quantity`` than a budget allows; ``way_home``: ``value``, which is left of
+    ``quantity`` (of the charge, above the reserve), only just lasts for the way home, which takes ``threshold`` on
+    average; ``out_of_reach``: the charge above the stop level does not last for it. Of the others ``value`` is what was
+    read and ``threshold`` the level.
+
+    ``then``: what the robot does about it; ``end``: its mission is over where it stands, as no way home was reserved.
+    ``cleared``: the charge is well above the level again.
+    """
+
+    event: ClassVar[str] = "limit"
+    t: float
+    node: str = ""
+    quantity: Crossable
+    level: Crossing
+    value: float
+    threshold: float
+    then: Literal["go_on", "return", "end", "stop"]
+    cleared: bool = False
+    lat: float
+    lon: float
+    travelled_m: float
+    charge_percent: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class ClockSet:
     """Somebody set the wall clock, by so many seconds forward or back. ``t`` does not know of it."""
 
@@ -258,8 +292,9 @@ class Exited:
 class Ended:
     """The mission is over: where the robot is and what was used.
 
-    ``completed``: the plan was done and its exit taken. ``returned``: the budget guard brought the robot home before
-    the plan was done. ``faulted``: a fault ended it. ``aborted``: a person did.
+    ``completed``: the plan was done and its exit taken. ``returned``: the robot came home before the plan was done, so
+    that a limit would be kept. ``exceeded``: either of these, beyond a limit (:mod:`fieldhand.task.exceeded`).
+    ``faulted``: a fault ended it. ``aborted``: a person did.
     """
 
     event: ClassVar[str] = "mission"
@@ -287,6 +322,7 @@ Event = (
     | Shed
     | Obstructed
     | Waited
+    | LimitCrossed
     | ClockSet
     | Faulted
     | Exited

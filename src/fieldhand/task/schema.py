@@ -13,7 +13,7 @@ import threading
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from fieldhand.errors import TaskError
+from fieldhand.errors import TaskError, few
 from fieldhand.task.capabilities import Capabilities
 from fieldhand.task.codec_shapes import Attribute, Shape, element_name
 from fieldhand.task.codec_xml import parse_xml
@@ -98,14 +98,13 @@ def require_valid(document: bytes, capabilities: Capabilities, *, source: str = 
         draft: The document is a draft.
 
     Raises:
-        TaskError: It is not valid; the first five problems with line and element, and how many more there are.
+        TaskError: It is not valid; the first three problems with line and element, and how many more there are.
     """
     problems = validate(document, capabilities, draft=draft)
     if problems:
-        said = "; ".join(str(problem) for problem in problems[:5])
-        more = f"; and {len(problems) - 5} more" if len(problems) > 5 else ""
+        said = few([str(problem) for problem in problems], 3, "; ")
         advice = "correct the document, or plan the request again for this robot"
-        raise TaskError(f"is not valid for this robot: {said}{more}", where=source, advice=advice)
+        raise TaskError(f"is not valid for this robot: {said}", where=source, advice=advice)
 
 
 def vocabulary(capabilities: Capabilities, *, draft: bool = False) -> Vocabulary:

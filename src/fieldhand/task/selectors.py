@@ -21,6 +21,8 @@ Test = Literal["lt", "le", "gt", "ge", "eq", "ne"]
 Value = str | float | bool
 #: Which end rows, or trees in a row, are counted from: ``usual`` is west, or north where that is the way of the row.
 CountedFrom = Literal["usual", "north", "east", "south", "west"]
+#: A direction of the compass, or none.
+AnySide = Literal["any", "north", "east", "south", "west"]
 Towards = Literal["down", "up", "north", "east", "south", "west"]
 Order = Literal[
     "west_to_east",
@@ -41,7 +43,7 @@ class Trees:
 
 @dataclass(frozen=True, kw_only=True)
 class TreeIs:
-    """The tree with this id (the file's own id where it has one, else its position in the file counted from 1)."""
+    """The tree with this id: the file's own, else its position in the file from 1."""
 
     tree: str
 
@@ -51,6 +53,13 @@ class Marker:
     """A marker of the site: where the robot starts, ends or charges."""
 
     name: MarkerName
+
+
+@dataclass(frozen=True, kw_only=True)
+class GateIs:
+    """The gate with this name."""
+
+    gate: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,14 +76,14 @@ class Bound:
 
 @dataclass(frozen=True, kw_only=True)
 class First:
-    """The tree nearest to the start marker, or the first of the file where there is no marker."""
+    """The tree nearest to the start marker; the first of the file without one."""
 
     of: Selector = Trees()
 
 
 @dataclass(frozen=True, kw_only=True)
 class Last:
-    """The tree nearest to the end marker, or the last of the file where there is no marker."""
+    """The tree nearest to the end marker; the last of the file without one."""
 
     of: Selector = Trees()
 
@@ -123,7 +132,11 @@ class EdgeMiddle:
 
 @dataclass(frozen=True, kw_only=True)
 class Half:
-    """Trees on one side of the middle line of the extent of ``of``."""
+    """Trees of ``of`` on one side of the middle line of its ground.
+
+    The ground is the site, or the zone, block, half or picked trees inside; attributes, rows and visits inside do not
+    change it.
+    """
 
     side: Side
     of: Selector = Trees()
@@ -131,7 +144,7 @@ class Half:
 
 @dataclass(frozen=True, kw_only=True)
 class Quarter:
-    """Trees in one quarter of the extent of ``of``."""
+    """Trees of ``of`` in one quarter of its ground, which is as for a half."""
 
     quarter: CornerName
     of: Selector = Trees()
@@ -139,7 +152,7 @@ class Quarter:
 
 @dataclass(frozen=True, kw_only=True)
 class Edge:
-    """Trees on the outermost line of one side of ``of``: those with no tree of ``of`` beyond them within a spacing."""
+    """Trees of ``of`` on the outermost line of one side of its ground: no tree stands beyond them within a spacing."""
 
     side: Side
     of: Selector = Trees()
@@ -150,13 +163,15 @@ class Nearest:
     """The ``count`` trees of ``of`` nearest to ``to`` that are not ``to``.
 
     ``adjacent`` asks for neighbours ("next to"): the same row is preferred. ``fresh`` passes over trees that this
-    mission has visited already ("nearby").
+    mission has visited already ("nearby"). ``side`` keeps those that lie in that direction from ``to`` ("its neighbour
+    on the east"), whatever half of the site they stand in.
     """
 
     to: Selector
     count: int = 1
     adjacent: bool = False
     fresh: bool = False
+    side: AnySide = "any"
     of: Selector = Trees()
 
 
@@ -215,10 +230,11 @@ class Top:
 
 @dataclass(frozen=True, kw_only=True)
 class InZone:
-    """Trees inside a named zone of the site, or outside it."""
+    """Trees inside a named zone of the site or at most ``margin_m`` metres from it, or all others (``outside``)."""
 
     zone: str
     outside: bool = False
+    margin_m: float = 0.0
     of: Selector = Trees()
 
 
@@ -240,6 +256,19 @@ class Take:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Random:
+    """``count`` of ``of``, drawn at random.
+
+    Attributes:
+        seed: The same seed draws the same trees whenever it is drawn.
+    """
+
+    count: int
+    seed: int = 0
+    of: Selector = Trees()
+
+
+@dataclass(frozen=True, kw_only=True)
 class InBlock:
     """Trees of one block, by the block's name or number."""
 
@@ -252,8 +281,7 @@ class Rows:
     """Trees of row ``first`` (empty: the first) to row ``last`` (empty: the last), of every ``every``-th of these.
 
     A row is called by its name, or by its number in the block; -1 is the last row. Numbers count from west, or from
-    north where rows run east-west, or from the side ``counted_from``. Where several blocks have such rows, ``of`` says
-    which block (InBlock).
+    north where rows run east-west, or from the side ``counted_from``. Of several blocks, ``of`` says which (InBlock).
     """
 
     first: str = ""
@@ -276,8 +304,8 @@ class RowOf:
 class InRow:
     """Trees ``first`` to ``last`` along each row of ``of``; negative numbers count from the row's other end.
 
-    They count from north, or from west where rows run east-west, or from the side ``counted_from``. What stands is
-    counted, but for whole rows to whose trees the file gives numbers.
+    They count from north, or from west where rows run east-west, or from the side ``counted_from``: what stands, or by
+    the file's own numbers.
     """
 
     first: int
@@ -298,7 +326,7 @@ class EveryNth:
 
 @dataclass(frozen=True, kw_only=True)
 class AlongRow:
-    """The tree that many ``trees`` along the row of ``origin``: down is away from the start marker, up towards it.
+    """The tree that many ``trees`` along the row from ``origin``: down is away from the start marker, up towards it.
 
     Where the row ends before, its last tree.
     """
@@ -385,6 +413,7 @@ Selector = (
     Trees
     | TreeIs
     | Marker
+    | GateIs
     | Here
     | Bound
     | First
@@ -407,6 +436,7 @@ Selector = (
     | InZone
     | Within
     | Take
+    | Random
     | InBlock
     | Rows
     | RowOf
@@ -456,11 +486,11 @@ def is_relative(selector: Selector) -> bool:
 def is_single(selector: Selector) -> bool:
     """Whether the selector's form promises at most one place ("the northernmost tree", not "trees in the north")."""
     match selector:
-        case TreeIs() | Marker() | Here() | First() | Last() | AlongRow() | Across() | Nth():
+        case TreeIs() | Marker() | GateIs() | Here() | First() | Last() | AlongRow() | Across() | Nth():
             return True
         case Corners(which=which):
             return len(which) == 1
-        case Extreme() | Middle() | EdgeMiddle() | Nearest() | Farthest() | Adjacent() | Top() | Take():
+        case Extreme() | Middle() | EdgeMiddle() | Nearest() | Farthest() | Adjacent() | Top() | Take() | Random():
             return selector.count == 1
         case Successive() | Spaced() | Apart() | PointsIn():
             return selector.count == 1

@@ -107,6 +107,21 @@ def say_value(value: str | float | bool) -> str:
     return value if isinstance(value, str) else say_number(value)
 
 
+def say_place(kind: str, name: str) -> str:
+    """Return a place as it follows "at": "tree 12", "the end"."""
+    if kind == "tree":
+        return message("tree {id}", context="log", id=name)
+    return message("the {role}", context="log", role=named(name, "role"))
+
+
+def some_names(names: Sequence[str], most: int) -> str:
+    """Return so many names at most, and how many more there are: "14, 15 and 6 more"."""
+    shown = joined(", ", names[:most])
+    if len(names) <= most:
+        return shown
+    return message("{items} and {count} more", items=shown, count=len(names) - most)
+
+
 def say_duration(seconds: float) -> str:
     """A duration as people say it: "45 s", "12 min", "1 h 05 min". Safe for what no mission lasts."""
     if math.isnan(seconds):

@@ -1,0 +1,67 @@
+"""Words that ask for nothing wherever they stand: the only ones that a planner may leave out without a warning.
+
+The list is closed on purpose. A word that it lacks costs one confirmation; a word too many costs a wrong mission.
+So it holds no number, no side, no time, no manner, no word of what is measured, and nothing that negates or restricts
+("not", "except", "if", "instead").
+"""
+
+from __future__ import annotations
+
+
+def _words(text: str) -> frozenset[str]:
+    """Return the words of a text."""
+    return frozenset(text.split())
+
+
+#: Articles, prepositions, conjunctions, pronouns and auxiliaries.
+FUNCTION_WORDS = _words(
+    """
+    a about also am an and are as at be been being but by can could did do does for from had has have he her here
+    him i in into is it its let may me might must my of on onto or our shall she should so than that the their
+    them then there these they this those to too us was we were which who will with would you your
+    """
+)
+#: Courtesies.
+_COURTESY = _words(
+    """
+    appreciated boss brilliant buddy cheers course dear fine folks glad great greetings guys happy hello hey hi
+    kind kindly lovely madam mate much nice ok okay pal perfect please pls plz sir sure ta thank thanks welcome
+    well yes
+    """
+)
+#: Who is spoken to, and with what it works.
+_ADDRESSED = _words(
+    """
+    bot camera case equipment goal instruction instructions job machine mission missions onboard plan request
+    robot robots rover sensor sensors task test thing things ugv unit vehicle
+    """
+)
+#: Verbs and phrases that only lead to what is asked.
+_LEADING = _words(
+    """
+    able ask asked because before begin capture carry check choose collect come deploy do doing done drive driving
+    find get give go going head i'd i'll i'm it's keep kick know let's lets like likes look looking love make
+    measure measured measuring need needed needs off out over perform photograph photographing pick picture
+    pictures proceed reading readings record require required requires see send sent start take taken taking tell
+    that's there's through u use using visit want wanted wants way we'd we're what what's whats wish wishes you'd
+    """
+)
+#: Words that are said of everything, and nouns that all requests are about.
+_SAYING_LITTLE = _words(
+    """
+    actually after again any apart approximately around basically block certain confirm consider content distance
+    each entire estate even every exactly farm field finally finished first firstly focus following full given
+    good grove how itself just least level lies limit limited many max maximum meaning minimum more most namely
+    next now once one ones only orchard order own particular place places plant plantation plants plot point
+    points possible precisely really rectangle rectangular regarded respective result roughly seen simply single
+    site some somewhere spaced spot spots stands still such time tops total treat treating tree trees up upper
+    value very viewed viewing vine vines vineyard when where while whole
+    """
+)
+#: Words that ask for nothing.
+WEIGHTLESS = FUNCTION_WORDS | _COURTESY | _ADDRESSED | _LEADING | _SAYING_LITTLE
+
+
+def is_weightless(word: str) -> bool:
+    """Return True if a word asks for nothing wherever it stands."""
+    return word.strip().lower().replace("\u2019", "'").rstrip(".") in WEIGHTLESS
