@@ -61,8 +61,13 @@ class Flown:
     outcomes: tuple[Any, ...]
 
 
-def small_site(seed: int) -> Site:
-    """An orchard of 3 to 5 rows with a fence around it and perhaps a pond in it, made as a file and read."""
+def small_site(seed: int, *, away_m: float = 0.0) -> Site:
+    """An orchard of 3 to 5 rows with a fence around it and perhaps a pond in it, made as a file and read.
+
+    Args:
+        seed: Of what is drawn.
+        away_m: How much farther from the trees its start and end lie.
+    """
     rng = np.random.default_rng([11, seed])
     rows, trees = int(rng.integers(3, 6)), int(rng.integers(4, 8))
     across, along = rng.uniform(4.0, 6.5), rng.uniform(3.0, 5.0)
@@ -87,9 +92,9 @@ def small_site(seed: int) -> Site:
         for r, k in itertools.product(range(rows), range(trees))
     ]
     features += [
-        feature("start", "Point", degrees(-4.0, -5.0)),
-        feature("end", "Point", degrees(wide + 4.0, -5.0)),
-        feature("boundary", "Polygon", [ring(-9.0, -9.0, wide + 9.0, deep + rng.uniform(1.0, 9.0))]),
+        feature("start", "Point", degrees(-4.0 - away_m, -5.0)),
+        feature("end", "Point", degrees(wide + 4.0, -5.0 - away_m)),
+        feature("boundary", "Polygon", [ring(-9.0 - away_m, -9.0 - away_m, wide + 9.0, deep + rng.uniform(1.0, 9.0))]),
     ]
     if rng.random() < 0.7:
         x, y = rng.uniform(0.0, wide), rng.uniform(0.0, deep)
@@ -290,6 +295,7 @@ def _silently_shed(flown: Flown) -> list[str]:
     end = flown.log[-1]
     done = Counter(e["node"] for e in _of(flown, "action") if e["status"] == "success")
     said = bool([e for e in _of(flown, "shed") if not e["optional"]])
+    turned_home = any(e["then"] == "return" for e in _of(flown, "limit"))
     lacking = [
         goal.id
         for goal in flown.task.command.goals
@@ -301,7 +307,7 @@ def _silently_shed(flown: Flown) -> list[str]:
     ]
     if end["status"] == "completed" and lacking and not said:
         return [f"completed, but goals {lacking} lack captures and nothing was said"]
-    if end["status"] == "returned" and not said:
+    if end["status"] == "returned" and not said and not (turned_home and _of(flown, "shed")):
         return ["returned, and nothing was said to be given up"]
     return []
 

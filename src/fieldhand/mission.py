@@ -11,14 +11,17 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fieldhand.brief import brief_repr
 from fieldhand.errors import InputError, RequestError
 from fieldhand.files import state_folder
 from fieldhand.planning.planner import Answer, Outcome, Planner
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.authorization import AuthorizedTask
+from fieldhand.task.exceeded import Exceeded
 from fieldhand.task.frames import Task
-from fieldhand.task.results import Event, GoalOutcome
+from fieldhand.task.results import Event, GoalOutcome, MissionStatus
+from fieldhand.visible import find_hidden
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
@@ -38,7 +41,7 @@ if TYPE_CHECKING:
 PLANNERS = ("auto", "english", "llm")
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Review:
     """What an operator looks at before approving: the problems found, what it will take, and the plan in words."""
 
@@ -46,6 +49,8 @@ class Review:
     problems: tuple[Problem, ...]
     estimate: Estimate | None
     read_back: ReadBack | None
+
+    __repr__ = brief_repr
 
     @property
     def errors(self) -> tuple[Problem, ...]:
@@ -60,14 +65,30 @@ class Review:
 
 @dataclass(frozen=True, kw_only=True)
 class Assessment:
-    """What came of a mission: the outcome of each goal."""
+    """The assessment of a finished mission.
+
+    Attributes:
+        outcomes: Of each goal.
+        exceeded: Limits that were exceeded.
+        status: How it ended; None where the log was cut off. A log of an earlier version may call a mission that
+            exceeded a limit ``completed``; this does not.
+        reason: Why it did not complete, in words.
+    """
 
     outcomes: tuple[GoalOutcome, ...]
+    exceeded: tuple[Exceeded, ...] = ()
+    status: MissionStatus | None = None
+    reason: str = ""
+
+    @property
+    def goals_met(self) -> bool:
+        """Return True if every goal was met."""
+        return all(o.outcome == "success" for o in self.outcomes)
 
     @property
     def success(self) -> bool:
-        """Whether every goal was met."""
-        return all(o.outcome == "success" for o in self.outcomes)
+        """Return True if the mission completed, met every goal and exceeded no limit: exit status 0."""
+        return self.status == "completed" and self.goals_met and not self.exceeded
 
 
 def make_planner(
@@ -123,11 +144,16 @@ def plan(request: str, site: Site, robot: RobotProfile, planner: Planner, answer
         answers: What was answered to earlier questions about this request.
 
     Raises:
-        RequestError: The request is empty or too long.
+        RequestError: The request is empty or too long, or nobody can see all of it.
         ModelError: A language model was needed and could not be used.
     """
     if not request.strip():
         raise RequestError("the request is empty", advice="say what the robot should do, and at which trees")
+    for what, said in (("request", request), *(("answer", answer.answer) for answer in answers)):
+        hidden = find_hidden(said, lines=True)
+        if hidden is not None:
+            where = f"the {what}, character {hidden.at + 1}"
+            raise RequestError(f"nobody can see the character {hidden.name}", where=where, advice="leave it out")
     return planner.plan(request, site, robot, answers)
 
 
@@ -257,17 +283,20 @@ def carry_out(
         emit, interrupted: As for :func:`fieldhand.execution.runtime.run`; so are ``orders`` and ``tape``.
         watched: Takes the budget guard and gives one that asks it: to time its decisions, say.
     """
+    from fieldhand.evaluation.failsafe import Failsafe
     from fieldhand.evaluation.guard import BudgetGuard
     from fieldhand.execution.runtime import run
     from fieldhand.forecast.routes import drives_for
 
     charge, drives = vehicle.charge_percent, drives_for(site, robot)
+    guard = BudgetGuard(authorized.task, site, robot, drives, seed, charge_percent=charge)
     return run(
         authorized,
         site=site,
         robot=robot,
         driver=vehicle.driver,
-        guard=watched(BudgetGuard(authorized.task, site, robot, drives, seed, charge_percent=charge)),
+        guard=watched(guard),
+        lookout=Failsafe(authorized.task, robot, guard.drain),
         clock=vehicle.clock,
         emit=vehicle.disk(emit),
         interrupted=interrupted,
@@ -298,11 +327,19 @@ def simulate(
     return carry_out(*given, vehicle=made, seed=seed, emit=emit, interrupted=interrupted, watched=watched)
 
 
-def assess(task: Task, events: Sequence[Event]) -> Assessment:
-    """Judge each goal by what happened."""
-    from fieldhand.evaluation.outcome import judge
+def assess(task: Task, events: Sequence[Event], robot: RobotProfile | None = None) -> Assessment:
+    """Judge each goal and each limit by the event log.
 
-    return Assessment(outcomes=judge(task, events))
+    Args:
+        task: What was carried out.
+        events: The log, from its beginning; it may stop anywhere.
+        robot: Whose reserve counts where neither Task nor log says one, as in logs of earlier versions.
+    """
+    from fieldhand.evaluation.outcome import judge, judge_end
+
+    reserve = None if robot is None else robot.energy.reserve_percent
+    status, reason, found = judge_end(task, events, reserve)
+    return Assessment(outcomes=judge(task, events), exceeded=found, status=status, reason=reason)
 
 
 def report(

@@ -315,3 +315,12 @@ def test_no_candidates_no_choice():
 def test_the_guard_is_what_execution_asks_for():
     guard: Guard = Paper(task_for(SITE, MANY), SITE, ROBOT, 0).guard
     assert guard.choose is not None
+
+
+@pytest.mark.parametrize("seed", [0, 7])
+def test_the_robot_sets_out_along_the_order_that_was_forecast(seed):
+    site = orchard(6, 12)
+    task = task_for(site, MANY, constraints=limited(150.0), nominal="return_to_end")
+    forecast = next(s for s in walk(task, site, ROBOT, holds=lambda _: False).steps if s.kind == "visit-list")
+    paper, _ = optional_mission(site, seed, limited(150.0))
+    assert paper.visited[:3] == tuple(p.id for p in forecast.places[:3])

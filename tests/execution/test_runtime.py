@@ -270,7 +270,9 @@ def test_a_way_home_that_is_blocked_ends_the_mission_faulted_on_the_way() -> Non
 
 
 def test_an_empty_battery_is_a_fault_and_the_mission_still_ends_in_order() -> None:
-    result = Rig(world=World(charge_percent=0.2)).fly(ForEach(id="", select=Trees(), body=act()))
+    # Without a reserve there is no level at which it would stop before.
+    robot = replace(husky(), energy=replace(husky().energy, reserve_percent=0.0))
+    result = Rig(robot=robot, world=World(charge_percent=0.2)).fly(ForEach(id="", select=Trees(), body=act()))
     ended = end_of(result.events)
     assert ended.status == "faulted"
     assert "the battery is empty" in ended.reason

@@ -1,7 +1,7 @@
 """A robot in another process, over real DDS, on a time of its own that a test lets pass: no machine is too slow for it.
 
-While the robot lives both do their steps in turn. Once it was killed time passes twenty times as fast as on the wall,
-and so does the lease by which DDS forgets it: half a second is as good as its ten.
+While the robot lives both do their steps in turn. Once it was killed time passes five times as fast as on the wall, and
+so does the lease by which DDS forgets it: two seconds are as good as its ten.
 """
 
 from __future__ import annotations
@@ -12,7 +12,8 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -21,20 +22,25 @@ from fieldhand.clock import SimulatedClock
 from fieldhand.execution.drivers.ros2.dds import open_dds
 from fieldhand.execution.drivers.ros2.dds.transport import DdsTransport
 from fieldhand.execution.drivers.ros2.driver import Ros2Driver
+from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.twin.robot import bindings_of
 from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.runtime import Result, run
+from fieldhand.execution.vehicle import Connection, Vehicle
 from fieldhand.robot.bindings import Ros2Bindings
+from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import Patience, RobotProfile
+from fieldhand.site.geojson import open_site
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Node
+from fieldhand.task.plan import Act, Node, walk
+from patience import until
 from rig import authorized, husky, task_for
 from ros2.conftest import LOOPBACK
-from ros2.patience import until
 from ros2.robot_process import ALL, FROM_ROBOT, NUMBER, TO_ROBOT
 from ros2.scripted_robot import SITE, SPEED, TICK_S, bindings, interfaces
 
-_FASTER = 20.0
-_LEASE = "<Discovery><LeaseDuration>500ms</LeaseDuration></Discovery></Domain>"
+_FASTER = 5.0
+_LEASE = "<Discovery><LeaseDuration>2s</LeaseDuration></Discovery></Domain>"
 #: So that a mission need not wait for minutes.
 _PATIENCE = Patience(blocked_wait_s=2.0, lost_wait_s=4.0)
 
@@ -80,10 +86,11 @@ class FarRobot:
 
 
 class Lockstep(SimulatedClock):
-    """Time that passes at both ends at once."""
+    """Time that passes at both ends at once, at most ``tick_s`` in a step."""
 
-    def __init__(self, robot: FarRobot, node: DdsTransport) -> None:
+    def __init__(self, robot: FarRobot, node: DdsTransport, tick_s: float = TICK_S) -> None:
         super().__init__()
+        self._tick_s = tick_s
         #: What happens once, when something holds.
         self.meanwhile: tuple[Callable[[], bool], Callable[[], None]] | None = None
         self._robot, self._numbers = robot, itertools.count(1)
@@ -99,7 +106,7 @@ class Lockstep(SimulatedClock):
             if self.meanwhile is not None and self.meanwhile[0]():
                 (_, then), self.meanwhile = self.meanwhile, None
                 then()
-            step_s = min(TICK_S, until_s - self.now())
+            step_s = min(self._tick_s, until_s - self.now())
             if self._robot.alive:
                 number = next(self._numbers)
                 self._said.send({"data": number})
@@ -153,3 +160,33 @@ class Meeting:
             clock=self.clock,
             emit=lambda _: None,
         )
+
+
+@contextmanager
+def boarded_twin(site: str, robot: str, task: Task, *, seed: int, tick_s: float) -> Iterator[tuple[Vehicle, FarRobot]]:
+    """A simulated robot in another process, as the vehicle of a mission: both live on one time."""
+    far, profile = FarRobot(), load_robot(robot)
+    node: DdsTransport | None = None
+    try:
+        far.tell("new_twin", site=site, robot=robot, seed=seed)
+        bound = bindings_of(profile)
+        known = Interfaces.of(bound.distro, bound.interfaces)
+        node = open_dds(known)
+        clock = Lockstep(far, node, tick_s)
+        driver = Ros2Driver.connect(
+            node,
+            known,
+            open_site(site),
+            profile,
+            clock=clock,
+            steady=clock.now,
+            sleep=clock.advance,
+            look_every_s=tick_s,
+            actions={node.action for node in walk(task.composition.plan) if isinstance(node, Act)},
+        )
+        by = Connection(transport="dds", sim_time=True)
+        yield Vehicle(driver=driver, clock=clock, charge_percent=driver.charge_percent(), by=by), far
+    finally:
+        if node is not None:
+            node.close()
+        far.kill()

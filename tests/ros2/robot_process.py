@@ -1,4 +1,4 @@
-"""The scripted robot in a process of its own, over real DDS; it does one step each time that it is told to.
+"""The scripted robot, or the simulated one, in a process of its own, over real DDS; it does a step when it is told to.
 
 Lines of JSON come in, one goes out for each. What both ends have sent before a step has arrived when it begins: each
 sends a number behind it, and waits for the other's.
@@ -17,7 +17,11 @@ from fieldhand.execution.drivers.ros2.dds import open_dds
 from fieldhand.execution.drivers.ros2.dds.transport import DdsTransport
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.transport import Quality
-from ros2.patience import until
+from fieldhand.execution.drivers.ros2.twin.robot import Said, SimulatedRobot, bindings_of
+from fieldhand.execution.world import World
+from fieldhand.robot.loader import load_robot
+from fieldhand.site.geojson import open_site
+from patience import until
 from ros2.scripted import Script, ScriptedAction
 from ros2.scripted_robot import INTERFACES, Robot, bindings, interfaces
 
@@ -30,6 +34,7 @@ class Process:
     def __init__(self) -> None:
         self.clock = SimulatedClock()
         self.nodes: list[DdsTransport] = []
+        self.robots: list[Robot | SimulatedRobot] = []
 
     def new(
         self,
@@ -54,12 +59,39 @@ class Process:
             known.type_hash = lambda _: ""  # type: ignore[method-assign]
         self.nodes = [open_dds(known) for _ in range(robots)]
         bound = bindings(distro=distro, namespace=namespace)
-        self.robots = [Robot(node, self.clock, bound) for node in self.nodes]
-        for robot in self.robots:
+        made = [Robot(node, self.clock, bound) for node in self.nodes]
+        self.robots = [*made]
+        for robot in made:
             if thermometer_type:
                 robot.thermometer.close()
                 robot.thermometer = robot.node.serve("/thermometer", thermometer_type)
         self.change(**switches)
+        self._listen()
+
+    def new_twin(self, site: str, robot: str, seed: int) -> None:
+        """The simulated robot of a site and a profile, in place of the one before."""
+        self.end()
+        profile = load_robot(robot)
+        bound = bindings_of(profile)
+        known = Interfaces.of(bound.distro, bound.interfaces)
+        self.nodes = [open_dds(known)]
+        self.said_of_goals: list[Said] = []
+        twin = SimulatedRobot(
+            open_site(site),
+            profile,
+            World(),
+            self.nodes[0],
+            known,
+            self.clock,
+            seed=seed,
+            sim_time=True,
+            say=self.said_of_goals.append,
+        )
+        self.robots = [twin]
+        self._listen()
+
+    def _listen(self) -> None:
+        """Take the numbers of the other end, and send them back."""
         self.heard = self.nodes[0].subscribe(TO_ROBOT, NUMBER, ALL)
         self.said = self.nodes[0].publish(FROM_ROBOT, NUMBER, ALL)
 
@@ -74,6 +106,7 @@ class Process:
             thermometer: What it answers; None for nothing.
         """
         for robot in self.robots:
+            assert isinstance(robot, Robot)
             if without:
                 getattr(robot, without).close()
             if blocked:
@@ -87,8 +120,10 @@ class Process:
         """A second robot is switched on, under the same names."""
         node = open_dds(self.nodes[0].interfaces)
         self.nodes.append(node)
-        navigation = self.robots[0].bound.navigation
-        whole = self.robots[0].bound.whole_name(navigation.action)
+        robot = self.robots[0]
+        assert isinstance(robot, Robot)
+        navigation = robot.bound.navigation
+        whole = robot.bound.whole_name(navigation.action)
         ScriptedAction(node, whole, navigation.type, self.clock.now, lambda _: Script())
 
     def meet(self) -> None:
@@ -109,8 +144,10 @@ class Process:
             node.close()
 
     def state(self) -> dict[str, object]:
-        """What the robot is at."""
+        """What the robot is at; of the simulated one, the goals that succeeded."""
         robot = self.robots[0]
+        if isinstance(robot, SimulatedRobot):
+            return {"made": [(said.name, said.place) for said in self.said_of_goals if said.end == "succeeded"]}
         return {"executing": len(robot.navigation.executing) + len(robot.sampler.executing), "xy": robot.xy,
                 "goals": len(robot.navigation.received), "driven_m": robot.driven_m}  # fmt: skip
 

@@ -13,10 +13,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import yaml
+
 from command import in_background
 from fieldhand.execution.vehicle import Connection
 from fieldhand.robot.loader import profile_bytes
-from ros2.patience import until
+from patience import until
 
 _NUMBERS = itertools.count(1)
 
@@ -95,10 +97,25 @@ def sim_robot(folder: Path, *words: str) -> Iterator[SimRobot]:
         robot.end()
 
 
-def through_poses(folder: Path) -> Path:
-    """The built-in husky, driving a way by one goal: then chance costs it what it costs the plain simulation."""
-    path = folder / "husky.yaml"
-    whole = profile_bytes("husky")[0].decode()
-    assert "type: NavigateToPose" in whole
-    path.write_text(whole.replace("type: NavigateToPose", "type: NavigateThroughPoses"))
+def patient(folder: Path, robot: str = "husky", **navigation: object) -> Path:
+    """Write the profile of a built-in robot with long limits, and a battery that loses nothing while it waits.
+
+    At fifty times the pace a process that waits for its turn misses the built-in ones.
+
+    Args:
+        navigation: Other keys of its navigation.
+    """
+    profile = yaml.safe_load(profile_bytes(robot)[0])
+    profile["energy"]["idle_w"] = 0
+    bound = profile["ros2"]
+    bound["navigation"] |= {"accept_s": 600, "quiet_s": 600, "slower": 100, "extra_s": 3600, **navigation}
+    for topic in ("position", "battery", "odometry", "stop"):
+        if topic in bound:
+            bound[topic]["stale_s"] = 600
+    for action in bound["actions"].values():
+        for call in (action.get("action"), action.get("service"), *action.get("topics", {}).values()):
+            if call is not None:
+                call["within_s"] = 600
+    path = folder / f"{robot}.yaml"
+    path.write_text(yaml.safe_dump(profile, sort_keys=False))
     return path

@@ -18,6 +18,7 @@ from fieldhand.execution.drivers.ros2.transport import SENSOR, STATUS, Message, 
 from fieldhand.robot.bindings import FieldBinding
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
+from patience import LONG_S
 from ros2.in_memory import Graph
 
 HUSKY = load_robot("husky")
@@ -189,7 +190,7 @@ def test_over_dds_it_finds_the_same(domain: int) -> None:
         speak()
         time.sleep(seconds)
 
-    report = check_live(profile, node, INTERFACES, within_s=20.0, steady=time.monotonic, sleep=sleep)
+    report = check_live(profile, node, INTERFACES, within_s=LONG_S, steady=time.monotonic, sleep=sleep)
     node.close()
     robot_node.close()
     assert [(f.binding.part, f.what, f.advice) for f in report.missing] == []

@@ -17,8 +17,8 @@ from fieldhand.execution.drivers.ros2.dds import names, open_dds, services
 from fieldhand.execution.drivers.ros2.dds.transport import DdsTransport
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.transport import SENSOR, STATUS, Quality
+from patience import until
 from ros2.other_process import SUM
-from ros2.patience import until
 
 RELIABLE, MANY = Quality(), Quality(depth=1000)
 

@@ -21,7 +21,7 @@ from command import fieldhand as command
 from fieldhand.delivery.crew import ORDERS
 from fieldhand.execution.drivers.ros2.rclpy import open_rclpy
 from fieldhand.execution.drivers.ros2.transport import Quality, Transport
-from ros2.patience import until
+from patience import LONG_S, until
 from ros2.sourced import goals, graph, rclpy_robot, sourced, standard_husky
 
 PACKAGE = Path(__file__).parents[2] / "ros2/fieldhand_ros"
@@ -144,7 +144,7 @@ class Executor:
         client = self.node.client(f"/executor/{service}", kind)
         until(client.servers)
         client.ask(request)
-        ((_, answer),) = until(client.replies, 60.0)
+        ((_, answer),) = until(client.replies)
         client.close()
         return answer
 
@@ -176,7 +176,7 @@ def executor(folder: Path, mission: Path, tmp_path: Path) -> Iterator[Executor]:
         finally:
             node.close()
             process.terminate()
-            assert process.wait(30) in (0, -15)
+            assert process.wait(LONG_S) in (0, -15)
 
 
 @sourced
@@ -190,7 +190,7 @@ def test_a_mission_through_the_node_from_its_start_to_its_end(executor: Executor
     assert executor.change(ACTIVATE)
     assert executor.tell("start")[0]
     until(lambda: executor.state() == "running")
-    until(lambda: goals(executor.robot), 60.0)
+    until(lambda: goals(executor.robot))
     assert executor.tell("pause")[0]
     until(lambda: executor.state() == "paused")
     assert executor.tell("resume")[0]
@@ -202,9 +202,9 @@ def test_a_mission_through_the_node_from_its_start_to_its_end(executor: Executor
     before = len(goals(executor.robot))
     assert executor.change(ACTIVATE)
     assert executor.tell("resume")[0]
-    until(lambda: len(goals(executor.robot)) > before, 60.0)
+    until(lambda: len(goals(executor.robot)) > before)
     assert executor.tell("return")[0]
-    until(lambda: executor.state() == "ended", 120.0)
+    until(lambda: executor.state() == "ended")
     status = executor.status()
     assert "return was called over ROS 2" in status["mission"]["reason"]
     assert status["problem"] == ""

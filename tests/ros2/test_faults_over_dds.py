@@ -20,10 +20,10 @@ from fieldhand.execution.runtime import Result
 from fieldhand.task.plan import Act, GoTo, Node, Sequence
 from fieldhand.task.results import Acted, Driving, Faulted, Waited
 from fieldhand.task.selectors import TreeIs
+from patience import until
 from rig import captured, of_type
 from ros2.far_robot import FarRobot, Meeting
 from ros2.other_vendor import OtherVendor
-from ros2.patience import until
 from ros2.scripted_robot import READ, SITE, bindings, navigating
 
 NEAR, FAR = SITE.trees[0].place, SITE.trees[-1].place

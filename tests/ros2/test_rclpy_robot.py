@@ -13,7 +13,7 @@ import pytest
 from command import fieldhand, in_background
 from fieldhand import missions
 from fieldhand.site.geojson import open_site
-from ros2.patience import until
+from patience import until
 from ros2.sourced import NOT_CYCLONE, goals, graph, rclpy_robot, sourced, standard_husky
 
 pytestmark = sourced
@@ -58,7 +58,7 @@ def test_a_mission_that_is_aborted_cancels_its_goal_on_the_robot(over: str, tmp_
         rclpy_robot(tmp_path, "--speed", "2", lat=START.lat, lon=START.lon) as robot,
         in_background(*words(profile, tmp_path / "m", over), out=tmp_path / "out"),
     ):
-        until(lambda: goals(robot), 60.0)
+        until(lambda: goals(robot))
         (folder,) = (tmp_path / "m").iterdir()
         missions.order(folder, "abort", "a test", wait=lambda: bool(threading.Event().wait(0.02)) or True)
         until(lambda: goals(robot)[-1]["end"] == "canceled")

@@ -270,7 +270,7 @@ def diagnosed(node: str, standing: Standing | None, missing: tuple[str, ...], pr
             values["charge_percent"] = f"{standing.charge_percent:.1f}"
         if standing.state in ("paused", "interrupted") or missing:
             level = DiagnosticStatus.WARN
-        if standing.state == "lost" or standing.status == "faulted":
+        if standing.state == "lost" or standing.status in ("exceeded", "faulted"):
             level = DiagnosticStatus.ERROR
     if missing:
         level, message = max(level, DiagnosticStatus.WARN), f"the robot does not answer: {missing[0]}"

@@ -17,6 +17,7 @@ from fieldhand.forecast.optional import GONE, left_before, policy_for, visits_pr
 from fieldhand.forecast.rest import Rest, optional_runs
 from fieldhand.forecast.state import Choice, MissionState, Visit
 from fieldhand.forecast.ways import cost_model, way_of
+from fieldhand.language import joined
 from fieldhand.orienteering.tail import exceeding
 from fieldhand.site.context import Context
 from fieldhand.site.model import Place
@@ -51,10 +52,19 @@ class _Run:
     accepted: float
     new: bool
     done: set[int] = field(default_factory=set)
+    known: dict[int, tuple[Place, int | None]] = field(default_factory=dict)
+
+    def number(self, place: Place) -> int | None:
+        """Return the vertex of a candidate's place, None where the run has none; thousands are asked for every time."""
+        found = self.known.get(id(place))
+        if found is None or found[0] is not place:
+            found = self.known[id(place)] = (place, self.vertex.get(_key(place)))
+        return found[1]
 
     def begins(self, candidates: Sequence[Visit]) -> bool:
-        """Whether these are what is left of the run's candidates."""
-        return all(self.vertex.get(_key(v.place), -1) not in {-1, *self.done} for v in candidates)
+        """Return True if these are what is left of the run's candidates."""
+        numbers = [self.number(v.place) for v in candidates]
+        return None not in numbers and self.done.isdisjoint(numbers)
 
     def here(self, place: Place) -> int | None:
         """The vertex at which the robot stands; None for a place that the run does not know."""
@@ -69,11 +79,10 @@ class Choosing:
 
     Args:
         means: Of the mission.
-        rng: For the search.
     """
 
-    def __init__(self, means: Means, rng: np.random.Generator) -> None:
-        self._means, self._rng = means, rng
+    def __init__(self, means: Means) -> None:
+        self._means = means
         self._runs: dict[str, _Run] = {}
         self._begun: dict[str, float] = {}
 
@@ -100,7 +109,7 @@ class Choosing:
         visits = [candidates[i] for i in open_]
         run = self._run(state, visits, rest, run, at_most)
         here, left = run.here(state.context.here) or 0, self._left(state, rest)
-        known = [run.vertex[_key(v.place)] for v in visits]
+        known = [number for v in visits if (number := run.number(v.place)) is not None]
         chances = dict(zip(open_, self._chances(run, here, visits, known, left).tolist(), strict=True))
         near = [v for v, chance in zip(known, chances.values(), strict=True) if chance < GONE]
         if run.problem.end == 2:
@@ -120,7 +129,7 @@ class Choosing:
             safest = min(gone, key=lambda i: chances[i])
             reasons.append(self._skipped(state, candidates, gone, rest, candidates[safest]))
             chance = chances[safest]
-        return Choice(index=index, shed=(*cut_off, *gone), reason="; ".join(reasons), chance_short=chance)
+        return Choice(index=index, shed=(*cut_off, *gone), reason=joined("; ", reasons), chance_short=chance)
 
     # --- a run -------------------------------------------------------------------------------------------------------
 
@@ -153,7 +162,7 @@ class Choosing:
             warm = [vertex[key] for key in ahead if key in vertex]
         made = _Run(
             problem=problem,
-            policy=policy_for(problem, int(self._rng.integers(2**31)), price=price, warm=warm),
+            policy=policy_for(problem, price=price, warm=warm),
             vertex=vertex,
             start=_key(here),
             rest=rest,
@@ -178,9 +187,9 @@ class Choosing:
     def _ask(self, run: _Run, here: int, near: Sequence[int], left: tuple[float, ...], state: MissionState) -> int:
         from fieldhand.orienteering.policy import State
 
-        # Where only so many visits may be made, those count that were; a run is made anew when others fall away.
-        others = run.done if run.problem.most is not None else set(range(1, run.problem.end)) - set(near)
-        chosen = run.policy.next(State(vertex=here, left=left, visited=frozenset(others)))
+        given_up = set(range(1, run.problem.end)) - set(near) - run.done
+        state_now = State(vertex=here, left=left, visited=frozenset(run.done), given_up=frozenset(given_up))
+        chosen = run.policy.next(state_now)
         if run.new:
             run.new = False
             # A long order is driven as planned at first: its chance is not known yet, so it counts for all its share.

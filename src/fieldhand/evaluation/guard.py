@@ -16,12 +16,14 @@ from numpy.typing import NDArray
 
 from fieldhand.evaluation.ahead import Ahead, Following
 from fieldhand.evaluation.choosing import Choosing
+from fieldhand.evaluation.drain import Drain
 from fieldhand.evaluation.means import Means
 from fieldhand.evaluation.reasons import Errand, running_short
 from fieldhand.evaluation.threshold import Threshold
 from fieldhand.forecast.routes import way_to
 from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
 from fieldhand.forecast.ways import Way, cost_model, taken, way_of
+from fieldhand.language import joined
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task import plan
@@ -57,7 +59,8 @@ class BudgetGuard:
     Args:
         task, site, robot: The mission.
         drives: The ways of the site; the guard asks for each distance once.
-        seed: Of the search for routes; the same seed and the same mission give the same decisions.
+        seed: Of the missions driven on paper where not everything will last; the same seed and the same mission give
+            the same decisions. Orders of optional visits are searched for as in the forecast, whatever the seed.
         charge_percent: Charge at the beginning.
     """
 
@@ -66,10 +69,15 @@ class BudgetGuard:
     ) -> None:
         self._rng = np.random.default_rng(seed)
         self._means = Means(task, site, robot, drives, charge_percent)
-        self._optional = Choosing(self._means, self._rng)
+        self._optional = Choosing(self._means)
         self._ahead = Ahead(self._means)
         self._threshold: Floats | None = None
         self._granted: tuple[_Grant, ...] = ()
+
+    @property
+    def drain(self) -> Drain:
+        """Return the drain of the battery, as learned so far."""
+        return self._means.drain
 
     def choose(
         self,
@@ -126,8 +134,8 @@ class BudgetGuard:
         return Verdict(go=False, reason=self._and_the_battery(reason), chance_short=float(there.max()))
 
     def _and_the_battery(self, reason: str) -> str:
-        said = str(self._means.drain)
-        return f"{reason}; {said}" if reason and said else reason
+        said = self._means.drain.words
+        return joined("; ", (reason, said)) if reason and said else reason
 
     def _may(self, state: MissionState, way: Way, chances: Floats, safe: Floats, home_now: Way) -> bool:
         """Whether a way is safe enough, or else no riskier than home; where even home is too far, no detour."""

@@ -15,9 +15,11 @@ from typing import Literal
 
 from fieldhand.evaluation.replay import replay
 from fieldhand.evaluation.tally import Tally
+from fieldhand.language import counted, joined, kept_in_log, message, shaped
+from fieldhand.task.exceeded import Exceeded, exceeded, final_status, reason_with, say_status
 from fieldhand.task.frames import Goal, Task
-from fieldhand.task.results import Ended, Event, GoalOutcome
-from fieldhand.task.words import say_captures, say_count
+from fieldhand.task.results import Ended, Event, GoalOutcome, MissionStatus
+from fieldhand.task.words import say_captures
 
 _LONGEST_REASON = 160
 
@@ -38,6 +40,24 @@ def judge(task: Task, events: Sequence[Event], *, under_way: bool = False) -> tu
         _outcome(goal, tallies.get(goal.node, Tally(open=True)), ended, under_way=under_way)
         for goal in task.command.goals
     )
+
+
+def judge_end(
+    task: Task, events: Sequence[Event], reserve_percent: float | None = None
+) -> tuple[MissionStatus | None, str, tuple[Exceeded, ...]]:
+    """Return how a mission ended, why, and the limits that it exceeded; None and no reason where the log was cut off.
+
+    Args:
+        task: What was carried out.
+        events: The event log, from its beginning; it may stop anywhere.
+        reserve_percent: Charge that must be left where neither Task nor log says it.
+    """
+    found = exceeded(task.constraints, events, reserve_percent)
+    ended = next((e for e in reversed(events) if isinstance(e, Ended)), None)
+    if ended is None:
+        return None, "", found
+    status = final_status(ended.status, found)
+    return status, ended.reason if status == ended.status else reason_with(found, ended.reason), found
 
 
 def _outcome(goal: Goal, tally: Tally, ended: Ended | None, *, under_way: bool) -> GoalOutcome:
@@ -81,46 +101,61 @@ def _why(goal: Goal, tally: Tally, verdict: Verdict, ended: Ended | None, *, und
     if tally.done == 0 and tally.wanted == 0 and verdict == "success":
         return _not_called_for(tally)
     if tally.in_doubt:
-        parts.append(f"{tally.in_doubt} in doubt (the power was cut while it was made)")
+        parts.append(message("{count} in doubt (the power was cut while it was made)", count=tally.in_doubt))
     if tally.failed:
-        parts.append(f"failed for good {say_count(tally.failed, 'time')}")
+        parts.append(counted("failed for good {count} time", "failed for good {count} times", tally.failed))
     if tally.given_up:
-        parts.append(f"{say_count(tally.given_up, 'place')} given up{_because(tally)}")
+        given_up = counted("{count} place given up", "{count} places given up", tally.given_up)
+        parts.append(joined("", (given_up, _because(tally))))
     if tally.left_out:
-        parts.append(f"{say_count(tally.left_out, 'place')} left out{_because(tally)}")
+        left_out = counted("{count} place left out", "{count} places left out", tally.left_out)
+        parts.append(joined("", (left_out, _because(tally))))
     if tally.spared:
-        parts.append(f"left out {say_count(tally.spared, 'time')}{_because(tally)}")
+        spared = counted("left out {count} time", "left out {count} times", tally.spared)
+        parts.append(joined("", (spared, _because(tally))))
     if verdict == "success" or under_way:
-        return "; ".join(parts)
+        return joined("; ", parts)
     if ended is None:
-        parts.append("the log ends before the mission does")
+        parts.append(message("the log ends before the mission does"))
     elif not tally.reached and not tally.given_up:
-        parts.append(f"never reached, the mission was over before ({_said(ended)})")
+        parts.append(message("never reached, the mission was over before ({why})", why=_said(ended)))
     elif tally.open and not tally.given_up and not tally.failed:
-        parts.append(f"cut off ({_said(ended)})")
+        parts.append(message("cut off ({why})", why=_said(ended)))
     if tally.undecided and verdict == "indeterminate":
-        parts.append("whether more was called for was never tested")
-    return "; ".join(parts)
+        parts.append(message("whether more was called for was never tested"))
+    return joined("; ", parts)
 
 
 def _counted(goal: Goal, tally: Tally) -> str:
     if goal.optional or tally.open:
         return say_captures(goal.action, tally.done)
     if tally.done > tally.wanted:
-        return f"{say_captures(goal.action, tally.done)}, {tally.wanted} wanted"
-    return f"{tally.done} of {say_captures(goal.action, tally.wanted)}"
+        return message("{captures}, {count} wanted", captures=say_captures(goal.action, tally.done), count=tally.wanted)
+    return message("{count} of {captures}", count=tally.done, captures=say_captures(goal.action, tally.wanted))
 
 
 def _not_called_for(tally: Tally) -> str:
     if tally.spared:
-        return f"left out{_because(tally)}: it was to be done only if the budget allowed"
+        return joined(
+            ": ",
+            (
+                joined("", (message("left out", context="goal"), _because(tally))),
+                message("it was to be done only if the budget allowed"),
+            ),
+        )
     if tally.skipped:
         reasons = list(dict.fromkeys(reason for reason in tally.skipped if reason))
-        more = f", and {len(reasons) - 1} more times" if len(reasons) > 2 else " and once more" * (len(reasons) == 2)
-        return f"not called for: {reasons[0]}{more}" if reasons else "not called for"
+        if not reasons:
+            return message("not called for")
+        why = kept_in_log(reasons[0])
+        if len(reasons) > 2:
+            return message("not called for: {why}, and {count} more times", why=why, count=len(reasons) - 1)
+        if len(reasons) == 2:
+            return message("not called for: {why} and once more", why=why)
+        return message("not called for: {why}", why=why)
     if tally.stopped:
-        return "not called for: the plan ended before it, as it says"
-    return "not called for"
+        return message("not called for: the plan ended before it, as it says")
+    return message("not called for")
 
 
 def _because(tally: Tally) -> str:
@@ -131,8 +166,13 @@ def _because(tally: Tally) -> str:
 
 def because(reason: str) -> str:
     """A reason as it stands in brackets behind what was left out: whoever says it elsewhere finds it by this."""
-    return f" ({textwrap.shorten(' '.join(reason.split()), _LONGEST_REASON, placeholder=' …')})"
+    return joined("", (" (", shaped(kept_in_log(" ".join(reason.split())), _shortened), ")"))
+
+
+def _shortened(reason: str) -> str:
+    return textwrap.shorten(reason, _LONGEST_REASON, placeholder=" …")
 
 
 def _said(ended: Ended) -> str:
-    return f"{ended.status}: {ended.reason}" if ended.reason else ended.status
+    status = say_status(ended.status)
+    return joined(": ", (status, kept_in_log(ended.reason))) if ended.reason else status

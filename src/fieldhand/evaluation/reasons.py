@@ -12,7 +12,9 @@ from fieldhand.evaluation.means import Means
 from fieldhand.forecast.limits import Resource
 from fieldhand.forecast.state import MissionState, Visit
 from fieldhand.forecast.ways import Way
+from fieldhand.language import Number, joined, message
 from fieldhand.site.model import Place
+from fieldhand.task.words import listed, say_place, some_names
 
 Floats = NDArray[np.float64]
 
@@ -40,7 +42,12 @@ class Errand:
 def running_short(means: Means, state: MissionState, errand: Errand, chances: Floats) -> str:
     """ "12 m left; going to tree 14 and home takes 14 m on average, 31 % chance of running short"."""
     binding = _binding(means, chances)
-    return f"{_amounts(means, state, errand, binding)}, {100 * chances[binding]:.0f} % chance of running short"
+    return message(
+        "{known}, {chance} % chance of running short",
+        context="log",
+        known=_amounts(means, state, errand, binding),
+        chance=f"{100 * chances[binding]:.0f}",
+    )
 
 
 def left_out(
@@ -52,8 +59,14 @@ def left_out(
     average)".
     """
     binding = _binding(means, chances)
-    words = f"{SKIPPED} {named(visits, indices)}: {100 * chances[binding]:.0f} % chance of running short"
-    return f"{words} ({_amounts(means, state, errand, binding)})"
+    told = message(
+        "{places}: {chance} % chance of running short ({why})",
+        context="log",
+        places=named(visits, indices),
+        chance=f"{100 * chances[binding]:.0f}",
+        why=_amounts(means, state, errand, binding),
+    )
+    return message("skipped {what}", context="log", what=told)
 
 
 def _binding(means: Means, chances: Floats) -> int:
@@ -65,15 +78,23 @@ def _amounts(means: Means, state: MissionState, errand: Errand, binding: int) ->
     resource = means.resources(state)[binding]
     takes = errand.way.sums[0] * resource.per_metre + resource.of_work(means.robot, errand.way.work)
     left = _amount(resource, resource.limit - resource.used(state.spent))
-    above = " above the reserve" if resource.kind == "reserve" else ""
-    between = ", doing what must follow," if errand.more else ""
-    words = f"going to {_name(errand.to)}{between} and home"
-    return f"{left} left{above}; {words} takes {_amount(resource, takes)} on average"
+    ways = {"place": _name(errand.to), "takes": _amount(resource, takes)}
+    if resource.kind == "reserve":
+        held = message("{left} left above the reserve", context="log", left=left)
+    else:
+        held = message("{left} left", context="log", left=left)
+    if errand.more:
+        goes = message(
+            "going to {place}, doing what must follow, and home takes {takes} on average", context="log", **ways
+        )
+    else:
+        goes = message("going to {place} and home takes {takes} on average", context="log", **ways)
+    return joined("; ", (held, goes))
 
 
 def no_way(visits: Sequence[Visit], indices: Sequence[int]) -> str:
     """ "there is no way to trees 3 and 4"."""
-    return f"{_NO_WAY} {named(visits, indices)}"
+    return message("there is no way to {places}", context="log", places=named(visits, indices))
 
 
 def names_places(reason: str) -> bool:
@@ -86,21 +107,23 @@ def named(visits: Sequence[Visit], indices: Sequence[int]) -> str:
     names = [visits[i].place.id for i in indices]
     if len(names) == 1:
         return _name(visits[indices[0]].place)
-    kind = "trees" if all(visits[i].place.kind == "tree" for i in indices) else "places"
-    if len(names) <= MAX_NAMED:
-        return f"{kind} {', '.join(names[:-1])} and {names[-1]}"
-    return f"{kind} {', '.join(names[:MAX_NAMED])} and {len(names) - MAX_NAMED} more"
+    ids = some_names(names, MAX_NAMED) if len(names) > MAX_NAMED else listed(names)
+    if all(visits[i].place.kind == "tree" for i in indices):
+        return message("trees {ids}", context="log", ids=ids)
+    return message("places {ids}", context="log", ids=ids)
 
 
 def _name(place: Place) -> str:
-    return {"tree": f"tree {place.id}", "marker": f"the {place.id} marker"}.get(place.kind, place.id)
+    if place.kind == "tree":
+        return say_place(place.kind, place.id)
+    return message("the {id} marker", context="log", id=place.id) if place.kind == "marker" else place.id
 
 
 def _amount(resource: Resource, value: float) -> str:
     match resource.kind:
         case "distance_m":
-            return f"{value:.0f} m"
+            return message("{metres} m", context="log", metres=Number(f"{value:.0f}"))
         case "duration_s":
-            return f"{value:.0f} s"
+            return message("{seconds} s", context="log", seconds=Number(f"{value:.0f}"))
         case _:
-            return f"{value:.1f} % of the battery"
+            return message("{percent} % of the battery", context="log", percent=Number(f"{value:.1f}"))

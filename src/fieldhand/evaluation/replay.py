@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from enum import Enum, auto
 
 from fieldhand.evaluation.tally import Tallies, Tally
+from fieldhand.language import message
 from fieldhand.task import plan as p
 from fieldhand.task.results import (
     Acted,
@@ -23,6 +24,7 @@ from fieldhand.task.results import (
     Exited,
     Faulted,
     InDoubt,
+    LimitCrossed,
     Obstructed,
     Shed,
     Visiting,
@@ -53,10 +55,10 @@ class _Replay:
         self._inside = self._tallies.inside
         own = self._inside[plan.id]
         over = next((k for k, e in enumerate(events) if isinstance(e, Exited | Ended)), len(events))
-        self._orderly = any(isinstance(e, Ended) and e.status in ("completed", "returned") for e in events)
+        self._orderly = any(isinstance(e, Ended) and e.status in ("completed", "returned", "exceeded") for e in events)
         # The exit itself belongs to the plan only where a stop took it: then it names that stop.
-        # What stood in the way, and waiting, say nothing of the plan.
-        aside = (Obstructed, Waited, ClockSet)
+        # What stood in the way, waiting, and what was crossed say nothing of the plan.
+        aside = (Obstructed, Waited, ClockSet, LimitCrossed)
         self._events = [e for e in events[: over + 1] if e.node in own and not isinstance(e, aside)]
         self._next = 0
 
@@ -211,7 +213,7 @@ class _Replay:
             return self._play(node.otherwise)
         for tally in self._tallies.under(node.otherwise):
             if flow is _Flow.DONE or flow is _Flow.STOPPED:
-                tally.skipped.append("what it stands in for went well")
+                tally.skipped.append(message("what it stands in for went well", context="log"))
             else:
                 tally.open = tally.undecided = True
         return flow

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
-import json
 import math
 from collections.abc import Sequence
 from typing import Any
 
 from fieldhand.task.results import Acted, Event, InDoubt
+from fieldhand.visible import csv_text, visible_json
 
 COLUMNS = (
     "t_s",
@@ -28,18 +26,13 @@ COLUMNS = (
     "what",
 )
 
-#: What a spreadsheet takes for the beginning of a formula.
-_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
-
 
 def observations_csv(events: Sequence[Event]) -> str:
     """One row a reading, and one a capture that read nothing, failed or is in doubt; times in seconds, degrees WGS 84.
 
     Text that a spreadsheet would take for a formula begins with an apostrophe, so that it stays text.
     """
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\r\n")
-    writer.writerow(COLUMNS)
+    rows: list[tuple[object, ...]] = [COLUMNS]
     for event in _tried(events):
         readings: list[tuple[str, float | None]] = [*sorted(event.readings.items())]
         for quantity, value in readings or [("", None)]:
@@ -59,24 +52,19 @@ def observations_csv(events: Sequence[Event]) -> str:
                 round(event.charge_percent, 3),
                 event.what,
             )
-            writer.writerow([as_text(cell) if isinstance(cell, str) else cell for cell in row])
-    return out.getvalue()
+            rows.append(row)
+    return csv_text(rows)
 
 
 def observations_geojson(events: Sequence[Event]) -> str:
     """One point feature a capture; readings are properties by quantity, units by ``<quantity>_unit``."""
     features = [_feature(event) for event in _tried(events)]
-    return json.dumps({"type": "FeatureCollection", "features": features}, ensure_ascii=False, indent=1) + "\n"
+    return visible_json({"type": "FeatureCollection", "features": features}, indent=1) + "\n"
 
 
 def _tried(events: Sequence[Event]) -> list[Acted | InDoubt]:
     """The captures, and those in doubt: nobody knows whether they were made."""
     return [e for e in events if isinstance(e, Acted | InDoubt)]
-
-
-def as_text(cell: str) -> str:
-    """A cell that stays text in a spreadsheet."""
-    return f"'{cell}" if cell.startswith(_FORMULA) else cell
 
 
 def _feature(event: Acted | InDoubt) -> dict[str, Any]:

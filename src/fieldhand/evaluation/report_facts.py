@@ -10,7 +10,7 @@ from fieldhand.forecast.estimate import BranchEstimate, Estimate
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
-from fieldhand.task.results import Acted, Decided, Ended, Event, Shed, Started
+from fieldhand.task.results import Acted, Decided, Ended, Event, Exited, Shed, Started
 
 #: What of an event must be a number for anything to be said of it. Positions may be unknown.
 _FIGURES = ("t", "leg_m", "travelled_m", "charge_percent")
@@ -29,6 +29,14 @@ def start_of(events: Sequence[Event]) -> Started | None:
 def end_of(events: Sequence[Event]) -> Ended | None:
     """The end of the mission, if the log has it."""
     return next((e for e in reversed(events) if isinstance(e, Ended)), None)
+
+
+def plan_done(events: Sequence[Event]) -> bool:
+    """Return True if the plan was carried out to its end, and the exit for that was taken to the end."""
+    ended = end_of(events)
+    if ended is None or ended.status != "exceeded":
+        return ended is not None and ended.status == "completed"
+    return any(isinstance(e, Exited) and e.exit == "nominal" for e in events)
 
 
 def out_of_reach(event: Shed) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fieldhand.clock import clock_time
-from fieldhand.evaluation.report_facts import end_of, out_of_reach
+from fieldhand.evaluation.report_facts import end_of, out_of_reach, plan_done
 from fieldhand.evaluation.report_places import PlaceNames
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import ForEach, walk
@@ -50,7 +50,7 @@ def not_reached(task: Task, events: Sequence[Event]) -> tuple[str, ...]:
     """Places that the loop in hand had before it when the mission ended before its plan was done."""
     ended = end_of(events)
     begun = max((k for k, e in enumerate(events) if isinstance(e, Visiting)), default=None)
-    if begun is None or (ended is not None and ended.status == "completed"):
+    if begun is None or (ended is not None and plan_done(events)):
         return ()
     loop = events[begun]
     node = next((n for n in walk(task.composition.plan) if n.id == loop.node), None)
@@ -71,6 +71,7 @@ def _unreached(missed: Sequence[str], events: Sequence[Event], names: PlaceNames
 _ENDS: dict[MissionStatus, str] = {
     "completed": "was over",
     "returned": "turned home",
+    "exceeded": "turned home",
     "faulted": "ended with a fault",
     "aborted": "was stopped",
 }

@@ -16,37 +16,39 @@ from fieldhand.evaluation.report_facts import captures
 from fieldhand.evaluation.report_incidents import draw_incidents
 from fieldhand.evaluation.report_marks import (
     COLOURS,
-    FONT,
     Mark,
     draw_drives,
     draw_failed,
     draw_left_out,
     draw_plain,
     draw_readings,
+    driven_ways,
     last_stand,
+    metres_of,
     placed,
     unreached,
     write_values,
 )
 from fieldhand.evaluation.report_readings import Summary
 from fieldhand.site.drawing import colours
+from fieldhand.site.drawing.blocks import draw_blocks, name_blocks
 from fieldhand.site.drawing.ground import (
     bounds_of,
+    disc_diameter,
     draw_dots,
     draw_gates,
     draw_markers,
+    draw_scale,
     draw_scale_and_north,
     draw_zones,
     marker_look,
-    named_zones,
-    open_spots,
     tree_size,
-    zone_ink,
 )
-from fieldhand.site.drawing.labels import Labels
-from fieldhand.site.drawing.rows import name_rows
+from fieldhand.site.drawing.names import labels_on, name_ground, name_zones
+from fieldhand.site.drawing.rows import name_rows_within
+from fieldhand.site.drawing.saving import make_text_visible
+from fieldhand.site.drawing.window import Window, look_through, show_window, window_of
 from fieldhand.site.model import Site
-from fieldhand.site.places.faults import short
 from fieldhand.task.results import Acted, Event
 from fieldhand.task.words import capitalised, say_action
 
@@ -62,8 +64,8 @@ TREE = "#cfd6cc"
 _WIDE_IN, _TALLEST_IN, _LEAST_IN = 4.3, 5.6, 1.6
 #: So many maps, and trees that are drawn one by one.
 _MOST, _MOST_TREES = 6, 800
-#: Parts of the map (west, south, east, north) that the scale bar and the north arrow take.
-_SCALE_PART, _NORTH_PART = (0.0, 0.0, 0.33, 0.07), (0.88, 0.0, 1.0, 0.11)
+#: How large the map of the whole site is below one of the part where the work is.
+_WHOLE = 0.55
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,28 +118,59 @@ def draw_map(
     """
     figure = _figure(site)
     ax = figure.axes[0]
+    done = placed(events)
+    good = [e for e in done if e.status == "success"]
+    work = [(float(x), float(y)) for x, y in metres_of(site, done)]
+    window = window_of(ax, site, work, _WIDE_IN, _WIDE_IN)
+    if window is not None:
+        _draw_whole(figure, site, events, window)
+        look_through(ax, window)
     size = _ground(ax, site)
-    labels = Labels(ax, site.xy, 0.4 * math.sqrt(size))
-    labels.keep_part_free(*_SCALE_PART)
-    labels.keep_part_free(*_NORTH_PART)
-    disc = float(np.clip(1.5 * math.sqrt(size), 5.0, 9.5))
+    labels = labels_on(ax, site)
+    disc = disc_diameter(ax, np.array(work).reshape(-1, 2), float(np.clip(1.5 * math.sqrt(size), 5.0, 9.5)))
     marks = draw_drives(ax, site, events)
     marks += draw_left_out(ax, site, events, missed, disc)
     marks += draw_incidents(ax, site, events, disc)
-    good = [e for e in placed(events) if e.status == "success"]
     if summary is None:
         marks += draw_plain(ax, site, [e for e in good if not e.readings], disc)
     else:
         draw_readings(ax, site, good, summary, disc)
     marks += draw_failed(ax, site, events, disc)
-    for place in (*site.markers.values(), *(g.place for g in site.gates)):
-        labels.keep_free(labels.at(place.xy), 5.0)
     for x, y in (*last_stand(site, events), *unreached(site, events)):
         labels.keep_free(labels.at((float(x), float(y))), 5.0)
     if summary is not None:
         write_values(labels, site, good, summary, disc)
-    _name_the_rest(ax, labels, site)
+    labels.avoid([(float(x), float(y)) for x, y in way] for way in driven_ways(site, events))
+    if window is None:
+        draw_scale_and_north(ax)
+        name_ground(ax, labels, site)
+    else:
+        draw_scale(ax)
+        name_zones(labels, site)
+        name_rows_within(ax, labels, site)
     return figure, marks + _marker_marks(site)
+
+
+def _draw_whole(figure: Figure, site: Site, events: Sequence[Event], window: Window) -> None:
+    """Make room below the map for a small one of the whole site, which shows where the window lies."""
+    ax = figure.axes[0]
+    limits, tall = (ax.get_xlim(), ax.get_ylim()), float(figure.get_size_inches()[1])
+    small, gap = tall * _WHOLE, 0.1
+    height = _WIDE_IN + gap + small
+    figure.set_size_inches(_WIDE_IN, height)
+    edge = 0.005
+    ax.set_position((edge, 1 - _WIDE_IN / height + edge, 1 - 2 * edge, _WIDE_IN / height - 2 * edge))
+    ax.set_axis_on()
+    whole = figure.add_axes(((1 - _WHOLE) / 2, 0.0, _WHOLE, small / height))
+    whole.set_xlim(limits[0])
+    whole.set_ylim(limits[1])
+    whole.set_axis_off()
+    _ground(whole, site)
+    draw_drives(whole, site, events)
+    draw_scale_and_north(whole)
+    show_window(whole, window)
+    labels = labels_on(whole, site)
+    name_blocks(labels, site)
 
 
 def _map(
@@ -168,6 +201,7 @@ def _svg(figure: Figure) -> bytes:
     out = io.BytesIO()
     nothing = dict.fromkeys(("Creator", "Date", "Format", "Type"))
     with rc_context({"svg.fonttype": "path", "svg.hashsalt": "report"}):
+        make_text_visible(figure)
         figure.savefig(out, format="svg", dpi=220, metadata=nothing)
     return out.getvalue()
 
@@ -208,6 +242,7 @@ def _ground(ax: Axes, site: Site) -> float:
     from matplotlib.collections import LineCollection
 
     draw_zones(ax, site)
+    draw_blocks(ax, site)
     lines = [site.xy[row.trees] for row in site.planting.rows if len(row.trees) > 1]
     if lines:
         ax.add_collection(LineCollection(lines, colors=TREE, linewidths=0.7, zorder=2.5), autolim=False)
@@ -217,19 +252,9 @@ def _ground(ax: Axes, site: Site) -> float:
         ax.collections[-1].set_rasterized(True)
     draw_gates(ax, site)
     draw_markers(ax, site)
-    draw_scale_and_north(ax)
     return size
 
 
 def _marker_marks(site: Site) -> list[Mark]:
     """Start, end and charger for the legend: their names would cover what was read beside them."""
     return [(name if name in colours.MARKERS else "disc", *marker_look(name)[1:]) for name in site.markers]
-
-
-def _name_the_rest(ax: Axes, labels: Labels, site: Site) -> None:
-    for zone in named_zones(site):
-        spots = [labels.at(spot) for spot in open_spots(site, zone)]
-        labels.put(
-            *(short(zone.name, 24), spots), font=FONT, colour=zone_ink(zone), bold=True, over_trees=True, gid="zone"
-        )
-    name_rows(ax, labels, site)

@@ -143,7 +143,7 @@ def draw_readings(ax: Axes, site: Site, good: Sequence[Acted], summary: Summary,
     values = np.array([e.readings[summary.quantity] for e in shown])
     if not len(values):
         return
-    xy = _metres(site, shown)
+    xy = metres_of(site, shown)
     low, high = float(values.min()), float(values.max())
     if high - low < 1e-9:
         low, high = low - 0.5, high + 0.5
@@ -158,7 +158,7 @@ def draw_plain(ax: Axes, site: Site, plain: Sequence[Acted], disc: float) -> lis
     """Captures that measured nothing, coloured by what was done."""
     marks: list[Mark] = []
     for k, action in enumerate(dict.fromkeys(e.action for e in plain)):
-        xy = _metres(site, [e for e in plain if e.action == action])
+        xy = metres_of(site, [e for e in plain if e.action == action])
         colour = PLAIN[k % len(PLAIN)]
         ax.plot(xy[:, 0], xy[:, 1], "o", color=colour, markersize=disc, markeredgecolor=INK, zorder=13)
         marks.append(("disc", colour, capitalised(say_action(action))))
@@ -171,7 +171,7 @@ def draw_failed(ax: Axes, site: Site, events: Sequence[Event], disc: float) -> l
     failed = [e for e in placed(events) if e.status != "success" and (e.node, e.action, e.place) not in good]
     if not failed:
         return []
-    xy = _metres(site, failed)
+    xy = metres_of(site, failed)
     ax.plot(xy[:, 0], xy[:, 1], "X", color=FAILED, markersize=disc, markeredgecolor="white", zorder=14)
     return [("saltire", FAILED, "failed")]
 
@@ -180,7 +180,7 @@ def write_values(labels: Labels, site: Site, good: Sequence[Acted], summary: Sum
     """The last reading of each place beside it, where it covers nothing; none where there are many."""
     last = {(e.kind, e.place): e for e in good if math.isfinite(e.readings.get(summary.quantity, math.nan))}
     spots = {key: labels.at((float(x), float(y))) for key, (x, y) in zip(
-        last, _metres(site, list(last.values())), strict=True)}  # fmt: skip
+        last, metres_of(site, list(last.values())), strict=True)}  # fmt: skip
     for at in spots.values():
         labels.keep_free(at, disc / 2)
     if len(last) > _MOST_VALUES:
@@ -205,7 +205,8 @@ def placed(events: Sequence[Event]) -> list[Acted]:
     return [e for e in captures(events) if math.isfinite(e.lat) and math.isfinite(e.lon)]
 
 
-def _metres(site: Site, events: Sequence[Acted]) -> Floats:
+def metres_of(site: Site, events: Sequence[Acted]) -> Floats:
+    """Return where captures were made, shape (n, 2)."""
     if not events:
         return np.zeros((0, 2))
     return np.asarray(site.projection.metres([e.lat for e in events], [e.lon for e in events]), dtype=np.float64)

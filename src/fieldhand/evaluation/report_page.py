@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import unicodedata
 from collections.abc import Sequence
 from functools import cache
 from importlib import resources
@@ -11,12 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 from fieldhand.evaluation.report_maps import ReportMap
 from fieldhand.evaluation.report_text import GOAL_HEAD, HEADINGS, TABLE_HEAD, Report
+from fieldhand.visible import visible
 
 if TYPE_CHECKING:
     from jinja2 import Template
-
-#: Format characters that belong to scripts and to emoji; all others can hide text or turn it round.
-_JOINERS = "\N{ZERO WIDTH JOINER}\N{ZERO WIDTH NON-JOINER}"
 
 
 def page(report: Report, maps: Sequence[ReportMap]) -> str:
@@ -63,11 +60,5 @@ def _template() -> Template:
 
 
 def _printable(value: Any) -> Any:
-    """Text without characters that control a terminal or the direction of writing; anything else as it is."""
-    if type(value) is not str:
-        return value
-    return "".join(c if _shown(c) else "\N{REPLACEMENT CHARACTER}" for c in value)
-
-
-def _shown(character: str) -> bool:
-    return character in "\n\t" or character in _JOINERS or unicodedata.category(character) not in ("Cc", "Cf", "Cs")
+    """Return text with its hidden characters made visible, line ends kept; anything else as it is."""
+    return visible(value, lines=True) if type(value) is str else value

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 
-from fieldhand.site.drawing.rows import block_words
+from fieldhand.site.drawing.blocks import block_words
 from fieldhand.site.model import Site
 from fieldhand.site.places.faults import short
 from fieldhand.task.words import listed

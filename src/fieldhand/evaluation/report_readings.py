@@ -22,20 +22,6 @@ MOST_ROWS = 1_000
 
 
 @dataclass(frozen=True, kw_only=True)
-class Threshold:
-    """A value that readings are held against.
-
-    Attributes:
-        word: What the profile calls a reading beyond it ("low"); empty for one that the Task itself names.
-        below: Whether the word is for what is below it.
-    """
-
-    value: float
-    word: str = ""
-    below: bool = False
-
-
-@dataclass(frozen=True, kw_only=True)
 class ReadingRow:
     """A row of the table: when, where, what was read or done, and how it stands to the thresholds."""
 
@@ -57,8 +43,8 @@ class Summary:
         unit: As it is printed behind a number, with the space between.
         values: In the order in which they were read.
         decimals: As many as tell the values apart.
-        thresholds: That its readings are held against, ascending.
-        words: Count, lowest, mean and highest, and how many lie beyond each threshold.
+        thresholds: That the Task holds its readings against, ascending, by the node that reads.
+        words: Count, lowest, mean and highest, and how many lie above each threshold of those held against it.
     """
 
     quantity: str
@@ -66,7 +52,7 @@ class Summary:
     unit: str
     values: tuple[float, ...]
     decimals: int
-    thresholds: tuple[Threshold, ...]
+    thresholds: Mapping[str, tuple[float, ...]]
     words: tuple[tuple[str, str], ...]
 
     def say(self, value: float) -> str:
@@ -82,7 +68,8 @@ def summaries(task: Task, robot: RobotProfile, events: Sequence[Event]) -> tuple
     for quantity in dict.fromkeys(q for e in made for q in e.readings):
         values = tuple(e.readings[quantity] for e in made if math.isfinite(e.readings.get(quantity, math.nan)))
         unit = _unit(next((e.units[quantity] for e in made if quantity in e.units), ""))
-        digits, beyond = decimals(values), limits.get(quantity, ())
+        digits = decimals(values)
+        held = {node: found for (node, q), found in limits.items() if q == quantity}
         found.append(
             Summary(
                 quantity=quantity,
@@ -90,8 +77,8 @@ def summaries(task: Task, robot: RobotProfile, events: Sequence[Event]) -> tuple
                 unit=unit,
                 values=values,
                 decimals=digits,
-                thresholds=beyond,
-                words=tuple(_in_short(values, digits, unit, beyond)),
+                thresholds=held,
+                words=(*_in_short(values, digits, unit), *_above(quantity, made, held, unit)),
             )
         )
     return tuple(found)
@@ -111,39 +98,30 @@ def reading_rows(summary: Mapping[str, Summary], events: Sequence[Event], names:
     return tuple(rows)
 
 
-def thresholds(task: Task, robot: RobotProfile) -> Mapping[str, tuple[Threshold, ...]]:
-    """What each quantity is held against: what the Task's conditions name, else the words of the profile."""
-    asked: dict[str, set[float]] = {}
+def thresholds(task: Task, robot: RobotProfile) -> Mapping[tuple[str, str], tuple[float, ...]]:
+    """Return what the Task's conditions hold readings against, by the node that reads and the quantity, ascending.
+
+    A reading that no condition asks about has none, whatever words the profile has for its quantity.
+    """
+    asked: dict[tuple[str, str], set[float]] = {}
     for node in walk_plan(task.composition.plan):
-        for quantity, value in _tested(node, robot):
-            asked.setdefault(quantity, set()).add(value)
-    found = {
-        q.name: tuple(
-            Threshold(value=level.value, word=word, below=level.direction == "below")
-            for word, level in sorted(q.levels.items(), key=lambda item: item[1].value)
-        )
-        for q in robot.quantities
-    }
-    return found | {q: tuple(Threshold(value=v) for v in sorted(values)) for q, values in asked.items()}
+        for reading, quantity, value in _tested(node, robot):
+            asked.setdefault((reading, quantity), set()).add(value)
+    return {held: tuple(sorted(values)) for held, values in asked.items()}
 
 
-def relation(value: float, limits: Sequence[Threshold], digits: int, unit: str) -> str:
-    """How a reading stands to its thresholds: "1.4 °C above 34 °C", "low"; empty where there are none."""
+def relation(value: float, limits: Sequence[float], digits: int, unit: str) -> str:
+    """Return how a reading relates to its thresholds: "1.4 °C above 34 °C"; empty where there are none."""
     said = []
     for limit in limits:
-        if limit.word:
-            if (value < limit.value) if limit.below else (value > limit.value):
-                side = "below" if limit.below else "above"
-                said.append(f"{limit.word} ({side} {say_number(limit.value)}{unit})")
-            continue
-        apart = abs(value - limit.value)
-        side = "above" if value > limit.value else "below"
+        apart = abs(value - limit)
+        side = "above" if value > limit else "below"
         if apart == 0.0:
-            said.append(f"exactly {say_number(limit.value)}{unit}")
+            said.append(f"exactly {say_number(limit)}{unit}")
         else:
             # So many decimals that a reading beside its threshold is never said to lie on it.
             finer = max(digits, min(6, math.ceil(-math.log10(apart))))
-            said.append(f"{say_fixed(apart, finer)}{unit} {side} {say_number(limit.value)}{unit}")
+            said.append(f"{say_fixed(apart, finer)}{unit} {side} {say_number(limit)}{unit}")
     return "; ".join(said)
 
 
@@ -165,26 +143,25 @@ def _unit(unit: str) -> str:
     return f" {said}" if said else ""
 
 
-def _tested(node: Node, robot: RobotProfile) -> Iterator[tuple[str, float]]:
+def _tested(node: Node, robot: RobotProfile) -> Iterator[tuple[str, str, float]]:
+    """Yield reading, quantity and threshold of each test in a node's condition."""
     condition = condition_of(node)
     for test in () if condition is None else walk(condition):
         match test:
             case Compare():
-                yield test.quantity, test.value
+                yield test.reading, test.quantity, test.value
             case Between():
-                yield test.quantity, test.low
-                yield test.quantity, test.high
+                yield test.reading, test.quantity, test.low
+                yield test.reading, test.quantity, test.high
             case Level():
                 quantity = robot.quantity.get(test.quantity)
                 if quantity is not None and test.level in quantity.levels:
-                    yield test.quantity, quantity.levels[test.level].value
+                    yield test.reading, test.quantity, quantity.levels[test.level].value
             case _:
                 pass
 
 
-def _in_short(
-    values: Sequence[float], digits: int, unit: str, limits: Sequence[Threshold]
-) -> Iterator[tuple[str, str]]:
+def _in_short(values: Sequence[float], digits: int, unit: str) -> Iterator[tuple[str, str]]:
     if not values:
         return
     yield "readings", str(len(values))
@@ -192,11 +169,17 @@ def _in_short(
         yield "lowest", f"{say_fixed(min(values), digits)}{unit}"
         yield "mean", f"{say_fixed(math.fsum(values) / len(values), digits)}{unit}"
         yield "highest", f"{say_fixed(max(values), digits)}{unit}"
-    for limit in limits:
-        below = limit.below and bool(limit.word)
-        count = sum(v < limit.value if below else v > limit.value for v in values)
-        side = f"{'below' if below else 'above'} {say_number(limit.value)}{unit}"
-        yield f"{limit.word} ({side})" if limit.word else side, str(count)
+
+
+def _above(
+    quantity: str, made: Sequence[Acted], held: Mapping[str, Sequence[float]], unit: str
+) -> Iterator[tuple[str, str]]:
+    """Yield how many readings lie above each threshold, of those that are held against it."""
+    for limit in sorted({limit for limits in held.values() for limit in limits}):
+        values = [e.readings.get(quantity, math.nan) for e in made if limit in held.get(e.node, ())]
+        known = [value for value in values if math.isfinite(value)]
+        if known:
+            yield f"above {say_number(limit)}{unit}", f"{sum(v > limit for v in known)} of {len(known)}"
 
 
 def _rows_of(event: Acted | InDoubt, summary: Mapping[str, Summary], names: PlaceNames) -> Iterator[ReadingRow]:
@@ -205,14 +188,14 @@ def _rows_of(event: Acted | InDoubt, summary: Mapping[str, Summary], names: Plac
     values = [(q, v) for q, v in sorted(event.readings.items()) if q in summary]
     for quantity, value in values:
         known = summary[quantity]
-        finite = math.isfinite(value)
+        finite, limits = math.isfinite(value), known.thresholds.get(event.node, ())
         yield ReadingRow(
             time=clock_time(event.t),
             where=where,
             place=place,
             what=known.name,
             value=f"{known.say(value)}{known.unit}" if finite else "no number",
-            relation=relation(value, known.thresholds, known.decimals, known.unit) if finite else "",
+            relation=relation(value, limits, known.decimals, known.unit) if finite else "",
         )
     if not values:
         said = capitalised(say_action(event.action))

@@ -18,6 +18,7 @@ from fieldhand.task.results import (
     Event,
     Faulted,
     InDoubt,
+    LimitCrossed,
     Obstructed,
     Paused,
     Resumed,
@@ -39,7 +40,7 @@ class Folded:
 
 def faults(robot: RobotProfile, events: Sequence[Event], names: PlaceNames) -> Folded:
     """What went wrong, is in doubt or was interrupted, captures that had to be tried again included."""
-    lines, tell = [], Teller(robot).tell
+    lines, told = [], Teller(robot)
     for event in events:
         if isinstance(event, Acted) and event.status != "success":
             what = f"{say_action(event.action)} failed at {names.name(event.kind, event.place)}"
@@ -51,8 +52,8 @@ def faults(robot: RobotProfile, events: Sequence[Event], names: PlaceNames) -> F
             then = "it was made again" if event.then == "repeat" else "it was not made again"
             what = f"{say_action(event.action)} at {names.name(event.kind, event.place)} is in doubt; {then}"
             lines.append(f"{clock_time(event.t)}: {what}: {event.what}")
-        elif isinstance(event, Obstructed | Waited | ClockSet | Resumed | Paused | Continued):
-            lines.append(f"{clock_time(event.t)}: {' '.join((tell(event) or event.event).split()[1:])}")
+        elif isinstance(event, Obstructed | Waited | LimitCrossed | ClockSet | Resumed | Paused | Continued):
+            lines.append(f"{clock_time(event.t)}: {told.in_short(event)}")
     return _folded(lines, f"{say_count(len(lines), 'line')}, failed tries included.")
 
 

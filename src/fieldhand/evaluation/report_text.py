@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from fieldhand.evaluation.outcome import because
-from fieldhand.evaluation.report_facts import branch_taken, captures, end_of, start_of, used
+from fieldhand.evaluation.outcome import because, judge_end
+from fieldhand.evaluation.report_facts import branch_taken, captures, start_of, used
 from fieldhand.evaluation.report_left_out import LeftOut, left_out
 from fieldhand.evaluation.report_places import PlaceNames
 from fieldhand.evaluation.report_readings import MOST_ROWS, ReadingRow, Summary, reading_rows, summaries
@@ -19,6 +19,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.account import NAMES, account, has_ranges
 from fieldhand.task.authorization import Authorization
+from fieldhand.task.exceeded import say_status
 from fieldhand.task.frames import BudgetKind, Task
 from fieldhand.task.results import Event, GoalOutcome, Shed
 from fieldhand.task.words import capitalised, listed, say_action, say_count, say_duration, say_number
@@ -129,7 +130,7 @@ def tell(
     names = PlaceNames(site)
     read = summaries(task, robot, events)
     rows = reading_rows({s.quantity: s for s in read}, events, names)
-    status, verdict = _verdict(events, outcomes)
+    status, verdict = _verdict(task, robot, events, outcomes)
     return Report(
         title=HEADINGS["page"],
         subtitle=_subtitle(robot, site, authorization),
@@ -156,16 +157,21 @@ def _subtitle(robot: RobotProfile, site: Site, authorization: Authorization | No
     return f"{robot.name} on {site.name}{day}"
 
 
-def _verdict(events: Sequence[Event], outcomes: Sequence[GoalOutcome]) -> tuple[str, str]:
-    """How it ended, in a word, and the outcome in one line."""
-    ended = end_of(events)
+def _verdict(
+    task: Task, robot: RobotProfile, events: Sequence[Event], outcomes: Sequence[GoalOutcome]
+) -> tuple[str, str]:
+    """Return how it ended, in a word, and the outcome in one line."""
+    status, reason, found = judge_end(task, events, robot.energy.reserve_percent)
     met = sum(o.outcome == "success" for o in outcomes)
     goals = f"{met} of {say_count(len(outcomes), 'goal')} met" if outcomes else "no goals"
-    if ended is None:
-        return "cut off", f"Cut off: the log ends before the mission does; {goals} so far."
-    reason = f" ({ended.reason})" if ended.reason else ""
-    short_of = ended.status == "completed" and met < len(outcomes)
-    return "short" if short_of else ended.status, f"{capitalised(ended.status)}{reason}: {goals}."
+    if status is None:
+        said = "".join(f"; {one.why}" for one in found)
+        return "cut off", f"Cut off: the log ends before the mission does; {goals} so far{said}."
+    if status in ("faulted", "aborted"):
+        reason = "; ".join(filter(None, [reason, *(one.why for one in found)]))
+    short_of = status == "completed" and met < len(outcomes)
+    said = f" ({reason})" if reason else ""
+    return "short" if short_of else status, f"{capitalised(say_status(status))}{said}: {goals}."
 
 
 def _tiles(events: Sequence[Event]) -> tuple[tuple[str, str], ...]:

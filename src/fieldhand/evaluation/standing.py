@@ -6,9 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from fieldhand.evaluation.outcome import judge
+from fieldhand.evaluation.outcome import judge, judge_end
 from fieldhand.evaluation.telling import Teller, noun
+from fieldhand.language import message
 from fieldhand.robot.model import RobotProfile
+from fieldhand.task.exceeded import Exceeded
 from fieldhand.task.frames import Task
 from fieldhand.task.results import (
     Acted,
@@ -20,10 +22,14 @@ from fieldhand.task.results import (
     Exited,
     GoalOutcome,
     InDoubt,
+    LimitCrossed,
     Paused,
     Resumed,
     Started,
 )
+from fieldhand.task.words import say_place
+
+_CHARGED = Started | Arrived | Acted | InDoubt | Resumed | LimitCrossed | Ended
 
 State = Literal["running", "paused", "interrupted", "ended"]
 
@@ -42,6 +48,7 @@ class Standing:
         goals: Each goal, as far as it is known.
         limits: By kind of budget, what the Task allows.
         status, reason: How it ended.
+        exceeded: Limits that it exceeded so far.
     """
 
     state: State
@@ -61,6 +68,7 @@ class Standing:
     events: int
     status: str = ""
     reason: str = ""
+    exceeded: tuple[Exceeded, ...] = ()
 
 
 def standing(task: Task, robot: RobotProfile, events: Sequence[Event], *, running: bool) -> Standing:
@@ -73,10 +81,11 @@ def standing(task: Task, robot: RobotProfile, events: Sequence[Event], *, runnin
     """
     last = events[-1] if events else None
     state, ended = state_of(events, running=running)
-    at = next((e for e in reversed(events) if isinstance(e, Started | Arrived | Resumed | Ended)), None)
+    at = next((e for e in reversed(events) if isinstance(e, Started | Arrived | Resumed | LimitCrossed | Ended)), None)
     to = next((e for e in reversed(events) if isinstance(e, Arrived | Driving)), None)
-    charged = [e.charge_percent for e in events if isinstance(e, Started | Arrived | Acted | InDoubt | Resumed | Ended)]
-    driven = [e.travelled_m for e in events if isinstance(e, Arrived | Ended)]
+    charged = [e.charge_percent for e in events if isinstance(e, _CHARGED)]
+    driven = [e.travelled_m for e in events if isinstance(e, Arrived | LimitCrossed | Ended)]
+    status, reason, found = judge_end(task, events, robot.energy.reserve_percent)
     return Standing(
         state=state,
         doing=_doing(robot, last, task),
@@ -93,8 +102,9 @@ def standing(task: Task, robot: RobotProfile, events: Sequence[Event], *, runnin
         goals=judge(task, events, under_way=ended is None),
         limits={b.kind: b.limit for b in task.constraints.budgets},
         events=len(events),
-        status="" if ended is None else ended.status,
-        reason="" if ended is None else ended.reason,
+        status=status or "",
+        reason=reason,
+        exceeded=found,
     )
 
 
@@ -117,21 +127,23 @@ def state_of(events: Sequence[Event], *, running: bool) -> tuple[State, Ended | 
 def _near(to: Arrived | Driving | None) -> str:
     if to is None:
         return ""
-    place = f"tree {to.place}" if to.kind == "tree" else f"the {to.place}"
-    return f"at {place}" if isinstance(to, Arrived) else f"on the way to {place}"
+    place = say_place(to.kind, to.place)
+    if isinstance(to, Arrived):
+        return message("at {place}", context="log", place=place)
+    return message("on the way to {place}", context="log", place=place)
 
 
 def _doing(robot: RobotProfile, last: Event | None, task: Task) -> str:
     match last:
         case None:
-            return "nothing yet"
+            return message("nothing yet")
         case Driving():
-            place = f"tree {last.place}" if last.kind == "tree" else f"the {last.place}"
-            return f"drives to {place}"
+            return message("drives to {place}", place=say_place(last.kind, last.place))
         case Arrived():
             action = next((g.action for g in task.command.goals if g.node == last.node), None)
-            place = f"tree {last.place}" if last.kind == "tree" else f"the {last.place}"
-            return f"{noun(robot, action)} at {place}" if action else f"at {place}"
+            place = say_place(last.kind, last.place)
+            if action is None:
+                return message("at {place}", context="log", place=place)
+            return message("{capture} at {place}", capture=noun(robot, action), place=place)
         case _:
-            told = Teller(robot).tell(last)
-            return " ".join(told.split()[1:]) if told else last.event
+            return Teller(robot).in_short(last)

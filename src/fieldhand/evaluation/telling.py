@@ -6,8 +6,11 @@ from collections.abc import Callable
 
 from fieldhand.clock import clock_time
 from fieldhand.evaluation.reasons import SKIPPED, names_places
+from fieldhand.language import counted, joined, kept_in_log, message, named, shaped
 from fieldhand.robot.model import RobotProfile
+from fieldhand.task.exceeded import say_status
 from fieldhand.task.frames import Task
+from fieldhand.task.limit_words import say_crossing
 from fieldhand.task.results import (
     Acted,
     Arrived,
@@ -19,6 +22,8 @@ from fieldhand.task.results import (
     Exited,
     Faulted,
     InDoubt,
+    LimitCrossed,
+    MissionStatus,
     Obstructed,
     Paused,
     Resumed,
@@ -27,7 +32,7 @@ from fieldhand.task.results import (
     Visiting,
     Waited,
 )
-from fieldhand.task.words import capitalised, say_count, say_name, say_number, say_unit
+from fieldhand.task.words import capitalised, say_name, say_number, say_place, say_unit, some_names
 
 #: A list of places longer than this is counted, not named.
 NAMED = 8
@@ -41,66 +46,151 @@ class Teller:
 
     def tell(self, event: Event) -> str | None:
         """The event as a line, or None where it is not worth one."""
-        words = self._words(event)
-        return None if words is None else f"{clock_time(event.t):>8}  {words}"
+        words = self.words(event)
+        if words is None:
+            return None
+        indent = "   " if isinstance(event, Acted | InDoubt | Decided) or _is_left_out(event) else ""
+        return joined("  ", (f"{clock_time(event.t):>8}", joined("", (indent, words))))
 
-    def _words(self, event: Event) -> str | None:
+    def in_short(self, event: Event) -> str:
+        """Return what happened on one line without its time; the event's name where it is not worth a line."""
+        words = self.words(event)
+        return event.event if words is None else shaped(words, _on_one_line)
+
+    def words(self, event: Event) -> str | None:
+        """Return what happened, without its time, or None where it is not worth a line."""
         match event:
             case Started():
-                return f"{event.robot} starts on {event.site}, battery at {event.charge_percent:.0f} %"
+                charge = f"{event.charge_percent:.0f}"
+                return message(
+                    "{robot} starts on {site}, battery at {charge} %", robot=event.robot, site=event.site, charge=charge
+                )
             case Visiting():
-                return f"{say_count(len(event.places), 'place')} to visit: {_names(event.places)}"
+                names = _names(event.places)
+                return counted(
+                    "{count} place to visit: {names}",
+                    "{count} places to visit: {names}",
+                    len(event.places),
+                    names=names,
+                )
             case Arrived():
-                so_far = f"{event.travelled_m:.0f} m, battery at {event.charge_percent:.0f} %"
-                return f"at {_place(event.kind, event.place)} ({so_far})"
-            case Acted(status="success"):
-                readings = ", ".join(
-                    f"{say_name(q)} {say_number(value, 3)} {say_unit(event.units.get(q, ''))}".rstrip()
-                    for q, value in event.readings.items()
+                return message(
+                    "at {place} ({metres} m, battery at {charge} %)",
+                    place=say_place(event.kind, event.place),
+                    metres=f"{event.travelled_m:.0f}",
+                    charge=f"{event.charge_percent:.0f}",
                 )
-                return f"   {noun(self._robot, event.action)}{': ' + readings if readings else ''}"
             case Acted():
-                return f"   {noun(self._robot, event.action)} failed (attempt {event.attempt}): {event.what}"
+                return self._acted(event)
             case InDoubt():
-                then = "it is made again" if event.then == "repeat" else "it is not made again"
-                return f"   {noun(self._robot, event.action)} in doubt: {event.what}; {then}"
+                fills = {"capture": noun(self._robot, event.action), "what": kept_in_log(event.what)}
+                if event.then == "repeat":
+                    return message("{capture} in doubt: {what}; it is made again", **fills)
+                return message("{capture} in doubt: {what}; it is not made again", **fills)
             case Resumed():
-                return f"goes on after a power cut, battery at {event.charge_percent:.0f} %"
+                charge = f"{event.charge_percent:.0f}"
+                return message("goes on after a power cut, battery at {charge} %", charge=charge)
             case Paused():
-                return f"paused ({event.reason})"
+                return message("paused ({reason})", reason=kept_in_log(event.reason))
             case Continued():
-                return "continued"
+                return message("continued")
             case Decided():
-                return f"   {capitalised(event.why)}."
-            case Shed(optional=True) if names_places(event.reason):
-                return f"   left out: {event.reason.removeprefix(f'{SKIPPED} ')}"
-            case Shed(optional=True):
-                return f"   left out: {_names(event.places)} ({event.reason})"
+                return message("{what}.", what=capitalised(kept_in_log(event.why)))
             case Shed():
-                return f"GIVEN UP: {_names(event.places) or event.node}: {event.reason}"
-            case Obstructed(free=True):
-                return f"a blocked way to {_place(event.kind, event.place)} is tried again"
+                return _shed(event)
             case Obstructed():
-                lost = f"; no way is left to {_trees(event.unreachable)}" if event.unreachable else ""
-                return f"BLOCKED on the way to {_place(event.kind, event.place)}: {event.what}{lost}"
+                return _obstructed(event)
             case Waited():
-                if event.wanted == "way":
-                    return f"waited {clock_time(event.seconds)} for a way to come free"
-                return (
-                    f"waited {clock_time(event.seconds)} for its position: {'it is back' if event.over else 'in vain'}"
-                )
+                return _waited(event)
+            case LimitCrossed():
+                return say_crossing(event)
             case ClockSet():
-                way = "forward" if event.by_s > 0 else "back"
-                return f"the wall clock was set {way} by {clock_time(abs(event.by_s))}; the mission's time goes on"
+                by = clock_time(abs(event.by_s))
+                if event.by_s > 0:
+                    return message("the wall clock was set forward by {time}; the mission's time goes on", time=by)
+                return message("the wall clock was set back by {time}; the mission's time goes on", time=by)
+            case Faulted(handled=True):
+                return message("fault: {what} (handled)", what=kept_in_log(event.what))
             case Faulted():
-                return f"fault: {event.what}{' (handled)' if event.handled else ''}"
+                return message("fault: {what}", what=kept_in_log(event.what))
             case Exited():
-                reason = f" ({event.reason})" if event.reason else ""
-                return f"{event.exit} exit: {event.then.replace('_', ' ')}{reason}"
+                return _exited(event)
             case Ended():
-                return f"mission {event.status}"
+                return say_end(event.status, event.reason if event.status == "exceeded" else "")
             case _:
                 return None
+
+    def _acted(self, event: Acted) -> str:
+        capture = noun(self._robot, event.action)
+        if event.status != "success":
+            return message(
+                "{capture} failed (attempt {attempt}): {what}",
+                capture=capture,
+                attempt=str(event.attempt),
+                what=kept_in_log(event.what),
+            )
+        readings = [
+            joined(" ", [p for p in (say_name(q), say_number(value, 3), say_unit(event.units.get(q, ""))) if p])
+            for q, value in event.readings.items()
+        ]
+        if not readings:
+            return capture
+        return message("{capture}: {readings}", capture=capture, readings=joined(", ", readings))
+
+
+def _on_one_line(text: str) -> str:
+    return " ".join(text.split())
+
+
+def say_end(status: MissionStatus, reason: str = "") -> str:
+    """Return how a mission ended, and in brackets why, where that is given."""
+    ended = message("mission {status}", status=say_status(status))
+    return message("{what} ({why})", what=ended, why=kept_in_log(reason)) if reason else ended
+
+
+def _is_left_out(event: Event) -> bool:
+    return isinstance(event, Shed) and event.optional
+
+
+def _shed(event: Shed) -> str:
+    if not event.optional:
+        places = _names(event.places) or event.node
+        return message("GIVEN UP: {places}: {reason}", places=places, reason=kept_in_log(event.reason))
+    if names_places(event.reason):
+        return message("left out: {what}", what=kept_in_log(event.reason.removeprefix(f"{SKIPPED} ")))
+    return message("left out: {places} ({reason})", places=_names(event.places), reason=kept_in_log(event.reason))
+
+
+def _obstructed(event: Obstructed) -> str:
+    place = say_place(event.kind, event.place)
+    if event.free:
+        return message("a blocked way to {place} is tried again", place=place)
+    blocked = message("BLOCKED on the way to {place}: {what}", place=place, what=kept_in_log(event.what))
+    if not event.unreachable:
+        return blocked
+    names = _names(event.unreachable)
+    if len(event.unreachable) == 1:
+        return joined("; ", (blocked, message("no way is left to tree {id}", id=names)))
+    return joined("; ", (blocked, message("no way is left to trees {ids}", ids=names)))
+
+
+def _waited(event: Waited) -> str:
+    time = clock_time(event.seconds)
+    if event.wanted == "way":
+        return message("waited {time} for a way to come free", time=time)
+    if event.over:
+        return message("waited {time} for its position: it is back", time=time)
+    return message("waited {time} for its position: in vain", time=time)
+
+
+def _exited(event: Exited) -> str:
+    then = named(event.then.replace("_", " "), "way")
+    said = (
+        message("nominal exit: {then}", then=then)
+        if event.exit == "nominal"
+        else message("faulted exit: {then}", then=then)
+    )
+    return message("{what} ({why})", what=said, why=kept_in_log(event.reason)) if event.reason else said
 
 
 def goal_names(task: Task, robot: RobotProfile) -> Callable[[str], str]:
@@ -116,17 +206,8 @@ def goal_names(task: Task, robot: RobotProfile) -> Callable[[str], str]:
 def noun(robot: RobotProfile, action: str) -> str:
     """What an action yields, as people say it."""
     known = robot.action.get(action)
-    return known.words[0] if known and known.words else say_name(action)
-
-
-def _place(kind: str, name: str) -> str:
-    return f"tree {name}" if kind == "tree" else f"the {name}"
-
-
-def _trees(names: tuple[str, ...]) -> str:
-    return f"{'tree' if len(names) == 1 else 'trees'} {_names(names)}"
+    return named(known.words[0], "capture") if known and known.words else say_name(action)
 
 
 def _names(places: tuple[str, ...]) -> str:
-    shown = ", ".join(places[:NAMED])
-    return shown if len(places) <= NAMED else f"{shown} and {len(places) - NAMED} more"
+    return some_names(places, NAMED)

@@ -16,8 +16,9 @@ from fieldhand.clock import Clock, WallClock
 from fieldhand.errors import ActionFault, BlockedFault, DriveFault, FieldhandError, LostFault, PlaceError
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, Progress
 from fieldhand.execution.guard import Guard
-from fieldhand.execution.recording import OpenCapture, OpenDrive, end_capture, end_drive
+from fieldhand.execution.recording import OpenCapture, OpenDrive, end_capture, end_drive, joules_done
 from fieldhand.execution.timeofday import TimeOfDay
+from fieldhand.execution.watch import Lookout, NoLookout, Watch
 from fieldhand.forecast.conditions import Facts
 from fieldhand.forecast.routes import beginning
 from fieldhand.forecast.state import MissionState, Spent
@@ -62,8 +63,11 @@ class Attempt:
         drives: Ways between places.
         emit: Takes each event as it happens.
         wall: The time of day, where there is one.
+        lookout: Asked at every look whether the way home still lasts.
 
     Attributes:
+        watch: Over battery, distance and time.
+        halted: Nothing new is begun: the mission is about to turn home.
         blockages: What it found in its way.
         here: The place in hand (:mod:`fieldhand.task.plan`).
         standing: Where the robot itself is: ``here``, or a point on the way where a drive failed.
@@ -90,6 +94,7 @@ class Attempt:
         drives: Drives,
         emit: Callable[[Event], None],
         wall: WallClock | None = None,
+        lookout: Lookout | None = None,
     ) -> None:
         self.task = task
         self.site = site
@@ -119,6 +124,8 @@ class Attempt:
         self.giving_up = ""
         self.fault: Fault = "action_failed"
         self.what = ""
+        self.halted = False
+        self.watch = Watch(self, lookout or NoLookout())
 
     @property
     def t(self) -> float:
@@ -127,9 +134,16 @@ class Attempt:
 
     @property
     def spent(self) -> Spent:
-        """What was used so far."""
+        """Return what was used so far, including the goal in hand."""
+        metres, joules, goal = self.travelled_m, self.action_j, self._open
+        if goal is not None:
+            progress = self.driver.poll()
+            if isinstance(goal, OpenDrive):
+                metres += progress.metres
+            else:
+                joules += joules_done(self.robot.action[goal.action], progress)
         percent = self._full - self.driver.charge_percent()
-        return Spent(metres=self.travelled_m, seconds=self.t, percent=percent, joules=self.action_j)
+        return Spent(metres=metres, seconds=self.t, percent=percent, joules=joules)
 
     @property
     def drives(self) -> Drives:
@@ -307,11 +321,10 @@ class Attempt:
 
     def next_event_in(self) -> float | None:
         """Seconds until there is something to look at; None where the robot does nothing and waits for nothing."""
-        soon = self.driver.next_event_in()
-        if self._wake_s is None:
-            return soon
-        left = min(LOOK_AGAIN_S, max(0.0, self._wake_s - self.clock.now()))
-        return left if soon is None else min(soon, left)
+        found = [] if (soon := self.driver.next_event_in()) is None else [soon]
+        if self._wake_s is not None:
+            found.append(min(LOOK_AGAIN_S, max(0.0, self._wake_s - self.clock.now())))
+        return min(*found, self.watch.next_look_in()) if found else None
 
     @property
     def busy(self) -> bool:

@@ -16,6 +16,7 @@ from fieldhand.execution.journal.records import Tape
 from fieldhand.execution.mission_clock import MissionClock
 from fieldhand.execution.orders import Order
 from fieldhand.execution.recording import OpenCapture
+from fieldhand.execution.watch import Lookout
 from fieldhand.execution.witness import Asked, Witness
 from fieldhand.forecast.routes import drives_for
 from fieldhand.robot.model import InDoubtPolicy, RobotProfile
@@ -29,7 +30,7 @@ class Bridge:
     """One attempt, ready to begin.
 
     Args:
-        task, site, robot, driver, guard, clock, emit, wall, tape, simulated: As
+        task, site, robot, driver, guard, lookout, clock, emit, wall, tape, simulated: As
             :func:`fieldhand.execution.runtime.run`.
         asked: What a person wants now.
 
@@ -46,6 +47,7 @@ class Bridge:
         robot: RobotProfile,
         driver: Driver,
         guard: Guard,
+        lookout: Lookout,
         clock: MissionClock,
         emit: Callable[[Event], None],
         asked: Asked,
@@ -56,7 +58,14 @@ class Bridge:
         drives = drives_for(site, robot)
         self._emit, self._tape, self._cuts = emit, tape, 0
         self.witness = Witness(
-            driver=driver, guard=guard, clock=clock, wall=wall, tape=tape, asked=asked, simulated=simulated
+            driver=driver,
+            guard=guard,
+            lookout=lookout,
+            clock=clock,
+            wall=wall,
+            tape=tape,
+            asked=asked,
+            simulated=simulated,
         )
         self._helm = Helm(
             self.witness.driver,
@@ -76,6 +85,7 @@ class Bridge:
             drives=drives,
             emit=self._take,
             wall=self.witness.wall,
+            lookout=self.witness.lookout,
         )
 
     def order(self) -> Order | None:
@@ -89,9 +99,10 @@ class Bridge:
         helm.hold()
         while order is not None and order.wanted == "pause" and helm.stopped() is None:
             if helm.at_rest():
-                witness.wait()
+                witness.wait(attempt.watch.has_news)
             else:
                 witness.advance(helm.next_event_in() or 0.0)
+            attempt.watch.look()
             order = witness.order()
             self._tell_cut()
         helm.go_on()

@@ -12,10 +12,12 @@ from fieldhand.errors import ActionFault, BlockedFault, DriveFault, LostFault
 from fieldhand.execution.attempt import Attempt
 from fieldhand.execution.obstacles import avoid, open_a_way
 from fieldhand.execution.waiting import Steps, know_position, wait
+from fieldhand.language import joined, message
 from fieldhand.robot.model import Action
 from fieldhand.site.model import Place
 from fieldhand.task.plan import Act
 from fieldhand.task.results import Arrived, Faulted
+from fieldhand.task.words import say_place
 
 #: So often one drive is stopped by something in its way, and one drive or capture by a lost position, before it fails.
 MOST_STOPS = 20
@@ -53,7 +55,7 @@ def drive(attempt: Attempt, node: str, place: Place, *, patient: bool = True, as
             if not attempt.blockages.stretches:
                 raise
             if waited or stops > MOST_STOPS:
-                raise BlockedFault(f"{_named(place)} cannot be reached: {obstacle or fault.what}") from None
+                raise BlockedFault(_unreached(place, obstacle or fault.what)) from None
             waited = True
             yield from open_a_way(attempt, node, place)
             continue
@@ -61,7 +63,8 @@ def drive(attempt: Attempt, node: str, place: Place, *, patient: bool = True, as
             yield
         if progress.state == "succeeded":
             return
-        what = f"drive to {_named(place)}: {progress.what or 'it failed'}"
+        why = progress.what or message("it failed", context="log")
+        what = message("drive to {place}: {what}", context="log", place=_named(place), what=why)
         if progress.state == "cancelled":
             raise DriveFault(what)
         stops += progress.fault in ("blocked", "lost")
@@ -69,18 +72,21 @@ def drive(attempt: Attempt, node: str, place: Place, *, patient: bool = True, as
             obstacle = progress.what
             avoid(attempt, node, place, obstacle)
             if stops > MOST_STOPS:
-                raise BlockedFault(f"{what}; stopped {stops} times on the way there")
+                times = message("stopped {count} times on the way there", context="log", count=stops)
+                raise BlockedFault(joined("; ", (what, times)))
             if ask is not None and (there := _stand(attempt, place)) is not None:
                 yield from ask(there)
             continue
         if progress.fault == "lost":
             if stops > MOST_STOPS:
-                raise LostFault(f"{what}; lost {stops} times on the way there")
+                times = message("lost {count} times on the way there", context="log", count=stops)
+                raise LostFault(joined("; ", (what, times)))
             continue
         tries -= 1
         if tries == 0 or progress.fault == "empty":
             raise DriveFault(what)
-        attempt.emit(Faulted(t=attempt.t, node=node, fault="drive_failed", what=f"{what}; trying again", handled=True))
+        what = joined("; ", (what, message("trying again", context="log")))
+        attempt.emit(Faulted(t=attempt.t, node=node, fault="drive_failed", what=what, handled=True))
         yield from wait(attempt, attempt.robot.patience.retry_wait_s)
 
 
@@ -99,7 +105,9 @@ def capture(attempt: Attempt, node: Act) -> Generator[None, None, Mapping[str, f
     action = attempt.robot.action.get(node.action)
     if action is None:
         raise ActionFault(
-            f"{attempt.robot.name} has no action {node.action}", where=node.id, advice="approve it for this robot"
+            message("{robot} has no action {action}", context="log", robot=attempt.robot.name, action=node.action),
+            where=node.id,
+            advice=message("approve it for this robot", context="log"),
         )
     parameters: dict[str, str | float] = {p.name: p.default for p in action.parameters}
     parameters.update(node.parameters)
@@ -117,21 +125,32 @@ def capture(attempt: Attempt, node: Act) -> Generator[None, None, Mapping[str, f
             return {}  # in doubt, and not to be made again: what it read is unknown
         what = progress.what
         if progress.state == "cancelled":
-            raise ActionFault(what or "cancelled", where=_named(attempt.here))
+            raise ActionFault(what or message("cancelled", context="log"), where=_named(attempt.here))
         if progress.fault == "lost":
             stops += 1
             if stops > MOST_STOPS:
-                raise LostFault(f"{node.action}: lost {stops} times at {_named(attempt.here)}")
+                lost = message(
+                    "{action}: lost {count} times at {place}",
+                    context="log",
+                    action=node.action,
+                    count=stops,
+                    place=_named(attempt.here),
+                )
+                raise LostFault(lost)
             continue
         failed += 1
         if progress.fault == "empty":
             break
         if failed < tries:
             yield from wait(attempt, retry_wait_s)
-    raise ActionFault(
-        f"{node.action} failed {failed} time{'s' * (failed != 1)}: {what or 'no reason given'}",
-        where=_named(attempt.here),
-    )
+    why = what or message("no reason given", context="log")
+    if failed == 1:
+        said = message("{action} failed 1 time: {what}", context="log", action=node.action, what=why)
+    else:
+        said = message(
+            "{action} failed {count} times: {what}", context="log", action=node.action, count=failed, what=why
+        )
+    raise ActionFault(said, where=_named(attempt.here))
 
 
 def _tries(attempt: Attempt, action: Action) -> tuple[int, float]:
@@ -169,4 +188,8 @@ def _arrive_in_place(attempt: Attempt, node: str, place: Place) -> None:
 
 
 def _named(place: Place) -> str:
-    return f"tree {place.id}" if place.kind == "tree" else f"the {place.id}"
+    return say_place(place.kind, place.id)
+
+
+def _unreached(place: Place, why: str) -> str:
+    return message("{place} cannot be reached: {why}", context="log", place=_named(place), why=why)

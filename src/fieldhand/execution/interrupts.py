@@ -8,10 +8,12 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 
+from fieldhand.language import message
+
 _REASONS = {
-    signal.SIGINT: "stopped by the operator (Ctrl-C)",
-    signal.SIGTERM: "the program was told to end (SIGTERM)",
-    signal.SIGHUP: "the terminal was closed (SIGHUP)",
+    signal.SIGINT: message("stopped by the operator (Ctrl-C)", context="log"),
+    signal.SIGTERM: message("the program was told to end (SIGTERM)", context="log"),
+    signal.SIGHUP: message("the terminal was closed (SIGHUP)", context="log"),
 }
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import contextlib
 from pathlib import Path
 from types import TracebackType
-from typing import TextIO
+from typing import IO
 
 from fieldhand.errors import InputError, OutputError, TaskError
-from fieldhand.files import FileFault, read_file
+from fieldhand.files import FileFault, open_output, read_file
 from fieldhand.task.event_lines import from_json, to_json
 from fieldhand.task.results import Event
 
@@ -30,8 +30,7 @@ class EventLog:
     def __init__(self, path: Path, *, begun: int = 0) -> None:
         self._path = path
         try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            self._file: TextIO = path.open("a" if begun else "w", encoding="utf-8", newline="\n")
+            self._file: IO[str] = open_output(path, "a" if begun else "w")
             if begun:
                 self._file.truncate(begun)
         except (OSError, ValueError) as error:

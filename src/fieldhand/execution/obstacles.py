@@ -15,6 +15,7 @@ from shapely.geometry import LineString, Point, Polygon
 from fieldhand.errors import BlockedFault, DriveFault
 from fieldhand.execution.attempt import Attempt
 from fieldhand.execution.waiting import Steps, wait
+from fieldhand.language import message
 from fieldhand.site.model import Place
 from fieldhand.task.results import Event, Obstructed, Waited
 
@@ -69,7 +70,7 @@ def open_a_way(attempt: Attempt, node: str, place: Place) -> Steps:
     attempt.emit(Waited(t=attempt.t, node=node, wanted="way", seconds=waited, over=opened, what=what))
     if not opened:
         raise BlockedFault(what)
-    _say(attempt, node, place, "it may be gone", free=True)
+    _say(attempt, node, place, message("it may be gone", context="log"), free=True)
 
 
 def no_way(attempt: Attempt, places: Sequence[Place]) -> tuple[bool, ...]:

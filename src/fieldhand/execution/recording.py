@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.execution.drivers.protocol import DriveGoal, Progress
-from fieldhand.robot.model import RobotProfile
+from fieldhand.language import message
+from fieldhand.robot.model import Action, RobotProfile
 from fieldhand.task.results import Acted, Arrived
 
 if TYPE_CHECKING:
@@ -63,7 +64,7 @@ def end_capture(attempt: Attempt, open_: OpenCapture, progress: Progress) -> Pro
         What came of it: one whose readings cannot be believed has failed.
     """
     action = attempt.robot.action[open_.action]
-    attempt.action_j += action.energy_j * min(1.0, progress.seconds / action.duration_s)
+    attempt.action_j += joules_done(action, progress)
     if progress.state in ("cancelled", "cut_off"):
         return progress  # nothing was done, so nothing happened; or it is in doubt, and that was said
     measures = action.measures
@@ -92,14 +93,23 @@ def end_capture(attempt: Attempt, open_: OpenCapture, progress: Progress) -> Pro
     return progress
 
 
+def joules_done(action: Action, progress: Progress) -> float:
+    """Return the energy that a capture has taken so far, by the profile."""
+    return action.energy_j * min(1.0, progress.seconds / action.duration_s)
+
+
 def unusable(robot: RobotProfile, name: str, value: float | None) -> str:
     """Why a reading cannot be believed; empty if it can."""
     quantity = robot.quantity[name]
     if value is None:
-        return f"the sensor gave no {name}"
+        return message("the sensor gave no {quantity}", context="log", quantity=name)
     if not math.isfinite(value) or not quantity.minimum <= value <= quantity.maximum:
-        return (
-            f"{name} {value:g} {quantity.unit} is outside {quantity.minimum:g} to {quantity.maximum:g}:"
-            " the sensor cannot be believed"
+        return message(
+            "{quantity} {reading} is outside {low} to {high}: the sensor cannot be believed",
+            context="log",
+            quantity=name,
+            reading=f"{value:g} {quantity.unit}",
+            low=f"{quantity.minimum:g}",
+            high=f"{quantity.maximum:g}",
         )
     return ""

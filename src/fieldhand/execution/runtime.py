@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from fieldhand.clock import Clock, WallClock
 from fieldhand.errors import DriveFault, FieldhandError, NotApprovedError, OutputError
@@ -17,13 +19,21 @@ from fieldhand.execution.journal.records import Tape
 from fieldhand.execution.mission_clock import MissionClock
 from fieldhand.execution.orders import Order
 from fieldhand.execution.waiting import Steps
+from fieldhand.execution.watch import Lookout, NoLookout
 from fieldhand.execution.witness import Patience
-from fieldhand.forecast.state import Spent
+from fieldhand.forecast.limits import reserve_percent
+from fieldhand.forecast.state import Spent, Verdict
+from fieldhand.language import joined, message, named
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.model import Site
+from fieldhand.site.model import Place, Site
+from fieldhand.site.stopping import stands_in
 from fieldhand.task.authorization import AuthorizedTask
+from fieldhand.task.exceeded import exceeded, final_status, reason_with
 from fieldhand.task.frames import Then
 from fieldhand.task.results import Ended, Event, Exited, MissionStatus, Started
+
+if TYPE_CHECKING:
+    from py_trees.behaviour import Behaviour
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,6 +69,7 @@ def run(
     interrupted: Callable[[], str | None] = nobody,
     wall: WallClock | None = None,
     orders: Callable[[], Order | None] = nobody,
+    lookout: Lookout | None = None,
     tape: Tape | None = None,
     simulated: bool = False,
 ) -> Result:
@@ -75,6 +86,7 @@ def run(
         interrupted: Asked at every tick; a reason ends the mission as ``aborted``. So does Ctrl-C.
         wall: The time of day, to be written down.
         orders: Asked at every tick: what a person wants now.
+        lookout: Asked at every look whether what is left lasts for the way home; None where there are no limits.
         tape: Keeps what is needed to go on after a power cut. What it holds already is not done again: the mission
             goes on from there. Its events come from the tape, not from ``emit``.
         simulated: The driver is a simulation; for a mission that goes on it is a new one, brought to where it was.
@@ -96,6 +108,7 @@ def run(
             robot=robot,
             driver=driver,
             guard=guard,
+            lookout=lookout or NoLookout(),
             clock=clock if isinstance(clock, MissionClock) else MissionClock(clock),
             emit=emit,
             asked=asked,
@@ -148,7 +161,7 @@ def _attempt_plan(bridge: Bridge) -> Ending:
         return _take_exit(bridge, ending)
     except KeyboardInterrupt:
         bridge.witness.interrupted()
-        ending = _aborted(attempt, Order(wanted="abort", reason="stopped by the operator"))
+        ending = _aborted(attempt, Order(wanted="abort", reason=message("stopped by the operator", context="log")))
         try:
             return _settled(attempt, ending)
         except KeyboardInterrupt:
@@ -168,8 +181,10 @@ def _start(attempt: Attempt) -> None:
             charge_percent=attempt.driver.charge_percent(),
             seed=attempt.driver.seed,
             at=attempt.time_of_day.began_at,
+            reserve_percent=reserve_percent(attempt.task.constraints, attempt.robot),
         )
     )
+    attempt.watch.look()
 
 
 def _carry_out_plan(bridge: Bridge) -> Ending:
@@ -188,17 +203,11 @@ def _carry_out_plan(bridge: Bridge) -> Ending:
             order = bridge.order() or _stopped(attempt)
             if order:
                 return _aborted(attempt, order)
+            if attempt.watch.alarm != "none":
+                return _alarmed(tree, attempt)
             tree.tick_once()
-            if attempt.ending is not None:
-                return attempt.ending
-            stopped = _stopped(attempt)
-            if stopped and tree.status == Status.FAILURE:
-                return _aborted(attempt, stopped)
-            if tree.status == Status.SUCCESS:
-                return Ending(status="completed", exit="nominal", then=attempt.task.composition.nominal)
-            if tree.status == Status.FAILURE:
-                then = attempt.exit_for(attempt.fault)
-                return Ending(status="faulted", exit="faulted", then=then, reason=attempt.what)
+            if (ending := _over(tree, attempt)) is not None:
+                return ending
             order = bridge.order()
             if order:
                 return _aborted(attempt, order)
@@ -207,15 +216,86 @@ def _carry_out_plan(bridge: Bridge) -> Ending:
         tree.stop(Status.INVALID)
 
 
+def _over(tree: Behaviour, attempt: Attempt) -> Ending | None:
+    """Return the end of the plan; None while it goes on."""
+    from py_trees.common import Status
+
+    if attempt.ending is not None:
+        return attempt.ending
+    stopped = _stopped(attempt)
+    if stopped and tree.status == Status.FAILURE:
+        return _aborted(attempt, stopped)
+    if tree.status == Status.SUCCESS:
+        return Ending(status="completed", exit="nominal", then=attempt.task.composition.nominal)
+    if tree.status == Status.FAILURE:
+        then = attempt.exit_for(attempt.fault)
+        return Ending(status="faulted", exit="faulted", then=then, reason=attempt.what)
+    return None
+
+
+def _alarmed(tree: Behaviour, attempt: Attempt) -> Ending:
+    """Break off what the robot is at: it stops for good, or gives up all that is left of the plan and turns home.
+
+    A goal that is over by now is done: the plan goes on to what it would begin next, and gives that up.
+    """
+    from py_trees.common import Status
+
+    from fieldhand.execution.behaviors.surroundings import give_up_rest
+
+    why = attempt.watch.why
+    if attempt.watch.alarm == "stop":
+        return _settled(attempt, _stood(attempt, why))
+    attempt.halted = True
+    result = attempt.driver.poll()
+    if attempt.busy and not result.over:
+        broken_off = _settled(attempt, Ending(status="returned", exit="faulted", then="stay", reason=why))
+        if not attempt.driver.poll().over:
+            return broken_off
+        result = attempt.driver.poll()
+    while result.state in ("idle", "succeeded") and tree.tip() is not None:
+        tree.tick_once()
+        if (ending := _over(tree, attempt)) is not None:
+            return ending
+        tip = tree.tip()
+        if tip is not None and tip.status == Status.RUNNING:
+            break
+    attempt.halted = False
+    give_up_rest(tree.tip(), attempt, Verdict(go=False, reason=why))
+    return Ending(status="returned", exit="faulted", then=attempt.watch.exit, reason=why)
+
+
+def _stood(attempt: Attempt, why: str) -> Ending:
+    """The end of a mission whose robot cannot come home: where it stands, once it does."""
+    at = attempt.driver.position()
+    home = attempt.site.home(attempt.exit_for("low_budget"), attempt.standing)
+    away = math.dist((at.x, at.y), home.stand or home.xy)
+    stands = message(
+        "it stands in {where}, {metres} m from {place}",
+        context="log",
+        where=stands_in(attempt.drives, (at.x, at.y)),
+        metres=f"{away:.0f}",
+        place=message("the {role}", context="log", role=named(home.id, "role")),
+    )
+    reason = joined("; ", (why, stands))
+    return Ending(status="faulted", exit="faulted", then="stay", reason=reason)
+
+
 def _take_exit(bridge: Bridge, ending: Ending) -> Ending:
     """Drive where the exit leads. What goes wrong on the way ends the mission where the robot then is."""
     attempt = bridge.attempt
+    attempt.watch.turn("exit")
     attempt.emit(Exited(t=attempt.t, node=ending.node, exit=ending.exit, then=ending.then, reason=ending.reason))
     home = attempt.site.home(ending.then, attempt.standing)
     heard = bridge.order() if ending.status == "aborted" else None
     way = drive(attempt, "", home) if ending.then != "stay" else None
+    short_of_home = ""
     try:
-        while way is not None and _advance(way):
+        while way is not None:
+            if not _advance(way):
+                # The estimate was cautious: from a safe place the rest of the way may be in reach after all.
+                way = drive(attempt, "", home) if short_of_home and attempt.watch.reaches(home) else None
+                short_of_home = "" if way is not None else short_of_home
+                continue
             # Who stopped the mission, and let the Task bring the robot home, must say something new to stop that.
             order = bridge.order()
             if order is not None and (order == heard or order.wanted == "return"):
@@ -223,15 +303,28 @@ def _take_exit(bridge: Bridge, ending: Ending) -> Ending:
             order = _stopped(attempt) or order
             if order:
                 return _settled(attempt, _aborted(attempt, Order(wanted="abort", reason=order.reason)))
+            if attempt.watch.alarm == "stop":
+                return _settled(attempt, _stood(attempt, attempt.watch.why))
+            if attempt.watch.alarm == "shelter" and (refuge := attempt.watch.refuge(home)) is not None:
+                short_of_home, way = attempt.watch.why, _changed_to(attempt, refuge)
             _let_time_pass(attempt)
     except OutputError:
         raise
     except FieldhandError as error:
         attempt.fail("", error, handled=False)
-        reason = f"{ending.reason}; then {error}" if ending.reason else str(error)
+        then = message("then {what}", context="log", what=str(error))
+        reason = joined("; ", (ending.reason, then)) if ending.reason else str(error)
         status: MissionStatus = "aborted" if ending.status == "aborted" else "faulted"
         return Ending(status=status, exit="faulted", then="stay", reason=reason)
-    return ending
+    return _stood(attempt, short_of_home) if short_of_home else ending
+
+
+def _changed_to(attempt: Attempt, place: Place) -> Steps:
+    """Break off the drive in hand and drive to another place."""
+    attempt.stop_driver()
+    while attempt.busy and not attempt.attend().over:
+        yield
+    yield from drive(attempt, "", place)
 
 
 def _advance(steps: Steps) -> bool:
@@ -262,7 +355,10 @@ def _settled(attempt: Attempt, ending: Ending) -> Ending:
     patience = Patience(attempt.clock)
     while attempt.busy and not attempt.attend().over:
         if patience.over:
-            error = DriveFault("the robot does not stop when told to", advice="use its emergency stop")
+            error = DriveFault(
+                message("the robot does not stop when told to", context="log"),
+                advice=message("use its emergency stop", context="log"),
+            )
             attempt.fail("", error, handled=False)
             return Ending(status="faulted", exit="faulted", then="stay", reason=str(error))
         _let_time_pass(attempt)
@@ -270,28 +366,29 @@ def _settled(attempt: Attempt, ending: Ending) -> Ending:
 
 
 def _let_time_pass(attempt: Attempt) -> None:
-    """Until the driver has something to say; in small slices where that takes real time."""
+    """Until the driver has something to say or something could be crossed; in slices where that takes real time."""
     seconds = attempt.next_event_in()
     attempt.clock.advance(0.0 if seconds is None else seconds)
+    attempt.watch.look()
 
 
 def _end(attempt: Attempt, ending: Ending) -> Result:
+    attempt.watch.turn("over")
+    attempt.watch.look()
     position = attempt.driver.position()
     spent = attempt.spent
-    attempt.emit(
-        Ended(
-            t=attempt.t,
-            status=ending.status,
-            lat=position.lat,
-            lon=position.lon,
-            travelled_m=attempt.travelled_m,
-            charge_percent=attempt.driver.charge_percent(),
-            reason=ending.reason if ending.status != "completed" else "",
-        )
-    )
-    return Result(
+    ended = Ended(
+        t=attempt.t,
         status=ending.status,
+        lat=position.lat,
+        lon=position.lon,
+        travelled_m=attempt.travelled_m,
+        charge_percent=attempt.driver.charge_percent(),
         reason=ending.reason if ending.status != "completed" else "",
-        spent=spent,
-        events=tuple(attempt.events),
     )
+    found = exceeded(attempt.task.constraints, [*attempt.events, ended])
+    status = final_status(ending.status, found)
+    if status != ending.status:
+        ended = replace(ended, status=status, reason=reason_with(found, ended.reason))
+    attempt.emit(ended)
+    return Result(status=ended.status, reason=ended.reason, spent=spent, events=tuple(attempt.events))

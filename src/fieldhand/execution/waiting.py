@@ -6,6 +6,7 @@ from collections.abc import Callable, Generator
 
 from fieldhand.errors import LostFault
 from fieldhand.execution.attempt import Attempt
+from fieldhand.language import joined, message
 from fieldhand.task.results import Faulted, Waited
 
 Steps = Generator[None, None, None]
@@ -26,20 +27,24 @@ def wait(attempt: Attempt, seconds: float, over: Callable[[], bool] = lambda: Fa
 
 
 def know_position(attempt: Attempt, node: str) -> Steps:
-    """Where the robot does not know where it is, wait for that as long as its profile says.
+    """Wait for a lost position as long as the profile says; for ever if halted.
 
     Raises:
         LostFault: It does not know it then either.
     """
+    while attempt.halted:
+        yield
     why = attempt.driver.lost()
     if why is None:
         return
     begun_s, patience = attempt.clock.now(), attempt.robot.patience.lost_wait_s
-    what = f"the robot does not know where it is ({why})"
-    standing = f"{what}; it stands still for at most {patience:g} s"
+    what = message("the robot does not know where it is ({why})", context="log", why=why)
+    still = message("it stands still for at most {seconds} s", context="log", seconds=f"{patience:g}")
+    standing = joined("; ", (what, still))
     attempt.emit(Faulted(t=attempt.t, node=node, fault="lost", what=standing, handled=True))
     yield from wait(attempt, patience, over=lambda: attempt.driver.lost() is None)
     known, waited_s = attempt.driver.lost() is None, attempt.clock.now() - begun_s
     attempt.emit(Waited(t=attempt.t, node=node, wanted="position", seconds=waited_s, over=known, what=why))
     if not known:
-        raise LostFault(f"{what}, {patience:g} s on still", advice="bring it back by hand")
+        lasting = message("{known}, {seconds} s on still", context="log", known=what, seconds=f"{patience:g}")
+        raise LostFault(lasting, advice=message("bring it back by hand", context="log"))

@@ -32,13 +32,24 @@ from fieldhand.execution.journal.records import (
     Tape,
     answer_record,
     diverged,
+    foresight_of,
+    foresight_record,
     goal_record,
     sight_of,
 )
 from fieldhand.execution.mission_clock import LOOK_EVERY_S, MissionClock
 from fieldhand.execution.orders import Order
-from fieldhand.execution.witnessed import WitnessedClock, WitnessedDriver, WitnessedGuard, WitnessedWallClock
+from fieldhand.execution.watch import Lookout
+from fieldhand.execution.witnessed import (
+    WitnessedClock,
+    WitnessedDriver,
+    WitnessedGuard,
+    WitnessedLookout,
+    WitnessedWallClock,
+)
 from fieldhand.forecast.state import Choice, Verdict
+from fieldhand.forecast.underway import Foresight
+from fieldhand.language import message
 
 #: Seconds of the wall clock after which what was seen is brought to the disk even if nothing began or ended.
 SAFE_EVERY_S = 1.0
@@ -72,7 +83,7 @@ class Witness:
     """The driver, the guard, the clock and the orders of one mission, as the mission asks them.
 
     Args:
-        driver, guard: Those that are asked where the tape ends.
+        driver, guard, lookout: Those that are asked where the tape ends.
         clock: The mission's time.
         wall: The time of day, if there is one.
         tape: What was answered before; what is answered now is added. None keeps nothing.
@@ -82,7 +93,8 @@ class Witness:
 
     Attributes:
         cuts: Power cuts so far.
-        driver, guard, clock, wall: What the mission asks. The time without power is no time of day that anyone has set.
+        driver, guard, lookout, clock, wall: What the mission asks. The time without power is no time of day that anyone
+            has set.
     """
 
     def __init__(
@@ -90,6 +102,7 @@ class Witness:
         *,
         driver: Driver,
         guard: Guard,
+        lookout: Lookout,
         clock: MissionClock,
         wall: WallClock | None = None,
         tape: Tape | None,
@@ -100,6 +113,7 @@ class Witness:
         self.clock: Clock = WitnessedClock(self)
         self.driver: Driver = WitnessedDriver(self, driver)
         self.guard: Guard = WitnessedGuard(self, guard)
+        self.lookout: Lookout = WitnessedLookout(self, lookout)
         self.wall: WallClock | None = None if wall is None else WitnessedWallClock(self)
         self._robot = driver
         self._wall = wall
@@ -112,6 +126,7 @@ class Witness:
         self._live = tape is None
         self._heard: Order | None = None
         self._sight: Sight | None = None
+        self._ahead: Record | None = None
         self._goal: DriveGoal | ActionGoal | None = None
         self._from: Position | None = None
         self._lost = False
@@ -164,8 +179,8 @@ class Witness:
             self._say()
             self._clock.advance(min(seconds, LOOK_EVERY_S * self._clock.speed))
 
-    def wait(self) -> None:
-        """Wait until a person wants something else, or the robot is stopped."""
+    def wait(self, noteworthy: Callable[[float, float], bool]) -> None:
+        """Wait until a person wants something else, or the robot is stopped, or time and charge are noteworthy."""
         before, self._sight = self.seen, None
         record = self._told("sight")
         if record is not None:
@@ -176,7 +191,8 @@ class Witness:
             self._clock.rest()
             # A real robot is heard only while it is polled, its emergency stop too.
             self._robot.poll()
-            if self._asked() != before.order or self._robot.stopped() != before.stopped:
+            news = self._asked() != before.order or self._robot.stopped() != before.stopped
+            if news or noteworthy(self._clock.look(), self._robot.charge_percent()):
                 self._sight = self._look()
                 return
 
@@ -194,6 +210,16 @@ class Witness:
         self._keep(answer_record(kind, node, said))
         if isinstance(said, FieldhandError):
             raise said
+        return said
+
+    def foresee(self, ask: Callable[[], Foresight]) -> Foresight:
+        """Return the lookout's answer, recorded or new. Only alarms are recorded: no record means no alarm."""
+        live, said = self._live, ask()
+        if not live:
+            record = self._told_if("foresee")
+            return Foresight() if record is None else foresight_of(record)
+        if said.alarm != "none":
+            self._keep(foresight_record(said))
         return said
 
     def interrupted(self) -> None:
@@ -216,8 +242,7 @@ class Witness:
     def _told(self, kind: Kind) -> Record | None:
         """The recorded answer to this question; None where the robot itself is to be asked."""
         while not self._live:
-            assert self._tape is not None  # noqa: S101  without a tape it is live from the beginning
-            record = self._tape.next()
+            record = self._next()
             if record is None:
                 self._hand_over()
             elif record.kind == "cut":
@@ -230,6 +255,21 @@ class Witness:
                 self._records += 1
                 return record
         return None
+
+    def _told_if(self, kind: Kind) -> Record | None:
+        """The recorded answer to a question that may have gone unanswered; None where the next answer is to another."""
+        record = self._next()
+        if record is not None and record.kind == kind:
+            self._records += 1
+            return record
+        self._ahead = record
+        return None
+
+    def _next(self) -> Record | None:
+        """The next answer on the tape."""
+        assert self._tape is not None  # noqa: S101  without a tape it is live from the beginning
+        record, self._ahead = self._ahead, None
+        return self._tape.next() if record is None else record
 
     def _hand_over(self) -> None:
         """The tape is used up: from here the robot itself is asked."""
@@ -338,5 +378,9 @@ class Witness:
             now = self._robot.position()
             metres = max(progress.metres, math.dist((now.x, now.y), (self._from.x, self._from.y)))
         return dataclasses.replace(
-            progress, state="cut_off", metres=metres, readings={}, what="the power was cut while it was made"
+            progress,
+            state="cut_off",
+            metres=metres,
+            readings={},
+            what=message("the power was cut while it was made", context="log"),
         )

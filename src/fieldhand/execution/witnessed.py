@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, Position, Progress
 from fieldhand.execution.guard import Guard
 from fieldhand.execution.journal.records import choice_of, verdict_of
+from fieldhand.execution.watch import Lookout
 from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
+from fieldhand.forecast.underway import Foresight, Underway
 
 if TYPE_CHECKING:
     from fieldhand.execution.witness import Witness
@@ -64,6 +66,16 @@ class WitnessedDriver:
 
     def lost(self) -> str | None:
         return self._witness.seen.lost
+
+
+class WitnessedLookout:
+    """The lookout as the mission asks it. It is asked again what it was asked, so that it learns the same."""
+
+    def __init__(self, witness: Witness, lookout: Lookout) -> None:
+        self._witness, self._lookout = witness, lookout
+
+    def foresee(self, now: Underway) -> Foresight:
+        return self._witness.foresee(lambda: self._lookout.foresee(now))
 
 
 class WitnessedWallClock:

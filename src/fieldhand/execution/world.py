@@ -162,6 +162,7 @@ class World:
         readings: By quantity.
         seed: Of every random thing in it, where the run names none.
         charge_percent: Of the battery at the start.
+        meter_step_percent: The battery's meter shows multiples of it; 0 for one that shows the charge as it is.
         begins: The time of day when a mission begins, with its zone; None for a robot without a wall clock.
         source: File, for messages.
         data: What the file held, byte by byte; None for a world from no file.
@@ -171,6 +172,7 @@ class World:
     faults: tuple[WorldFault, ...] = ()
     seed: int = 0
     charge_percent: float = 100.0
+    meter_step_percent: float = 0.0
     begins: datetime | None = None
     source: str = "world"
     data: bytes | None = field(default=None, repr=False, compare=False)
@@ -182,15 +184,27 @@ def load_world(path: Path) -> World:
     Raises:
         WorldError: It cannot be read or used; says which key, and what to do.
     """
-    source = str(path)
     try:
-        data = read_file(path, MAX_BYTES)
+        return decode_world(read_file(path, MAX_BYTES), source=str(path))
+    except FileFault as fault:
+        advice = "is it a world file?" if fault.kind == "too large" else "give the path of a YAML file"
+        raise WorldError(fault.what, where=str(path), advice=advice) from None
+
+
+def decode_world(data: bytes, *, source: str) -> World:
+    """Return the world of the bytes of a YAML file, with these bytes.
+
+    Args:
+        data: The file.
+        source: What to call it in messages.
+
+    Raises:
+        WorldError: It cannot be used; says which key, and what to do.
+    """
+    try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
         raise WorldError("is not UTF-8 text", where=source, advice="save it as UTF-8") from None
-    except FileFault as fault:
-        advice = "is it a world file?" if fault.kind == "too large" else "give the path of a YAML file"
-        raise WorldError(fault.what, where=source, advice=advice) from None
     return replace(parse_world(_content(text, source), source=source), data=data)
 
 

@@ -72,6 +72,7 @@ class WorldModel(Strict):
     faults: tuple[FaultModel, ...] = ()
     seed: Annotated[StrictInt, Field(ge=0)] = 0
     charge_percent: Annotated[float, Field(gt=0, le=100, allow_inf_nan=False)] = 100.0
+    meter_step_percent: Annotated[float, Field(ge=0, le=10, allow_inf_nan=False)] = 0.0
     begins: Annotated[AwareDatetime, AfterValidator(_of_our_time)] | None = None
 
 
@@ -93,6 +94,7 @@ def world_of(content: Mapping[str, Any], *, source: str) -> World:
         faults=tuple(f.made() for f in model.faults),
         seed=model.seed,
         charge_percent=model.charge_percent,
+        meter_step_percent=model.meter_step_percent,
         begins=model.begins,
         source=source,
     )
@@ -104,7 +106,11 @@ def _explained(error: ValidationError, source: str) -> WorldError:
     if len(mistakes) == 1:
         where, what, advice = mistakes[0]
         return WorldError(what, where=": ".join([source, *where]), advice=advice)
-    said = [f"{': '.join([*where, what])}{_hint(advice)}" for where, what, advice in mistakes[:_MOST_NAMED]]
+    said, hints = [], {""}
+    for where, what, advice in mistakes[:_MOST_NAMED]:
+        hint = _hint(advice)
+        said.append(": ".join([*where, what]) + ("" if hint in hints else hint))
+        hints.add(hint)
     more = f"; and {len(mistakes) - _MOST_NAMED} more" if len(mistakes) > _MOST_NAMED else ""
     return WorldError(f"{len(mistakes)} mistakes: {'; '.join(said)}{more}", where=source, advice=GUIDE)
 
@@ -130,7 +136,7 @@ def _meant(problems: Sequence[ErrorDetails]) -> list[ErrorDetails]:
 
 
 def _hint(advice: str) -> str:
-    """What to do about one of several mistakes, where that is its own; where to read is said once, at the end."""
+    """Return what to do about one of several mistakes, if that is its own; the guide is named at the end."""
     return "" if advice in (GUIDE, _CORRECT) else f" ({advice})"
 
 

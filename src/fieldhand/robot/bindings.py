@@ -14,6 +14,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
+from fieldhand.brief import brief_repr
+
 #: Releases whose definitions of the standard interfaces are known; those of nav2_msgs differ between them.
 Distro = Literal["humble", "iron", "jazzy", "kilted"]
 
@@ -188,7 +190,7 @@ class StopBinding:
     stopped: bool = True
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Ros2Bindings:
     """A robot over ROS 2.
 
@@ -211,6 +213,8 @@ class Ros2Bindings:
     actions: Mapping[str, ActionBinding] = field(default_factory=dict)
     interfaces: Mapping[str, str] = field(default_factory=dict)
     use_sim_time: bool = False
+
+    __repr__ = brief_repr
 
     def whole_name(self, name: str) -> str:
         """A name with the robot's namespace before it, beginning with ``/``."""

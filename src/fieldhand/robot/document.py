@@ -157,6 +157,29 @@ class EnergyDocument(Keyed):
     drive_j_per_m: Positive
     idle_w: NotNegative
     reserve_percent: Annotated[Number, Field(ge=0, lt=100)]
+    warn_percent: Annotated[Number, Field(ge=0, le=100)] | None = None
+    return_percent: Annotated[Number, Field(ge=0, le=100)] | None = None
+    stop_percent: Annotated[Number, Field(ge=0, lt=100)] | None = None
+
+    @model_validator(mode="after")
+    def _levels(self) -> EnergyDocument:
+        reserve, warn, home, stop = self.reserve_percent, self.warn_percent, self.return_percent, self.stop_percent
+        if home is not None and home < reserve:
+            raise ValueError(
+                f"return_percent {home:g} is below reserve_percent {reserve:g}; a robot that turns home there cannot"
+                " leave the reserve: give at least as much, or leave the key out"
+            )
+        if warn is not None and warn < max(reserve, home or 0.0):
+            raise ValueError(
+                f"warn_percent {warn:g} is below the charge at which the robot turns home"
+                f" ({max(reserve, home or 0.0):g}); give at least as much, or leave the key out"
+            )
+        if stop is not None and stop > 0.0 and stop >= reserve:
+            raise ValueError(
+                f"stop_percent {stop:g} is not below reserve_percent {reserve:g}; the robot would stop before it may"
+                " come home: give less, or leave the key out"
+            )
+        return self
 
 
 class LegCostDocument(Keyed):

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal
 
+from fieldhand.brief import brief_repr
 from fieldhand.robot.bindings import Ros2Bindings
 
 Direction = Literal["below", "above"]
@@ -115,6 +116,19 @@ class LegCost:
     alpha: float
 
 
+#: Percent of charge between the return level and the warning level where a profile does not say the latter.
+WARN_ABOVE = 10.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class BatteryLevels:
+    """Charge in percent at which a mission says that it is low (``warn``), turns ``home``, and stops (``stop``)."""
+
+    warn: float
+    home: float
+    stop: float
+
+
 @dataclass(frozen=True, kw_only=True)
 class Energy:
     """Energy store and what empties it.
@@ -124,15 +138,31 @@ class Energy:
         drive_j_per_m: For each metre driven.
         idle_w: All the time.
         reserve_percent: Charge that must be left at the end of a mission unless the Task says otherwise.
+        warn_percent, return_percent, stop_percent: Levels of the charge; None for those that follow from the reserve
+            (:meth:`levels`).
     """
 
     capacity_j: float
     drive_j_per_m: float
     idle_w: float
     reserve_percent: float
+    warn_percent: float | None = None
+    return_percent: float | None = None
+    stop_percent: float | None = None
+
+    def levels(self, reserve_percent: float) -> BatteryLevels:
+        """Return the levels of a mission that has to leave so much charge.
+
+        The robot turns home at the reserve at the latest. Where the profile does not say otherwise, it warns
+        :data:`WARN_ABOVE` percent above its return level and stops at half the reserve.
+        """
+        home = max(reserve_percent, self.return_percent or 0.0)
+        warn = min(100.0, home + WARN_ABOVE) if self.warn_percent is None else max(home, self.warn_percent)
+        stop = reserve_percent / 2.0 if self.stop_percent is None else self.stop_percent
+        return BatteryLevels(warn=warn, home=home, stop=stop)
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class RobotProfile:
     """A robot: what it can do and what that costs.
 
@@ -160,6 +190,8 @@ class RobotProfile:
     source: str = ""
     patience: Patience = Patience()
     ros2: Ros2Bindings | None = None
+
+    __repr__ = brief_repr
 
     @cached_property
     def action(self) -> Mapping[str, Action]:

@@ -18,18 +18,24 @@ from fieldhand.execution.behaviors.surroundings import admitted, gives_up_option
 from fieldhand.execution.goals import capture, drive
 from fieldhand.execution.obstacles import open_a_way
 from fieldhand.execution.waiting import Steps
+from fieldhand.language import message
 from fieldhand.site.model import Place
 from fieldhand.task.plan import Act, GoTo, Node, Stop
 from fieldhand.task.results import MissionStatus
 
 
 class Leaf(Behaviour):
-    """A node whose work is a series of steps (:meth:`work`)."""
+    """A node whose work is a series of steps (:meth:`work`).
+
+    Attributes:
+        place: Where the work is, once that is known.
+    """
 
     def __init__(self, name: str, node: Node, attempt: Attempt) -> None:
         super().__init__(name)
         self.node = node
         self.attempt = attempt
+        self.place: Place | None = None
         self._steps: Steps | None = None
 
     def work(self) -> Steps:
@@ -38,6 +44,7 @@ class Leaf(Behaviour):
 
     def initialise(self) -> None:
         """Begin the work afresh."""
+        self.place = None
         self._steps = self.work()
 
     def update(self) -> Status:
@@ -89,7 +96,7 @@ class GoToPlace(Leaf):
 
     def work(self) -> Steps:
         node, attempt = self._goto, self.attempt
-        place = yield from self.stand_at(attempt.resolve_one(node.place))
+        self.place = place = yield from self.stand_at(attempt.resolve_one(node.place))
         yield from self.permission(place, node)
         yield from self.drive(place)
         attempt.bind(node.label, (place,))
@@ -111,6 +118,7 @@ class DoAction(Leaf):
         # A reading of an earlier round must not decide anything if this one fails.
         attempt.readings.pop(node.reading, None)
         place = attempt.here if node.at is None else (yield from self.stand_at(attempt.resolve_one(node.at)))
+        self.place = place
         yield from self.permission(place, node)
         if node.at is not None or attempt.standing != place:
             yield from self.drive(place)
@@ -141,7 +149,7 @@ class EndMission(Leaf):
                 status=status,
                 exit=self._stop.exit,
                 then=then,
-                reason="the plan says to stop here",
+                reason=message("the plan says to stop here", context="log"),
                 node=self._stop.id,
             )
         )

@@ -27,11 +27,12 @@ from fieldhand.execution.waiting import Steps
 from fieldhand.forecast.conditions import evaluate
 from fieldhand.forecast.routes import home_if_last, order_visits, reachable, standing, visits_in_order
 from fieldhand.forecast.state import Choice, Visit
+from fieldhand.language import message
 from fieldhand.site.model import Place
 from fieldhand.task.conditions import Condition
 from fieldhand.task.plan import ForEach, Node, Repeat
 from fieldhand.task.results import Decided, Visiting
-from fieldhand.task.words import listed, say_count
+from fieldhand.task.words import listed
 
 #: So many places are named in a message.
 _NAMED = 8
@@ -193,7 +194,7 @@ class ForEachPlace(Loop):
             self.place = self.cut_off[0].place
             return "round"
         if self._missed:
-            missed = f"{say_count(len(self._missed), 'place')} could not be reached ({_ids(self._missed)})"
+            missed = _missed(self._missed)
             raise BlockedFault(f"{missed}: {self._why}")
         return "done"
 
@@ -313,7 +314,7 @@ class ArriveAtPlace(Leaf):
         self._label = node.label
 
     def work(self) -> Steps:
-        place = self._loop.place
+        self.place = place = self._loop.place
         assert place is not None  # noqa: S101  a round begins with a place
         loop = self._loop
         try:
@@ -338,3 +339,9 @@ class ArriveAtPlace(Leaf):
 
 def _ids(places: Sequence[Place]) -> str:
     return listed([p.id for p in places[:_NAMED]]) + (" and others" if len(places) > _NAMED else "")
+
+
+def _missed(places: Sequence[Place]) -> str:
+    if len(places) == 1:
+        return message("1 place could not be reached ({ids})", context="log", ids=_ids(places))
+    return message("{count} places could not be reached ({ids})", context="log", count=len(places), ids=_ids(places))

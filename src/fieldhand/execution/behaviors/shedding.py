@@ -12,6 +12,7 @@ from fieldhand.errors import DriveFault, FieldhandError, OutputError
 from fieldhand.execution.attempt import Attempt
 from fieldhand.execution.behaviors.surroundings import first_places_of, is_caught, shed, to_come_around
 from fieldhand.forecast.state import Choice
+from fieldhand.language import message
 from fieldhand.site.model import Place
 from fieldhand.task.plan import Optional
 
@@ -67,7 +68,8 @@ class DoIfItFits(Decorator):
         try:
             visit = attempt.visits.of_step(node, state.context)
         except DriveFault as fault:
-            never = Choice(index=None, reason=f"cannot be reached: {fault.what}")
+            why = message("cannot be reached: {why}", context="log", why=fault.what)
+            never = Choice(index=None, reason=why)
             shed(attempt, node.id, first_places_of(node, attempt), never, optional=True, cause="unreachable")
             return False
         self.place = visit.place

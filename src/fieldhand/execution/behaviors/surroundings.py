@@ -13,6 +13,7 @@ from fieldhand.errors import BlockedFault, PlaceError
 from fieldhand.execution.attempt import Attempt, Ending
 from fieldhand.forecast.service import service_of
 from fieldhand.forecast.state import Choice, Verdict, Visit
+from fieldhand.language import message
 from fieldhand.site.model import Place
 from fieldhand.task import plan
 from fieldhand.task.plan import Node
@@ -130,10 +131,40 @@ def gives_up_optional(behavior: Behaviour, attempt: Attempt, fault: BlockedFault
 def turn_home(behavior: Behaviour, node: Node, attempt: Attempt, places: Sequence[Place], verdict: Verdict) -> None:
     """Give up this node and all that would come after it, say so, and take the exit for a low budget."""
     shed(attempt, node.id, places, verdict, optional=False)
-    missed = Verdict(go=False, reason=f"not reached: {verdict.reason}", chance_short=verdict.chance_short)
+    missed = Verdict(go=False, reason=_not_reached(verdict), chance_short=verdict.chance_short)
     for undone, left, optional in left_undone(behavior, attempt):
         shed(attempt, undone.id, left, missed, optional=optional)
     attempt.end(Ending(status="returned", exit="faulted", then=attempt.exit_for("low_budget"), reason=verdict.reason))
+
+
+def give_up_rest(behavior: Behaviour | None, attempt: Attempt, verdict: Verdict) -> None:
+    """Say that the work in hand and all that would come after it is given up.
+
+    Args:
+        behavior: The leaf that was ticked last.
+        attempt: The state of the mission.
+        verdict: Why.
+    """
+    from fieldhand.execution.behaviors.leaves import Leaf
+    from fieldhand.execution.behaviors.loops import ForEachPlace
+
+    if behavior is None:
+        return
+    optional = optional_around(behavior)
+    if optional is not None:
+        places = [] if optional.place is None else [optional.place]
+        if isinstance(optional, ForEachPlace):
+            places += optional.undone()
+        shed(attempt, optional.node.id, places, verdict, optional=True)
+    elif isinstance(behavior, Leaf):
+        shed(attempt, behavior.node.id, [] if behavior.place is None else [behavior.place], verdict, optional=False)
+    missed = Verdict(go=False, reason=_not_reached(verdict))
+    for undone, left, is_optional in left_undone(behavior if optional is None else optional, attempt):
+        shed(attempt, undone.id, left, missed, optional=is_optional)
+
+
+def _not_reached(verdict: Verdict) -> str:
+    return message("not reached: {why}", context="log", why=verdict.reason)
 
 
 def left_undone(behavior: Behaviour, attempt: Attempt) -> Iterator[tuple[Node, Sequence[Place], bool]]:

@@ -31,6 +31,7 @@ from fieldhand.execution.world import (
     Truth,
     World,
 )
+from fieldhand.language import message
 from fieldhand.robot.model import Quantity, RobotProfile
 from fieldhand.site.model import Place, Site
 
@@ -95,7 +96,7 @@ class GroundTruth:
         """
         for number, fault in enumerate(self._faults):
             if isinstance(fault, ActionFails) and fault.action == action and self._strikes(number, place, counted):
-                return {}, f"{action} gave an error"
+                return {}, message("{action} gave an error", context="log", action=action)
         readings: dict[str, float] = {}
         for name in self._robot.action[action].measures:
             value = self._sensed(self._robot.quantity[name], place, counted)
@@ -106,7 +107,7 @@ class GroundTruth:
     def drive_fails(self, place: Place) -> str:
         """Why a drive to a place fails half-way; empty if it does not. Counts it if so."""
         fails = (n for n, fault in enumerate(self._faults) if isinstance(fault, DriveFails) and self._strikes(n, place))
-        return "the drive gave an error" if next(fails, None) is not None else ""
+        return message("the drive gave an error", context="log") if next(fails, None) is not None else ""
 
     def obstacle(self, path: tuple[Point, ...], when: Callable[[float], float]) -> Hindrance | None:
         """What stops a drive first; None if nothing does.
@@ -122,7 +123,8 @@ class GroundTruth:
             reach = _enters(path, self._middles[number], fault.within_m)
             until_s = math.inf if fault.until_s is None else fault.until_s
             if reach is not None and fault.from_s <= when(reach) < until_s:
-                found.append((reach, number, f"something stands in the way {self._said(number)}"))
+                there = message("something stands in the way {where}", context="log", where=self._said(number))
+                found.append((reach, number, there))
         if not found:
             return None
         at_m, number, what = min(found)
@@ -157,7 +159,8 @@ class GroundTruth:
         fault = self._faults[number]
         assert isinstance(fault, LocalisationLost)  # noqa: S101  as filtered above
         for_s = math.inf if fault.for_s is None else fault.for_s
-        return Hindrance(at_m=at_m, number=number, what=f"no position {self._said(number)}", for_s=for_s)
+        what = message("no position {where}", context="log", where=self._said(number))
+        return Hindrance(at_m=at_m, number=number, what=what, for_s=for_s)
 
     @property
     def lost_spans(self) -> tuple[tuple[float, float], ...]:
@@ -181,9 +184,9 @@ class GroundTruth:
         """Where a fault is, in words."""
         tree = self._trees.get(number)
         if tree is not None:
-            return f"at tree {tree.id}"
+            return message("at tree {id}", context="log", id=tree.id)
         one, two = self._between[number]
-        return f"between tree {one.id} and tree {two.id}"
+        return message("between tree {one} and tree {two}", context="log", one=one.id, two=two.id)
 
     def _sensed(self, quantity: Quantity, place: Place, counted: bool) -> float | None:
         for number, fault in enumerate(self._faults):

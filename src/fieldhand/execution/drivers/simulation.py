@@ -15,6 +15,7 @@ from fieldhand.execution.drivers.memory import Memory
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, GoalFault, GoalState, Position, Progress
 from fieldhand.execution.world import World
 from fieldhand.forecast.routes import beginning, drives_for
+from fieldhand.language import message
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 
@@ -95,6 +96,7 @@ class SimulatedDriver:
         self._rng = rng
         self._begun_s = clock.now()
         self._charge = world.charge_percent
+        self._meter_step = world.meter_step_percent
         self._charged_s = self._begun_s
         start = beginning(drives_for(site, robot))
         self._xy: Point = start.stand or start.xy
@@ -193,6 +195,11 @@ class SimulatedDriver:
         return Position(x=x, y=y, lat=float(lat), lon=float(lon))
 
     def charge_percent(self) -> float:
+        left, step = self._left(), self._meter_step
+        return left if step <= 0.0 else min(100.0, step * round(left / step))
+
+    def _left(self) -> float:
+        """Charge that is in the battery, whatever its meter shows."""
         left = self._charge
         if self._course is not None:
             left -= self._used(self._course, self._course.done_at(self._clock.now()))
@@ -221,7 +228,7 @@ class SimulatedDriver:
             seconds=self._clock.now() - self._begun_s,
             x=here.x,
             y=here.y,
-            charge_percent=self.charge_percent(),
+            charge_percent=self._left(),
             generator=self._rng.bit_generator.state,
             values_seed=self._truth.seed,
             captures=captures,
@@ -248,7 +255,7 @@ class SimulatedDriver:
     def _begin(self) -> None:
         if not self.poll().over:
             raise RuntimeError("a goal is running: a driver has one at a time")
-        self._charge, self._charged_s = self.charge_percent(), self._clock.now()
+        self._charge, self._charged_s = self._left(), self._clock.now()
 
     def _set_out(self, course: _Course) -> None:
         """Begin a course; it ends where the robot gets lost or the battery is empty."""
@@ -260,10 +267,10 @@ class SimulatedDriver:
             course = replace(course.cut(0.0), what=why, fault="lost")
         elif lost_s:
             part = max(0.0, min(lost_s)) / course.lasts_s
-            course = replace(course.cut(part), what="no position", fault="lost")
+            course = replace(course.cut(part), what=message("no position", context="log"), fault="lost")
         if self._used(course, 1.0) > self._charge:
             part = self._lasting(course)
-            course = replace(course.cut(part), what="the battery is empty", fault="empty")
+            course = replace(course.cut(part), what=message("the battery is empty", context="log"), fault="empty")
         self._course = course
 
     def _lasting(self, course: _Course) -> float:

@@ -1,13 +1,9 @@
-"""Orders from another process, and the lock that lets one process at a time carry a mission out.
-
-Orders have a file of their own, so that no one who gives one can hold up the journal.
-"""
+"""Orders from another process. They have a file of their own, so that no one who gives one can hold up the journal."""
 
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Iterator
-from contextlib import closing, contextmanager
+from contextlib import closing
 from pathlib import Path
 from typing import Literal, cast
 
@@ -37,6 +33,7 @@ class Desk:
     def __init__(self, path: Path) -> None:
         self._path = path
         self._db: sqlite3.Connection | None = None
+        self._file: tuple[int, int] | None = None
         self._before: Order | None = None
 
     def create(self) -> None:
@@ -46,7 +43,7 @@ class Desk:
             JournalError: It cannot be written.
         """
         try:
-            with closing(self._connect()) as db:
+            with closing(self._connect("rwc")) as db:
                 db.execute("PRAGMA journal_mode=WAL")
                 db.execute("CREATE TABLE orders (n INTEGER PRIMARY KEY, said TEXT NOT NULL, reason TEXT NOT NULL)")
         except sqlite3.Error as error:
@@ -75,15 +72,18 @@ class Desk:
             raise self._unusable(error) from None
 
     def standing(self) -> Order | None:
-        """The order that stands. A file that cannot be read is an order to stop: nobody could give another."""
+        """Return the order that stands. A file that cannot be read is an order to stop: nobody could give another."""
         try:
-            self._db = self._db or self._connect()
+            if self._db is None:
+                self._db, self._file = self._connect(), self._identity()
+            elif self._identity() != self._file:
+                return Order(wanted="abort", reason="its orders cannot be read: their file was replaced")
             row = self._db.execute("SELECT n, said, reason FROM orders ORDER BY n DESC LIMIT 1").fetchone()
         except sqlite3.OperationalError as error:
             if "locked" in str(error) or "busy" in str(error):
                 return self._before
             return Order(wanted="abort", reason=f"its orders cannot be read: {error}")
-        except sqlite3.Error as error:
+        except (sqlite3.Error, OSError) as error:
             return Order(wanted="abort", reason=f"its orders cannot be read: {error}")
         if row is not None:
             self._before = Order(wanted=cast("Wanted", row[1]), reason=row[2], number=row[0])
@@ -107,46 +107,16 @@ class Desk:
         row = db.execute("SELECT n, said FROM orders ORDER BY n DESC LIMIT 1").fetchone()
         return (0, "") if row is None else (row[0], row[1])
 
-    def _connect(self) -> sqlite3.Connection:
-        return sqlite3.connect(self._path, isolation_level=None, timeout=2.0)
+    def _connect(self, mode: str = "rw") -> sqlite3.Connection:
+        """Open the file; only ``rwc`` makes one that is not there."""
+        uri = f"{self._path.absolute().as_uri()}?mode={mode}"
+        db = sqlite3.connect(uri, uri=True, isolation_level=None, timeout=2.0)
+        db.execute("PRAGMA synchronous=FULL")
+        return db
+
+    def _identity(self) -> tuple[int, int]:
+        found = self._path.lstat()
+        return found.st_dev, found.st_ino
 
     def _unusable(self, error: sqlite3.Error) -> JournalError:
         return JournalError(f"the orders of the mission cannot be used: {error}", where=str(self._path))
-
-
-@contextmanager
-def alone(path: Path) -> Iterator[None]:
-    """Within this no other process carries the mission out. The lock dies with the process that holds it.
-
-    Raises:
-        JournalError: Another one does.
-    """
-    lock = sqlite3.connect(path, isolation_level=None, timeout=0.5)
-    try:
-        try:
-            lock.execute("BEGIN EXCLUSIVE")
-        except sqlite3.Error as error:
-            raise JournalError(
-                "another process is carrying this mission out"
-                if "locked" in str(error)
-                else f"the lock of the mission cannot be used: {error}",
-                where=str(path.parent),
-                advice="fieldhand status says what it does",
-            ) from None
-        yield
-    finally:
-        lock.close()
-
-
-def taken(path: Path) -> bool:
-    """Whether a process is carrying the mission out."""
-    if not path.exists():
-        return False
-    with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True, timeout=0.0)) as lock:
-        try:
-            lock.execute("SELECT count(*) FROM sqlite_master").fetchone()
-        except sqlite3.OperationalError as error:
-            return "locked" in str(error)
-        except sqlite3.Error:
-            return False
-    return False

@@ -13,10 +13,12 @@ from fieldhand.errors import FieldhandError, JournalError
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Position, Progress
 from fieldhand.execution.orders import Order
 from fieldhand.forecast.state import Choice, Verdict
+from fieldhand.forecast.underway import Foresight
 
 #: ``sight``: what was seen at one instant. ``begun``: a goal is about to begin. ``cancel``: its end is asked for.
 #: ``admit``, ``choose``: an answer of the guard. ``cut``: here the power was cut. ``interrupt``: Ctrl-C a second time.
-Kind = Literal["sight", "begun", "cancel", "admit", "choose", "cut", "interrupt"]
+#: ``foresee``: the lookout's alarm; an answer without one is not kept.
+Kind = Literal["sight", "begun", "cancel", "admit", "choose", "foresee", "cut", "interrupt"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -165,6 +167,23 @@ def choice_of(record: Record, node: str) -> Choice:
     try:
         return Choice(**{**answer, "shed": tuple(answer["shed"])})
     except (TypeError, KeyError) as error:
+        raise garbled(error) from None
+
+
+def foresight_record(said: Foresight) -> Record:
+    """An alarm of the lookout."""
+    return Record(kind="foresee", body=json.dumps(dataclasses.asdict(said)))
+
+
+def foresight_of(record: Record) -> Foresight:
+    """The alarm of a record.
+
+    Raises:
+        JournalError: It is none.
+    """
+    try:
+        return Foresight(**json.loads(record.body))
+    except (ValueError, TypeError) as error:
         raise garbled(error) from None
 
 

@@ -7,27 +7,35 @@ events are committed together, so that they never contradict one another.
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import closing, contextmanager, suppress
+import stat
+from collections import deque
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, closing, contextmanager, suppress
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from types import TracebackType
 
 from fieldhand.errors import JournalError
+from fieldhand.execution.journal.chain import Head, extended, require_chain, start
+from fieldhand.execution.journal.mark import Mark, MarkFile, create_mark, mark_path, read_mark
 from fieldhand.execution.journal.records import Record, diverged
 from fieldhand.execution.log import EventLog
+from fieldhand.folders import FolderLock, FolderTaken, Unguarded, require_own_file
 
-#: Of the file; a program that writes another one refuses this.
-FORMAT = 1
+#: Of the file; a program that writes another one refuses this. Rows of format 1 have no checksums: a journal of that
+#: format is read, and gets them when it is gone on with.
+FORMAT, WITHOUT_CHECKSUMS = 2, 1
 
 #: SQLite waits for the disk at every commit. Less is for tests, which do not pull the plug of the machine.
 SYNCHRONOUS = "FULL"
 
 _TABLES = (
     "CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
-    "CREATE TABLE tape (n INTEGER PRIMARY KEY, kind TEXT NOT NULL, body TEXT NOT NULL)",
-    "CREATE TABLE events (n INTEGER PRIMARY KEY, at TEXT NOT NULL, line TEXT NOT NULL)",
+    "CREATE TABLE tape (n INTEGER PRIMARY KEY, kind TEXT NOT NULL, body TEXT NOT NULL, sha256 BLOB NOT NULL)",
+    "CREATE TABLE events (n INTEGER PRIMARY KEY, at TEXT NOT NULL, line TEXT NOT NULL, sha256 BLOB NOT NULL)",
 )
+_COLUMNS = {"tape": "CAST(kind AS TEXT), CAST(body AS TEXT)", "events": "CAST(at AS TEXT), CAST(line AS TEXT)"}
 #: What SQLite says where the file is sound and cannot be written all the same, and what to do.
 _CANNOT = {
     "full": "free some space, then fieldhand resume",
@@ -37,10 +45,12 @@ _CANNOT = {
     "locked": "end the other program that has it open",
 }
 _ANEW = "carry the Task out as a new mission"
+_RESUME = "see whether the disk is sound and has space, then fieldhand resume"
+_OLDER = "bring the journal back with its -wal file, or carry out what is left as a new mission"
 
 
 def create(path: Path, mission: str) -> None:
-    """Make the empty journal of a mission.
+    """Make the empty journal of a mission, and its mark beside it.
 
     Args:
         path: A file that is not there yet.
@@ -49,18 +59,24 @@ def create(path: Path, mission: str) -> None:
     Raises:
         JournalError: It cannot be written.
     """
-    with _said(path), closing(sqlite3.connect(path, isolation_level=None)) as db:
-        db.execute("PRAGMA journal_mode=WAL")
-        db.execute(f"PRAGMA synchronous={SYNCHRONOUS}")
-        db.execute("BEGIN IMMEDIATE")
-        for table in _TABLES:
-            db.execute(table)
-        db.executemany("INSERT INTO about VALUES (?, ?)", [("format", str(FORMAT)), ("mission", mission)])
-        db.execute("COMMIT")
+    heads = {table: start(table) for table in ("tape", "events")}
+    with _said(path):
+        create_mark(mark_path(path), Mark(epoch=0, heads=heads))
+        with closing(_connect(path)) as db:
+            db.execute("BEGIN IMMEDIATE")
+            for table in _TABLES:
+                db.execute(table)
+            about = {"format": str(FORMAT), "mission": mission, "epoch": "0", "rows": _rows(heads)}
+            db.executemany("INSERT INTO about VALUES (?, ?)", list(about.items()))
+            db.execute("COMMIT")
 
 
 class Journal:
-    """A :class:`~fieldhand.execution.journal.records.Tape` on the disk.
+    """A :class:`~fieldhand.execution.journal.records.Tape` on the disk, open for writing.
+
+    The folder is locked as long as it is open. Each opening has a number of its own, its epoch, and each commit checks
+    in the same transaction that no later opening has written another one: where the lock did not keep two writers
+    apart, the earlier one stops.
 
     Args:
         path: Of the journal.
@@ -72,24 +88,28 @@ class Journal:
         before: The lines of the events that it held when it was opened.
 
     Raises:
-        JournalError: It is damaged, of another mission, or the log holds more than it does.
+        JournalError: It is in use, damaged, of another mission, or older than its mark or the log say.
     """
 
     def __init__(self, path: Path, mission: str, log: Path, tell: Callable[[str], None]) -> None:
         self._path, self._tell = path, tell
-        with _said(path):
-            self._db = _open(path, mission)
-            found = self._db.execute("PRAGMA quick_check(1)").fetchone()
-            if found != ("ok",):
-                raise JournalError(f"the journal is damaged: {found[0]}", where=str(path), advice=_ANEW)
-            self._tape = [Record(kind=k, body=b) for k, b in self._db.execute("SELECT kind, body FROM tape ORDER BY n")]
-            self.before = tuple(line for (line,) in self._db.execute("SELECT line FROM events ORDER BY n"))
+        with _said(path), ExitStack() as stack:
+            stack.enter_context(_locked(path.parent))
+            self._db = stack.enter_context(closing(_open(path, mission)))
+            opened = _take_over(self._db, path)
+            self._tape, self.before, self._epoch = opened.tape, opened.lines, opened.epoch
+            self._heads: dict[str, Head] = opened.heads
+            self._log = stack.enter_context(closing(mended(log, self.before)))
+            self._mark = stack.enter_context(closing(MarkFile(mark_path(path))))
+            self._mark.write(Mark(epoch=self._epoch, heads=self._heads), stored=True)
+            self._files = _identity(path)
+            self._open = stack.pop_all()
         self._read = self._said = 0
-        self._next = len(self._tape) + 1
-        self._records: list[tuple[int, str, str]] = []
-        self._events: list[tuple[int, str, str]] = []
+        self._records: list[tuple[str, str]] = []
+        self._events: list[tuple[str, str]] = []
+        self._untold: deque[str] = deque()
         self._order = 0
-        self._log = mended(log, self.before)
+        self._failed = False
 
     def next(self) -> Record | None:
         if self._read >= len(self._tape):
@@ -98,13 +118,12 @@ class Journal:
         return self._tape[self._read - 1]
 
     def append(self, record: Record) -> None:
-        self._records.append((self._next, record.kind, record.body))
-        self._next += 1
+        self._records.append((record.kind, record.body))
 
     def event(self, line: str) -> None:
         self._said += 1
         if self._said > len(self.before):
-            self._events.append((self._said, datetime.now(UTC).isoformat(timespec="milliseconds"), line))
+            self._events.append((datetime.now(UTC).isoformat(timespec="milliseconds"), line))
         elif line != self.before[self._said - 1]:
             raise diverged(f"event {self._said} was {self.before[self._said - 1]}, now it would be {line}")
 
@@ -113,29 +132,82 @@ class Journal:
         return bool(self._events)
 
     def commit(self, *, order: int = 0) -> None:
+        if self._failed:
+            # What the disk holds after a write that failed is not known before the journal is read again.
+            raise JournalError("the journal could not be written before", where=str(self._path), advice=_RESUME)
         with _said(self._path):
-            self._db.execute("BEGIN IMMEDIATE")
-            try:
-                # A commit that Ctrl-C cut off may be done all the same: then these rows are there.
-                self._db.executemany("INSERT OR IGNORE INTO tape VALUES (?, ?, ?)", self._records)
-                self._db.executemany("INSERT OR IGNORE INTO events VALUES (?, ?, ?)", self._events)
-                if order != self._order:
-                    self._db.execute("INSERT OR REPLACE INTO about VALUES ('heard', ?)", [str(order)])
-                self._db.execute("COMMIT")
-            except BaseException:
+            # Before, so that the stop to which this leads is no part of the mission; and behind, for it counts then.
+            self._require_in_place()
+            self._write(order)
+            self._require_in_place()
+            self._mark.write(Mark(epoch=self._epoch, heads=self._heads))
+        while self._untold:
+            self._log.line(self._untold[0])
+            self._tell(self._untold[0])
+            self._untold.popleft()
+
+    def _write(self, order: int) -> None:
+        """Write what is new in one transaction."""
+        db, heads, committing = self._db, dict(self._heads), False
+        try:
+            db.execute("BEGIN IMMEDIATE")
+            self._require_own_epoch()
+            tape, heads["tape"] = _numbered(heads["tape"], self._records)
+            events, heads["events"] = _numbered(heads["events"], self._events)
+            db.executemany("INSERT INTO tape VALUES (?, ?, ?, ?)", tape)
+            db.executemany("INSERT INTO events VALUES (?, ?, ?, ?)", events)
+            about = {"rows": _rows(heads)} | ({"heard": str(order)} if order != self._order else {})
+            db.executemany("INSERT OR REPLACE INTO about VALUES (?, ?)", list(about.items()))
+            committing = True
+            db.execute("COMMIT")
+        except BaseException as error:
+            # Ctrl-C behind a commit that is done; whatever else it is, nothing was written.
+            done = committing and not db.in_transaction and not isinstance(error, sqlite3.Error)
+            if done:
+                self._settle(heads, order)
+            else:
+                self._failed = isinstance(error, Exception)
                 with suppress(sqlite3.Error):
-                    self._db.execute("ROLLBACK")
-                raise
-        self._order = order
-        events, self._records, self._events = self._events, [], []
-        for _, _, line in events:
-            self._log.line(line)
-            self._tell(line)
+                    db.execute("ROLLBACK")
+            raise
+        self._settle(heads, order)
+
+    def _settle(self, heads: dict[str, Head], order: int) -> None:
+        """Count as stored what was to be written."""
+        self._untold.extend(line for _, line in self._events)
+        self._heads, self._order, self._records, self._events = heads, order, [], []
+
+    def _require_in_place(self) -> None:
+        """Refuse to write to files that were deleted, or that lie elsewhere now.
+
+        Raises:
+            JournalError: They do.
+        """
+        if _identity(self._path) != self._files:
+            self._failed = True
+            raise JournalError(
+                "the journal that this mission writes is not at its place any more",
+                where=str(self._path),
+                advice="bring the mission's folder back as it was, then fieldhand resume",
+            )
+
+    def _require_own_epoch(self) -> None:
+        found = self._db.execute("SELECT value FROM about WHERE key = 'epoch'").fetchone()
+        if found != (str(self._epoch),):
+            raise JournalError(
+                "another process has taken this mission over, and this one stops",
+                where=str(self._path),
+                advice="fieldhand status says what the other one does",
+            )
 
     def close(self) -> None:
-        """Let go of the files."""
-        self._db.close()
-        self._log.close()
+        """Close the files and release the folder.
+
+        Raises:
+            JournalError: The disk fails.
+        """
+        with _said(self._path):
+            self._open.close()
 
     def __enter__(self) -> Journal:
         return self
@@ -144,6 +216,151 @@ class Journal:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Opened:
+    """The contents of a journal when it was opened for writing."""
+
+    tape: list[Record]
+    lines: tuple[str, ...]
+    heads: dict[str, Head]
+    epoch: int
+
+
+def _take_over(db: sqlite3.Connection, path: Path) -> _Opened:
+    """Read and check a journal, and begin its next epoch, in one transaction.
+
+    Raises:
+        JournalError: It is damaged, or older than its mark.
+    """
+    db.execute("BEGIN IMMEDIATE")
+    try:
+        found = db.execute("PRAGMA quick_check(1)").fetchone()
+        if found != ("ok",):
+            raise JournalError(f"the journal is damaged: {found[0]}", where=str(path), advice=_ANEW)
+        about = dict(db.execute("SELECT key, value FROM about"))
+        if about.get("format") == str(WITHOUT_CHECKSUMS):
+            _add_checksums(db, path)
+            about = dict(db.execute("SELECT key, value FROM about"))
+        tape, tape_heads = _checked(db, "tape", path)
+        events, event_heads = _checked(db, "events", path)
+        heads = {"tape": tape_heads[-1], "events": event_heads[-1]}
+        if about.get("rows") != _rows(heads):
+            raise JournalError("rows are missing at its end", where=str(path), advice=_ANEW)
+        epoch = int(about.get("epoch", ""))
+        _require_mark(read_mark(mark_path(path)), epoch, {"tape": tape_heads, "events": event_heads}, path)
+        db.execute("UPDATE about SET value = ? WHERE key = 'epoch'", [str(epoch + 1)])
+        db.execute("COMMIT")
+    except BaseException:
+        with suppress(sqlite3.Error):
+            db.execute("ROLLBACK")
+        raise
+    return _Opened(
+        tape=[Record(kind=kind, body=body) for kind, body in tape],
+        lines=tuple(line for _, line in events),
+        heads=heads,
+        epoch=epoch + 1,
+    )
+
+
+def _checked(
+    db: sqlite3.Connection, table: str, path: Path, *, after: int = 0, most: int = -1
+) -> tuple[list[tuple[str, str]], list[Head]]:
+    """Rows of a table without numbers and checksums, and the heads before and behind each.
+
+    Args:
+        db: The journal.
+        table: Its name.
+        path: Of the journal.
+        after: Number of the row behind which to begin.
+        most: So many rows at most; -1 for all.
+
+    Raises:
+        JournalError: A row is missing, or is not the one that was written.
+    """
+    head = start(table)
+    if after:
+        found = db.execute(f"SELECT sha256 FROM {table} WHERE n = ?", [after]).fetchone()  # noqa: S608
+        if found is None:
+            return [], [head]
+        head = Head(rows=after, sha256=found[0])
+    rows = db.execute(
+        f"SELECT n, {_COLUMNS[table]}, sha256 FROM {table} WHERE n > ? ORDER BY n LIMIT ?",  # noqa: S608
+        [after, most],
+    ).fetchall()
+    heads = require_chain(head, table, ((n, sum_, (one, two)) for n, one, two, sum_ in rows), str(path))
+    return [(one, two) for _, one, two, _ in rows], heads
+
+
+def _require_mark(mark: Mark, epoch: int, heads: Mapping[str, Sequence[Head]], path: Path) -> None:
+    """Refuse a journal that had come further than it says now."""
+    for table, reached in mark.heads.items():
+        there = heads[table]
+        if mark.epoch > epoch or reached.rows >= len(there) or there[reached.rows] != reached:
+            raise JournalError(
+                f"the journal is older than the mission: {len(there) - 1} rows of its {table} are there, and"
+                f" {reached.rows} were written; it would do again what was done since",
+                where=str(path),
+                advice=_OLDER,
+            )
+
+
+def _add_checksums(db: sqlite3.Connection, path: Path) -> None:
+    """Bring a journal of the first format, and its mark, to this one."""
+    heads = {table: start(table) for table in ("tape", "events")}
+    for table in heads:
+        rows = db.execute(f"SELECT {_COLUMNS[table]} FROM {table} ORDER BY n").fetchall()  # noqa: S608
+        numbered, heads[table] = _numbered(heads[table], rows)
+        db.execute(f"ALTER TABLE {table} RENAME TO old_{table}")
+        db.execute(next(made for made in _TABLES if made.startswith(f"CREATE TABLE {table} ")))
+        db.executemany(f"INSERT INTO {table} VALUES (?, ?, ?, ?)", numbered)  # noqa: S608
+        db.execute(f"DROP TABLE old_{table}")
+    about = {"format": str(FORMAT), "epoch": "0", "rows": _rows(heads)}
+    db.executemany("INSERT OR REPLACE INTO about VALUES (?, ?)", list(about.items()))
+    create_mark(mark_path(path), Mark(epoch=0, heads=heads))
+
+
+def _numbered(head: Head, rows: Sequence[tuple[str, str]]) -> tuple[list[tuple[int, str, str, bytes]], Head]:
+    """Rows as they are written behind a head, and the head behind them."""
+    found = []
+    for one, two in rows:
+        head = extended(head, one, two)
+        found.append((head.rows, one, two, head.sha256))
+    return found, head
+
+
+def _rows(heads: Mapping[str, Head]) -> str:
+    return " ".join(f"{table}={head.rows}" for table, head in sorted(heads.items()))
+
+
+def _locked(folder: Path) -> FolderLock:
+    """Lock the folder of a journal.
+
+    Raises:
+        JournalError: Another process carries the mission out.
+    """
+    try:
+        return FolderLock(folder)
+    except FolderTaken:
+        raise JournalError(
+            "another process is carrying this mission out",
+            where=str(folder),
+            advice="fieldhand status says what it does",
+        ) from None
+
+
+def _identity(path: Path) -> tuple[tuple[int, int] | None, ...]:
+    """Return the inodes at the paths of a journal and its write-ahead log."""
+    return tuple(_inode(one) for one in (path, path.with_name(f"{path.name}-wal")))
+
+
+def _inode(path: Path) -> tuple[int, int] | None:
+    try:
+        found = path.lstat()
+    except FileNotFoundError:
+        return None
+    return found.st_dev, found.st_ino
 
 
 def mended(path: Path, lines: Sequence[str]) -> EventLog:
@@ -180,44 +397,89 @@ def mended(path: Path, lines: Sequence[str]) -> EventLog:
 
 
 def heard(path: Path) -> tuple[int, tuple[tuple[str, str], ...], Record | None, Record | None]:
-    """What a journal says to one who only looks: last order heard, (time, line) of its events, last sight, last record.
+    """Read a journal without taking it over: last order heard, (time, line) of its events, last sight, last goal.
 
     Raises:
-        JournalError: It cannot be read.
+        JournalError: It cannot be read, or an event is not the one that was written.
     """
     with _said(path), closing(_open(path, None)) as db:
-        order = db.execute("SELECT value FROM about WHERE key = 'heard'").fetchone()
-        events = tuple(db.execute("SELECT at, line FROM events ORDER BY n"))
+        db.execute("BEGIN")
+        about = dict(db.execute("SELECT key, value FROM about"))
+        if about.get("format") == str(WITHOUT_CHECKSUMS):
+            events = db.execute(f"SELECT {_COLUMNS['events']} FROM events ORDER BY n").fetchall()  # noqa: S608
+        else:
+            events = _checked(db, "events", path)[0]
         sight = db.execute("SELECT kind, body FROM tape WHERE kind = 'sight' ORDER BY n DESC LIMIT 1").fetchone()
         goal = db.execute("SELECT kind, body FROM tape WHERE kind = 'begun' ORDER BY n DESC LIMIT 1").fetchone()
+        db.execute("COMMIT")
     return (
-        int(order[0]) if order else 0,
-        events,
+        int(about.get("heard", 0)),
+        tuple(events),
         Record(kind=sight[0], body=sight[1]) if sight else None,
         Record(kind=goal[0], body=goal[1]) if goal else None,
     )
 
 
 def lines_after(path: Path, after: int, most: int) -> tuple[tuple[int, str, str], ...]:
-    """(number, time, line) of the events behind number ``after``, in order, so many at most.
+    """Return (number, time, line) of the events behind number ``after``, in order, so many at most.
 
     Raises:
-        JournalError: It cannot be read.
+        JournalError: The journal cannot be read, or an event is not the one that was written.
     """
     with _said(path), closing(_open(path, None)) as db:
-        return tuple(db.execute("SELECT n, at, line FROM events WHERE n > ? ORDER BY n LIMIT ?", (after, most)))
+        db.execute("BEGIN")
+        about = dict(db.execute("SELECT key, value FROM about"))
+        if about.get("format") == str(WITHOUT_CHECKSUMS):
+            return tuple(db.execute("SELECT n, at, line FROM events WHERE n > ? ORDER BY n LIMIT ?", (after, most)))
+        events = _checked(db, "events", path, after=after, most=most)[0]
+    return tuple((n, at, line) for n, (at, line) in enumerate(events, start=after + 1))
+
+
+def _connect(path: Path) -> sqlite3.Connection:
+    db = sqlite3.connect(path, isolation_level=None, timeout=5.0)
+    try:
+        db.execute("PRAGMA journal_mode=WAL")
+        db.execute(f"PRAGMA synchronous={SYNCHRONOUS}")
+        # On macOS fsync leaves the data in the drive's own memory.
+        db.execute("PRAGMA fullfsync=ON")
+        db.execute("PRAGMA checkpoint_fullfsync=ON")
+    except BaseException:
+        db.close()
+        raise
+    return db
 
 
 def _open(path: Path, mission: str | None) -> sqlite3.Connection:
-    if not path.is_file():
-        raise JournalError("the mission has no journal", where=str(path), advice=_ANEW)
-    db = sqlite3.connect(path, isolation_level=None, timeout=5.0)
-    db.execute("PRAGMA journal_mode=WAL")
-    db.execute(f"PRAGMA synchronous={SYNCHRONOUS}")
-    about = dict(db.execute("SELECT key, value FROM about"))
-    if about.get("format") != str(FORMAT):
+    _require_plain(path)
+    db = _connect(path)
+    try:
+        _require_about(dict(db.execute("SELECT key, value FROM about")), mission, path)
+    except BaseException:
+        db.close()
+        raise
+    return db
+
+
+def _require_plain(path: Path) -> None:
+    """Refuse what is no file of the user's own: under two names SQLite would keep two logs of one journal."""
+    try:
+        found = path.lstat()
+    except FileNotFoundError:
+        raise JournalError("the mission has no journal", where=str(path), advice=_ANEW) from None
+    if not stat.S_ISREG(found.st_mode) or found.st_nlink != 1:
         raise JournalError(
-            f"the journal has format {about.get('format')}, this version reads {FORMAT}",
+            "the journal is a link, or has a second name", where=str(path), advice="bring back the file itself"
+        )
+    try:
+        require_own_file(path, found)
+    except Unguarded as fault:
+        raise JournalError(f"the journal {fault.what}", where=str(path), advice=fault.advice) from None
+
+
+def _require_about(about: Mapping[str, str], mission: str | None, path: Path) -> None:
+    if about.get("format") not in (str(FORMAT), str(WITHOUT_CHECKSUMS)):
+        raise JournalError(
+            f"the journal has format {about.get('format')}, this version reads {WITHOUT_CHECKSUMS} and {FORMAT}",
             where=str(path),
             advice="resume with the version of Fieldhand that began it",
         )
@@ -227,16 +489,23 @@ def _open(path: Path, mission: str | None) -> sqlite3.Connection:
             where=str(path),
             advice="bring back the folder as the mission left it",
         )
-    return db
 
 
 @contextmanager
 def _said(path: Path) -> Iterator[None]:
-    """What SQLite complains of, in words."""
+    """Turn what SQLite or the system complains of into a JournalError."""
     try:
         yield
-    except sqlite3.DatabaseError as error:
+    except sqlite3.IntegrityError as error:
+        raise JournalError(
+            f"the journal holds rows that another process has written ({error})", where=str(path), advice=_ANEW
+        ) from None
+    except (sqlite3.DatabaseError, ValueError) as error:
         for sign, advice in _CANNOT.items():
             if sign in str(error):
                 raise JournalError(f"the journal cannot be written: {error}", where=str(path), advice=advice) from None
         raise JournalError(f"the journal is damaged: {error}", where=str(path), advice=_ANEW) from None
+    except OSError as error:
+        raise JournalError(
+            f"the journal cannot be written: {error.strerror or error}", where=str(path), advice=_RESUME
+        ) from None

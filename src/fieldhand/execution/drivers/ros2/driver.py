@@ -84,6 +84,7 @@ class Ros2Driver:
             bindings,
             speed_m_s=robot.speed_m_s,
             position=self._where,
+            stamp_s=lambda: self._senses.stamp_s,
             clock=clock.now,
             steady=steady,
             new_id=new_id,

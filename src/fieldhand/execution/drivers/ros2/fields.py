@@ -60,6 +60,17 @@ def number_at(message: Message, binding: FieldBinding) -> float | None:
     return number if math.isfinite(number) else None
 
 
+def seconds_at(message: Message, path: str) -> float | None:
+    """Return the seconds of the ``builtin_interfaces/msg/Time`` at a path; None where there is none or it is 0."""
+    stamp = value_at(message, path)
+    if not isinstance(stamp, Mapping):
+        return None
+    seconds, nanoseconds = stamp.get("sec"), stamp.get("nanosec")
+    if not isinstance(seconds, int) or not isinstance(nanoseconds, int):
+        return None
+    return seconds + 1e-9 * nanoseconds or None
+
+
 def message_of(values: Mapping[str, object]) -> Message:
     """A message of values by their paths. Of an array, every element up to the last that is named must be.
 

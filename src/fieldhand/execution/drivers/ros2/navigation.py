@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import DriveGoal, Position
 from fieldhand.execution.drivers.ros2.asking import Limit
-from fieldhand.execution.drivers.ros2.fields import number_at, value_at
+from fieldhand.execution.drivers.ros2.fields import number_at, seconds_at, value_at
 from fieldhand.execution.drivers.ros2.goal import ActionClient
 from fieldhand.execution.drivers.ros2.map_frame import (
     Point,
@@ -38,9 +38,9 @@ FROM_LL, SPEED_LIMIT = "robot_localization/srv/FromLL", "nav2_msgs/msg/SpeedLimi
 
 #: Seconds after the end of a goal in which the position must have come within the tolerance: fixes come late.
 SETTLE_S = 3.0
-#: Metres by which the robot's place in its map may differ from its fix: antennas stand elsewhere, and fixes come late.
+#: Metres by which the robot's place in its map may differ from its fix of the same moment: antennas stand elsewhere.
 ELSEWHERE_M = 5.0
-_FRAME = "current_pose.header.frame_id"
+_FRAME, _STAMP = "current_pose.header.frame_id", "current_pose.header.stamp"
 _X, _Y = (FieldBinding(path=f"current_pose.pose.position.{axis}") for axis in "xy")
 #: Metres below which a leg has no direction.
 _NO_LEG_M = 0.01
@@ -69,6 +69,7 @@ class Navigation:
         bindings: Of the robot.
         speed_m_s: Of the robot, as Nav2 drives it.
         position: Where it is, None where it never said.
+        stamp_s: When that was measured, in seconds of the robot's clock; None where it does not say.
         clock: The mission's: how long a drive may last.
         steady: Seconds that pass whatever that does: how long an answer may take.
         new_id: Makes the names of goals.
@@ -84,13 +85,14 @@ class Navigation:
         *,
         speed_m_s: float,
         position: Callable[[], Position | None],
+        stamp_s: Callable[[], float | None],
         clock: Callable[[], float],
         steady: Callable[[], float],
         new_id: Callable[[], bytes],
     ) -> None:
         self.binding, self.distro = bindings.navigation, bindings.distro
-        self.position, self.clock, self.steady = position, clock, steady
-        self._speed_m_s = speed_m_s
+        self.position, self.stamp_s, self.clock, self.steady = position, stamp_s, clock, steady
+        self.speed_m_s = speed_m_s
         self.client = ActionClient(
             transport,
             bindings.whole_name(self.binding.action),
@@ -151,7 +153,7 @@ class Navigation:
             if self.speed.subscribers() == 0:
                 raise Ros2Error(f"nobody hears {self.speed_name}", advice="see whether Nav2's controller is active")
             self.speed.send({"percentage": False, "speed_limit": speed_m_s})
-        elif speed_m_s < self._speed_m_s:
+        elif speed_m_s < self.speed_m_s:
             raise Ros2Error(
                 f"the drive is to be no faster than {speed_m_s:g} m/s, and the robot cannot be told",
                 advice="name navigation.speed_limit in the profile",
@@ -244,12 +246,18 @@ class Drive:
         if x is None or y is None:
             return None
         away = math.dist(plan.in_map((at.x, at.y)), (x, y))
-        if away <= ELSEWHERE_M + navigation.binding.tolerance_m:
+        if away <= ELSEWHERE_M + navigation.binding.tolerance_m + self._driven_between_m(feedback):
             return None
         return (
             f"by its fix the robot stands {away:.0f} m from where {navigation.client.name} takes it to be;"
             " see whether datum, its heading and frame are those of its map"
         )
+
+    def _driven_between_m(self, feedback: Message) -> float:
+        """Return the metres that the robot may have driven between its fix and this feedback, by their stamps."""
+        navigation = self._navigation
+        fixed_s, told_s = navigation.stamp_s(), seconds_at(feedback, _STAMP)
+        return 0.0 if fixed_s is None or told_s is None else navigation.speed_m_s * abs(told_s - fixed_s)
 
     def _arrive(self, there: Point) -> Steps:
         """Hold the robot's own position against where it was to go."""

@@ -14,7 +14,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from fieldhand.execution.drivers.protocol import Position
-from fieldhand.execution.drivers.ros2.fields import number_at, value_at
+from fieldhand.execution.drivers.ros2.fields import number_at, seconds_at, value_at
 from fieldhand.execution.drivers.ros2.transport import Message, Quality, Subscription, Transport
 from fieldhand.robot.bindings import FieldBinding, PositionBinding, Ros2Bindings, TopicBinding
 from fieldhand.site.projection import Projection
@@ -196,6 +196,7 @@ class Senses:
         self._track = _Track(slack_m, speed_m_s, clock, steady)
         self._way = _Way(_ODOMETRY_STEP_M if self._odometry else _FIX_STEP_M, speed_m_s, clock)
         self._position: Position | None = None
+        self._stamp_s: float | None = None
         self._charge: float | None = None
         self._stopped: str | None = None
 
@@ -213,6 +214,11 @@ class Senses:
     def position(self) -> Position | None:
         """The last that was known; None before the first."""
         return self._position
+
+    @property
+    def stamp_s(self) -> float | None:
+        """Return when that position was measured, in seconds of the robot's clock; None if its message does not say."""
+        return self._stamp_s
 
     @property
     def charge_percent(self) -> float | None:
@@ -271,6 +277,7 @@ class Senses:
             return
         self._fix.at_s = now
         self._position = Position(x=x, y=y, lat=lat, lon=lon)
+        self._stamp_s = seconds_at(message, "header.stamp")
         if self._odometry is None:
             self._way.add((x, y), message)
 
@@ -306,9 +313,8 @@ class Senses:
 
 
 def _stamp_of(message: Message) -> float:
-    """Seconds of a message's header; 0 where it has none."""
-    seconds, part = (number_at(message, FieldBinding(path=f"header.stamp.{name}")) for name in ("sec", "nanosec"))
-    return (seconds or 0.0) + 1e-9 * (part or 0.0)
+    """Return the seconds of a message's header; 0 where it has none."""
+    return seconds_at(message, "header.stamp") or 0.0
 
 
 def doubt_of(fix: Message, binding: PositionBinding) -> str | None:

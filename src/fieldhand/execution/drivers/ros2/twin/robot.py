@@ -65,6 +65,31 @@ class Said:
     charge_percent: float = 0.0
 
 
+class _Moment:
+    """A clock that stands still between two calls of :meth:`pass_on`.
+
+    All that the robot sends in one step then belongs to one moment, however long its process waits within the step.
+
+    Attributes:
+        wall_s: The time of day of that moment.
+    """
+
+    def __init__(self, clock: Clock, wall: Callable[[], float]) -> None:
+        self._clock, self._wall = clock, wall
+        self.pass_on()
+
+    def now(self) -> float:
+        return self._now
+
+    def advance(self, seconds: float) -> None:
+        self._clock.advance(seconds)
+        self.pass_on()
+
+    def pass_on(self) -> None:
+        """Take the time of the clock beneath."""
+        self._now, self.wall_s = self._clock.now(), self._wall()
+
+
 class SimulatedRobot:
     """A robot that stands on a site and answers by ROS 2 what its profile binds.
 
@@ -107,9 +132,9 @@ class SimulatedRobot:
         wall: Callable[[], float] = time.time,
     ) -> None:
         bindings = bindings_of(profile)
-        self._clock, self._wall, self._say, self._sim_time = clock, wall, say, sim_time
-        driver = SimulatedDriver(site, profile, world, clock, np.random.default_rng(seed))
-        self._begun_s = clock.now()
+        self._clock, self._say, self._sim_time = _Moment(clock, wall), say, sim_time
+        driver = SimulatedDriver(site, profile, world, self._clock, np.random.default_rng(seed))
+        self._begun_s = self._clock.now()
         if memory is not None:
             driver.recall(memory)
             self._begun_s -= memory.seconds
@@ -153,10 +178,12 @@ class SimulatedRobot:
 
     def memory(self) -> Memory:
         """By which it goes on later from where it stands now."""
+        self._clock.pass_on()
         return self.body.memory()
 
     def step(self) -> None:
         """Do what is due now: answer, drive on, say how it is."""
+        self._clock.pass_on()
         now = self._clock.now()
         if self._time is not None:
             self._time.send({"clock": self._stamp()})
@@ -240,7 +267,7 @@ class SimulatedRobot:
         self._from_ll.reply(to, {"map_point": {"x": x, "y": y, "z": 0.0}})
 
     def _stamp(self) -> Mapping[str, int]:
-        seconds = self.seconds if self._sim_time else self._wall()
+        seconds = self.seconds if self._sim_time else self._clock.wall_s
         return {"sec": int(seconds), "nanosec": int(seconds % 1.0 * 1e9)}
 
     def _stamped(self, frame: str) -> Message:

@@ -6,10 +6,13 @@ import time
 from collections.abc import Callable
 from typing import TypeVar
 
+#: Seconds within which anything happens that happens at all, on the busiest machine; what does not fails.
+LONG_S = 300.0
+
 _Seen = TypeVar("_Seen")
 
 
-def until(seen: Callable[[], _Seen], within_s: float = 20.0) -> _Seen:
+def until(seen: Callable[[], _Seen], within_s: float = LONG_S) -> _Seen:
     """What is seen, as soon as it is something; fails where it stays nothing."""
     end = time.monotonic() + within_s
     while not (found := seen()):

@@ -1,0 +1,137 @@
+"""The high-water mark of a journal, in a file of its own: a journal that has lost rows is recognized by it.
+
+SQLite keeps the latest rows in a second file (``-wal``). Where that is deleted, or the journal is put back from a copy,
+what is left is a sound journal of an earlier moment, and the mission would do again what it has done since. The mark
+says how many rows there were and what their checksums were. It is written after each commit, so it never runs ahead of
+the journal; it is synced when the journal is opened and closed, and otherwise outlasts the program, not a power cut.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from fieldhand.errors import JournalError
+from fieldhand.execution.journal.chain import Head
+from fieldhand.files import store_names, write_stored
+
+#: Two copies, written in turn, each in a sector of its own: one that is cut off leaves the other.
+_SLOT = 512
+_EMPTY = b" " * (2 * _SLOT)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mark:
+    """The rows that a journal had written.
+
+    Attributes:
+        epoch: Number of the opening that wrote it.
+        heads: Of each table, by its name.
+    """
+
+    epoch: int
+    heads: Mapping[str, Head]
+
+
+class MarkFile:
+    """The file of a mark, open for writing.
+
+    Args:
+        path: Of the file; :func:`create_mark` has made it.
+
+    Raises:
+        OSError: It cannot be opened.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._descriptor = os.open(path, os.O_RDWR | getattr(os, "O_BINARY", 0))
+        self._turn = _latest(os.read(self._descriptor, 2 * _SLOT))[0]
+
+    def write(self, mark: Mark, *, stored: bool = False) -> None:
+        """Write a mark over the older of the two copies.
+
+        Args:
+            mark: To be written.
+            stored: Wait until it is on the disk.
+
+        Raises:
+            OSError: It cannot be written.
+        """
+        self._turn += 1
+        data = _encoded(self._turn, mark)
+        os.lseek(self._descriptor, _SLOT * (self._turn % 2), os.SEEK_SET)
+        if os.write(self._descriptor, data) != len(data):
+            raise OSError(None, "the mark was not written whole")
+        if stored:
+            os.fsync(self._descriptor)
+
+    def close(self) -> None:
+        """Wait until the mark is on the disk, and close the file.
+
+        Raises:
+            OSError: The disk fails.
+        """
+        try:
+            os.fsync(self._descriptor)
+        finally:
+            os.close(self._descriptor)
+
+
+def mark_path(journal: Path) -> Path:
+    """Return the path of a journal's mark."""
+    return journal.with_suffix(".mark")
+
+
+def create_mark(path: Path, mark: Mark) -> None:
+    """Make the file of a mark.
+
+    Raises:
+        OSError: It cannot be written.
+    """
+    data = bytearray(_EMPTY)
+    first = _encoded(0, mark)
+    data[: len(first)] = first
+    write_stored(path, bytes(data))
+    store_names(path.parent)
+
+
+def read_mark(path: Path) -> Mark:
+    """Return the mark of a journal.
+
+    Raises:
+        JournalError: It is gone, or damaged.
+    """
+    advice = "bring it back with the rest of the folder, or carry the Task out as a new mission"
+    try:
+        found = _latest(path.read_bytes())[1]
+    except OSError as error:
+        raise JournalError(
+            f"the mark of how far the journal had come cannot be read: {error.strerror}", where=str(path), advice=advice
+        ) from None
+    if found is None:
+        raise JournalError("the mark of how far the journal had come is damaged", where=str(path), advice=advice)
+    return found
+
+
+def _encoded(turn: int, mark: Mark) -> bytes:
+    heads = {table: [head.rows, head.sha256.hex()] for table, head in mark.heads.items()}
+    body = json.dumps({"turn": turn, "epoch": mark.epoch, "heads": heads}).encode()
+    return (hashlib.sha256(body).hexdigest().encode() + b" " + body).ljust(_SLOT)
+
+
+def _latest(data: bytes) -> tuple[int, Mark | None]:
+    """Turn and mark of the later copy that is whole; (0, None) where neither is."""
+    found: tuple[int, Mark | None] = (0, None)
+    for slot in (data[:_SLOT], data[_SLOT : 2 * _SLOT]):
+        sha256, _, body = slot.strip().partition(b" ")
+        if hashlib.sha256(body).hexdigest().encode() != sha256:
+            continue
+        said = json.loads(body)
+        heads = {table: Head(rows=rows, sha256=bytes.fromhex(sum_)) for table, (rows, sum_) in said["heads"].items()}
+        if found[1] is None or said["turn"] > found[0]:
+            found = said["turn"], Mark(epoch=said["epoch"], heads=heads)
+    return found

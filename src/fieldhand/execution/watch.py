@@ -1,0 +1,348 @@
+"""The watch over battery, distance and time while a mission is under way, at every look at the robot.
+
+The guard decides between drives. This looks in between: every level of the battery and every limit that is crossed is
+an event of the log, once, and what follows from it is done at once. At the return level the mission turns home, at the
+stop level the robot stops where it stands. Whether what is left still lasts for the way home is asked of a
+:class:`Lookout`, which evaluation implements.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, Protocol
+
+from shapely.geometry import LineString, Point
+
+from fieldhand.errors import DriveFault
+from fieldhand.execution.recording import OpenCapture, OpenDrive
+from fieldhand.forecast.limits import reserve_percent
+from fieldhand.forecast.state import Spent, Work
+from fieldhand.forecast.underway import Foresight, Underway
+from fieldhand.site.model import Place, Site
+from fieldhand.site.stopping import safe_stop
+from fieldhand.task.exceeded import is_exceeded
+from fieldhand.task.frames import Then as Exit
+from fieldhand.task.limit_words import say_crossing
+from fieldhand.task.results import Crossable, Crossing, LimitCrossed
+
+if TYPE_CHECKING:
+    from fieldhand.execution.attempt import Attempt
+
+#: The next look is no later than a battery that empties so many times as fast as its model could reach a level, and
+#: never sooner than that after the last: where time jumps, nobody looks in between.
+FASTEST, SOONEST_S = 16.0, 0.2
+
+#: A robot drives no faster than this many times its speed.
+_SPEED = 2.0
+
+#: The part of what the charge lasts for on average within which a safe place is reached in all likelihood.
+_SURELY = 0.6
+
+#: A level counts as left again once the charge is so many percent above it: the battery was changed or charged.
+CLEAR_PERCENT = 3.0
+
+#: ``plan``: the plan is carried out. ``exit``: the robot is on its way home. ``over``: it stands, or is told to.
+Phase = Literal["plan", "exit", "over"]
+Then = Literal["go_on", "return", "end", "stop"]
+Alarm = Literal["none", "return", "stop", "shelter"]
+
+
+class Lookout(Protocol):
+    """Foresees whether what is left lasts for the way home; asked at every look."""
+
+    def foresee(self, now: Underway) -> Foresight:
+        """Return whether the mission may go on as it does."""
+        ...
+
+
+class NoLookout:
+    """A lookout for missions without limits: nothing is ever foreseen."""
+
+    def foresee(self, now: Underway) -> Foresight:  # noqa: ARG002
+        return Foresight()
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Level:
+    """A threshold, and what follows where it is crossed."""
+
+    quantity: Crossable
+    level: Crossing
+    threshold: float
+    then: Then
+
+    def is_crossed(self, value: float) -> bool:
+        match self.level:
+            case "limit":
+                return is_exceeded(self.quantity, value, self.threshold) if self.quantity != "charge_percent" else False
+            case "reserve":
+                return is_exceeded("reserve", value, self.threshold)
+            case _:
+                return value <= self.threshold
+
+
+class Watch:
+    """The watch over one attempt.
+
+    Args:
+        attempt: The mission.
+        lookout: Asked whether the way home still lasts.
+
+    Attributes:
+        phase: What the mission is at.
+        alarm: What has to be done now: turn home, stop, or look for where to stop safely (``shelter``).
+        why: In words.
+        exit: Where the alarm to turn home sends the robot.
+    """
+
+    def __init__(self, attempt: Attempt, lookout: Lookout) -> None:
+        self._attempt, self._lookout = attempt, lookout
+        self.phase: Phase = "plan"
+        self.alarm: Alarm = "none"
+        self.why = ""
+        self.exit = attempt.exit_for("low_budget")
+        #: A mission that ends where its last visit was has no way home in its limits: driving home would exceed them.
+        self._has_open_end = attempt.task.composition.nominal == "stay"
+        self._reach_m = 0.0
+        robot, constraints = attempt.robot, attempt.task.constraints
+        reserve = reserve_percent(constraints, robot)
+        battery = robot.energy.levels(reserve)
+        charges: tuple[tuple[Crossing, float, Then], ...] = (
+            ("warn", battery.warn, "go_on"),
+            ("return", battery.home, "return"),
+            ("reserve", reserve, "go_on"),
+            ("stop", battery.stop, "stop"),
+        )
+        self._levels = (
+            # At a level of 0 the battery is empty, and nobody says anything any more.
+            *(
+                _Level(quantity="charge_percent", level=level, threshold=at, then=then)
+                for level, at, then in charges
+                if at > 0.0
+            ),
+            *(_Level(quantity=b.kind, level="limit", threshold=b.limit, then="return") for b in constraints.budgets),
+        )
+        self._crossed: set[_Level] = set()
+        self._homes: tuple[tuple[tuple[float, float], ...], float, float] | None = None
+        self._foreseen: set[Phase] = set()
+        self._fastest = FASTEST * _fastest_percent_per_s(attempt)
+
+    def turn(self, phase: Phase) -> None:
+        """Begin a phase of the mission; what the alarm asked for is done."""
+        self.phase, self.alarm, self.why = phase, "none", ""
+
+    def look(self) -> None:
+        """Take a look at the robot: write down what was crossed, and raise the alarm where something follows."""
+        spent, charge = self._attempt.spent, self._attempt.driver.charge_percent()
+        values: dict[Crossable, float] = {
+            "charge_percent": charge,
+            "distance_m": spent.metres,
+            "duration_s": spent.seconds,
+            "energy_percent": spent.percent,
+        }
+        for level in self._levels:
+            value = values[level.quantity]
+            if level not in self._crossed and level.is_crossed(value):
+                self._crossed.add(level)
+                self._say(level.quantity, level.level, value, level.threshold, self._follows(level))
+            elif level in self._crossed and level.quantity == "charge_percent":
+                self._clear(level, value)
+        if self.alarm == "none" and self.phase not in self._foreseen:
+            self._foresee(spent, charge)
+
+    def has_news(self, now: float, charge: float) -> bool:
+        """Return True if a robot that stands has come to a level of charge or a limit of time since the last look.
+
+        Args:
+            now: Of the mission's clock.
+            charge: Of the battery, in percent.
+        """
+        seconds = self._attempt.t + now - self._attempt.clock.now()
+        values: dict[Crossable, float] = {"charge_percent": charge, "duration_s": seconds}
+        open_ = (level for level in self._levels if level not in self._crossed and level.quantity in values)
+        return any(level.is_crossed(values[level.quantity]) for level in open_)
+
+    def next_look_in(self) -> float:
+        """Return seconds until something could be crossed, at the earliest."""
+        spent, charge = self._attempt.spent, self._attempt.driver.charge_percent()
+        speed, found = _SPEED * self._attempt.robot.speed_m_s, [math.inf]
+        pace: dict[Crossable, float] = {
+            "charge_percent": self._fastest,
+            "energy_percent": self._fastest,
+            "distance_m": speed,
+            "duration_s": 1.0,
+        }
+        used = {"distance_m": spent.metres, "duration_s": spent.seconds, "energy_percent": spent.percent}
+        for level in self._levels:
+            if level in self._crossed:
+                continue
+            room = level.threshold - used.get(level.quantity, 0.0)
+            if level.quantity == "charge_percent":
+                room = charge - level.threshold
+            # While it drives out, the way home grows as fast as what is left shrinks.
+            halved = self.phase == "plan" and level.level in ("reserve", "limit")
+            found.append(room / pace[level.quantity] / (2.0 if halved else 1.0))
+        return max(SOONEST_S, min(found))
+
+    def refuge(self, home: Place) -> Place | None:
+        """Return where the robot can stop safely, on the way home as far as its charge lasts, else at a marker near by.
+
+        None where it cannot: then it drives on until the battery is at its stop level. The alarm is over either way.
+        """
+        self.alarm = "none"
+        attempt, at = self._attempt, self._attempt.driver.position()
+        try:
+            way = attempt.drives.between(point_at(attempt.site, (at.x, at.y), "on the way"), home)
+        except DriveFault:
+            return None
+        for reach_m in (_SURELY * self._reach_m, self._reach_m):
+            if (metres := safe_stop(attempt.drives, way, reach_m)) is not None:
+                return point_at(attempt.site, way.at(metres), "safe place")
+        markers = [m for m in attempt.site.markers.values() if attempt.drives.linked((m,), way.start)[0]]
+        ways = [(attempt.drives.between(way.start, marker).length_m, k) for k, marker in enumerate(markers)]
+        nearest_m, k = min(ways, default=(math.inf, -1))
+        return markers[k] if nearest_m <= _SURELY * self._reach_m else None
+
+    def reaches(self, home: Place) -> bool:
+        """Return True if the charge lasts for the way home from where the robot now stands."""
+        attempt = self._attempt
+        try:
+            metres = attempt.drives.between(attempt.standing, home).length_m
+        except DriveFault:
+            return False
+        return self._ask(attempt.spent, attempt.driver.charge_percent(), (metres, 0.0, 0.0)).alarm == "none"
+
+    # --- crossings -----------------------------------------------------------------------------------------------
+
+    def _follows(self, level: _Level) -> Then:
+        """Return what is done about a crossing, in this phase."""
+        if self.phase == "over" or (self.phase == "exit" and level.then == "return"):
+            return "go_on"
+        if level.then == "return" and self._exit_after(level.quantity) == "stay":
+            return "end"
+        return level.then
+
+    def _exit_after(self, quantity: Crossable) -> Exit:
+        """Return where the robot goes once a limit of that quantity is reached."""
+        if self._has_open_end and quantity != "charge_percent":
+            return "stay"
+        return self._attempt.exit_for("low_budget")
+
+    def _clear(self, level: _Level, value: float) -> None:
+        if value >= level.threshold + CLEAR_PERCENT and not level.is_crossed(value):
+            self._crossed.discard(level)
+            self._say(level.quantity, level.level, value, level.threshold, "go_on", cleared=True)
+
+    def _say(
+        self,
+        quantity: Crossable,
+        level: Crossing,
+        value: float,
+        threshold: float,
+        then: Then,
+        *,
+        cleared: bool = False,
+    ) -> None:
+        attempt, at = self._attempt, self._attempt.driver.position()
+        event = LimitCrossed(
+            t=attempt.t,
+            node="" if attempt.doing is None else attempt.doing.node,
+            quantity=quantity,
+            level=level,
+            value=value,
+            threshold=threshold,
+            then=then,
+            cleared=cleared,
+            lat=at.lat,
+            lon=at.lon,
+            travelled_m=attempt.spent.metres,
+            charge_percent=attempt.driver.charge_percent(),
+        )
+        attempt.emit(event)
+        if then != "go_on" and self.alarm != "stop":
+            self.alarm = "shelter" if level == "out_of_reach" else "return" if then == "end" else then
+            self.why, self.exit = say_crossing(event), self._exit_after(quantity)
+
+    # --- the way home --------------------------------------------------------------------------------------------
+
+    def _foresee(self, spent: Spent, charge: float) -> None:
+        """Ask whether what is left lasts for the way home, while the robot drives or works."""
+        doing = self._attempt.doing
+        if self.phase == "plan" and self._has_open_end:
+            return
+        if self.phase == "over" or doing is None or (self.phase == "exit" and not isinstance(doing, OpenDrive)):
+            return
+        found = self._ask(spent, charge, self._ways(doing), self._work_left(doing))
+        if found.alarm == "none":
+            return
+        self._foreseen.add(self.phase)
+        self._reach_m = found.reach_m
+        quantity: Crossable = "charge_percent" if found.limit == "reserve" else found.limit
+        if found.alarm == "turn_home":
+            self._say(quantity, "way_home", found.left, found.needed, "return")
+        else:
+            self._say(quantity, "out_of_reach", found.left, found.needed, "stop")
+
+    def _ask(
+        self, spent: Spent, charge: float, ways: tuple[float, float, float], work: Work | None = None
+    ) -> Foresight:
+        """Ask the lookout; the ways are those of :meth:`_ways`."""
+        on_m, after_m, home_m = ways
+        return self._lookout.foresee(
+            Underway(
+                spent=spent,
+                charge_percent=charge,
+                on_m=on_m,
+                work=work or Work(),
+                after_m=after_m,
+                home_m=home_m,
+                returning=self.phase == "exit",
+            )
+        )
+
+    def _ways(self, doing: OpenDrive | OpenCapture) -> tuple[float, float, float]:
+        """Metres left of the drive in hand, from its end home, and home from here at most."""
+        attempt = self._attempt
+        if isinstance(doing, OpenCapture) or len(attempt.driven) < 2:
+            home = self._home_m(attempt.standing)
+            return 0.0, home, home
+        if self._homes is None or self._homes[0] is not attempt.driven:
+            begins, end = point_at(attempt.site, attempt.driven[0], "on the way"), doing.goal.place
+            returning = self.phase == "exit"
+            ways = (0.0, 0.0) if returning else (self._home_m(begins), self._home_m(end))
+            self._homes = attempt.driven, *ways
+        path, at = LineString(attempt.driven), attempt.driver.position()
+        done = path.project(Point(at.x, at.y))
+        on_m = max(0.0, path.length - done)
+        _, from_start, from_end = self._homes
+        return on_m, from_end, min(done + from_start, on_m + from_end)
+
+    def _home_m(self, at: Place) -> float:
+        """Metres of the drive to where the mission goes on a low budget; 0 where no way leads there."""
+        attempt = self._attempt
+        home = attempt.site.home(attempt.exit_for("low_budget"), at)
+        try:
+            return 0.0 if home.xy == at.xy else attempt.drives.between(at, home).length_m
+        except DriveFault:
+            return 0.0
+
+    def _work_left(self, doing: OpenDrive | OpenCapture) -> Work:
+        if not isinstance(doing, OpenCapture):
+            return Work()
+        action = self._attempt.robot.action[doing.action]
+        left = max(0.0, 1.0 - self._attempt.driver.poll().seconds / action.duration_s)
+        return Work(seconds=left * action.duration_s, joules=left * action.energy_j)
+
+
+def point_at(site: Site, xy: tuple[float, float], name: str) -> Place:
+    """Return a point of the site as a place at which the robot stands."""
+    ((lat, lon),) = site.projection.degrees([xy])
+    return Place(kind="point", id=name, x=xy[0], y=xy[1], lat=float(lat), lon=float(lon), stand=xy)
+
+
+def _fastest_percent_per_s(attempt: Attempt) -> float:
+    """Percent of the battery that the robot takes in a second by its model, doing all that it can at once."""
+    robot = attempt.robot
+    action = max((a.energy_j / a.duration_s for a in robot.actions), default=0.0)
+    return robot.percent(robot.speed_m_s, 1.0, action)

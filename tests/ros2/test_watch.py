@@ -1,0 +1,58 @@
+"""A battery that goes bad in the middle of a drive is seen over ROS 2, too: by what its topic says on the way."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import ClassVar
+
+from fieldhand.evaluation.drain import Drain
+from fieldhand.evaluation.failsafe import Failsafe
+from fieldhand.execution.guard import NoGuard
+from fieldhand.execution.runtime import run
+from fieldhand.execution.world import BatteryDrains, World
+from fieldhand.robot.model import RobotProfile
+from fieldhand.task.plan import Act
+from fieldhand.task.results import Acted, Ended, LimitCrossed
+from fieldhand.task.selectors import TreeIs
+from rig import authorized, husky, of_type, task_for
+from ros2.test_twin_contract import OverATwin
+from ros2.twin_rig import SITE
+
+
+def small_battery() -> RobotProfile:
+    robot = husky()
+    return replace(robot, energy=replace(robot.energy, capacity_j=0.12 * robot.energy.capacity_j))
+
+
+class SmallBattery(OverATwin):
+    """A robot of which a short drive empties much."""
+
+    robot: ClassVar[RobotProfile] = small_battery()
+
+
+def test_a_drive_is_broken_off_by_what_the_battery_topic_says_on_the_way() -> None:
+    twin = SmallBattery()
+    robot = twin.robot
+    world = World(charge_percent=36.0, meter_step_percent=1.0, faults=(BatteryDrains(factor=6.0, from_s=10.0),))
+    driver, clock, _ = twin.make_in(world)
+    task = task_for(Act(id="", action="read_co2", at=TreeIs(tree="r3c4")))
+    events = run(
+        authorized(task, SITE, robot),
+        site=SITE,
+        robot=robot,
+        driver=driver,
+        guard=NoGuard(),
+        clock=clock,
+        emit=lambda event: None,
+        lookout=Failsafe(task, robot, Drain(robot)),
+    ).events
+    levels = [e.level for e in of_type(events, LimitCrossed)]
+    assert levels[0] == "warn"
+    assert len(levels) == len(set(levels))
+    turned = next(e for e in of_type(events, LimitCrossed) if e.then != "go_on")
+    assert turned.travelled_m > 0.0
+    assert not of_type(events, Acted)
+    end = events[-1]
+    assert isinstance(end, Ended)
+    assert end.status != "completed"
+    assert end.reason
