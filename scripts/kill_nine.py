@@ -41,12 +41,13 @@ from fieldhand.approval.authorize import EveryWarning, approve
 from fieldhand.bench.draw import Draft, draw
 from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.errors import NotApprovedError
+from fieldhand.evaluation.failsafe import Failsafe
 from fieldhand.evaluation.guard import BudgetGuard
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, Progress
 from fieldhand.execution.drivers.simulation import SimulatedDriver
 from fieldhand.execution.journal.store import Journal, create
 from fieldhand.execution.runtime import run
-from fieldhand.execution.world import ActionFails, Blocked, SensorSilent, Spot, World, WorldFault
+from fieldhand.execution.world import ActionFails, BatteryDrains, Blocked, SensorSilent, Spot, World, WorldFault
 from fieldhand.forecast.routes import drives_for
 from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.event_lines import from_json
@@ -150,6 +151,8 @@ def world_of(draft: Draft, rng: random.Random) -> World:
         faults.append(SensorSilent(quantity=rng.choice(names), times=rng.randint(1, 3)))
     if rng.random() < 0.3:
         faults.append(Blocked(at=rng.choice(spots), within_m=1.0, times=rng.randint(1, 2)))
+    if rng.random() < 0.3:
+        faults.append(BatteryDrains(factor=rng.uniform(1.5, 12.0), from_s=rng.uniform(0.0, 300.0)))
     return World(faults=tuple(faults), charge_percent=draft.charge_percent)
 
 
@@ -171,6 +174,7 @@ def live(folder: Path, approved: AuthorizedTask, draft: Draft, line: Connection)
             robot=profile,
             driver=robot,
             guard=guard,
+            lookout=Failsafe(task, profile, guard.drain),
             clock=robot,
             emit=nobody_hears,
             tape=journal,

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import Literal
+from typing import IO, Any, Literal
 
 from fieldhand.errors import InputError
+
+#: In place of a file: standard input where one is read, standard output where one is written.
+STANDARD = Path("-")
 
 
 class FileFault(Exception):
@@ -33,7 +37,7 @@ def read_file(
     """The bytes of a file; no more of it is read than it may have, for a device has no size and no end.
 
     Args:
-        path: Of the file.
+        path: Of the file; ``-`` is standard input.
         most: Bytes that it may have.
         plain: Take no device and no pipe, and read nothing of a file that says itself that it is too large.
         look: Sees owner and rights of the file that is read, even if another is put in its place meanwhile; it raises
@@ -44,6 +48,11 @@ def read_file(
     """
     size = 0
     try:
+        if path == STANDARD:
+            data = sys.stdin.buffer.read(most + 1)
+            if len(data) > most:
+                raise FileFault(f"is larger than {most:,} bytes", "too large", len(data))
+            return data
         if plain and not path.is_file():
             raise FileFault(*(("is not a file", "no file") if path.exists() else ("there is no such file", "missing")))
         with path.open("rb") as file:
@@ -63,6 +72,19 @@ def read_file(
 def _reason(error: Exception) -> str:
     """Why the system refused a file, in words."""
     return (error.strerror if isinstance(error, OSError) else None) or str(error) or type(error).__name__
+
+
+def open_output(path: Path, mode: Literal["a", "w", "wb"]) -> IO[Any]:
+    """Open a file that is written piece by piece; ``-`` is standard output. Text is UTF-8, line ends stay.
+
+    Raises:
+        OSError, ValueError: It cannot be written.
+    """
+    more: dict[str, Any] = {} if "b" in mode else {"encoding": "utf-8", "newline": "\n"}
+    if path == STANDARD:
+        return os.fdopen(os.dup(sys.stdout.fileno()), mode, **more)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    return path.open(mode, **more)
 
 
 def write_stored(path: Path, data: bytes, *, mode: int = 0o666, new: bool = False) -> None:

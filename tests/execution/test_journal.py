@@ -8,7 +8,6 @@ from dataclasses import replace
 from itertools import count
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from fieldhand.clock import SimulatedClock
@@ -16,119 +15,22 @@ from fieldhand.errors import JournalError
 from fieldhand.evaluation.outcome import judge
 from fieldhand.evaluation.report_data import observations_csv
 from fieldhand.execution import mission_clock
-from fieldhand.execution.drivers.simulation import SimulatedDriver
-from fieldhand.execution.guard import Guard, NoGuard
 from fieldhand.execution.journal import store
-from fieldhand.execution.journal.desk import Desk, alone, taken
-from fieldhand.execution.journal.store import Journal, create
+from fieldhand.execution.journal.desk import Desk
+from fieldhand.execution.journal.store import Journal
 from fieldhand.execution.orders import Order
-from fieldhand.execution.runtime import Result, run
-from fieldhand.execution.world import World
-from fieldhand.robot.model import RobotProfile
-from fieldhand.task.conditions import Compare
 from fieldhand.task.event_lines import from_json, to_json
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Sequence, Try
+from fieldhand.task.plan import Act
 from fieldhand.task.results import Acted, Continued, Ended, Exited, InDoubt, Paused, Resumed, Shed
-from fieldhand.task.selectors import Half, Take, TreeIs
-from rig import BudgetOf, authorized, captured, husky, of_type, orchard, task_for
-
-PICTURE = "take_thermal_picture"
-PLAN = Sequence(
-    id="",
-    steps=(
-        Act(id="", action=PICTURE, at=TreeIs(tree="r0c0"), count=2, reading="r"),
-        If(
-            id="",
-            condition=Compare(reading="r", quantity="canopy_temperature", test="gt", value=0, unit="degC"),
-            then=AnyOrder(
-                id="",
-                steps=(GoTo(id="", place=TreeIs(tree="r3c3")), Act(id="", action=PICTURE, at=TreeIs(tree="r2c2"))),
-            ),
-        ),
-        ForEach(
-            id="",
-            select=Take(count=2, of=Half(side="north")),
-            optional=True,
-            body=Try(
-                id="",
-                body=Act(id="", action="read_co2"),
-                otherwise=Repeat(id="", times=2, body=Act(id="", action="read_ambient_temperature")),
-            ),
-        ),
-    ),
-)
-
-
-class PowerCut(BaseException):
-    """Nothing catches it, as nothing catches kill -9."""
-
-
-class Cut(Journal):
-    """A journal at whose n-th commit the power is cut, before it or behind it."""
-
-    commits = 0
-    at = 0
-    behind = False
-
-    def commit(self, *, order: int = 0) -> None:
-        self.commits += 1
-        if self.commits == self.at and not self.behind:
-            raise PowerCut
-        super().commit(order=order)
-        if self.commits == self.at:
-            raise PowerCut
+from fieldhand.task.selectors import TreeIs
+from journalled import PICTURE, Field, PowerCut
+from rig import BudgetOf, captured, husky, of_type, orchard, task_for
 
 
 @pytest.fixture(autouse=True)
 def _no_waiting(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(store, "SYNCHRONOUS", "OFF")
     monkeypatch.setattr(mission_clock.time, "sleep", lambda seconds: None)
-
-
-class Field:
-    """A mission in a folder, and a robot that is made anew each time or outlives the program."""
-
-    def __init__(self, folder: Path, *, robot: RobotProfile | None = None, outlives: bool = False) -> None:
-        self.folder, self.robot, self.outlives = folder, robot or husky(alpha=0.5), outlives
-        folder.mkdir(exist_ok=True)
-        create(folder / "journal.sqlite", "mission")
-        self.clock, self.driver = self._new()
-
-    def _new(self) -> tuple[SimulatedClock | mission_clock.MissionClock, SimulatedDriver]:
-        clock = SimulatedClock() if self.outlives else mission_clock.MissionClock(SimulatedClock())
-        rng = np.random.default_rng(2)
-        return clock, SimulatedDriver(orchard(), self.robot, World(), clock, rng)
-
-    def fly(
-        self,
-        plan: Node = PLAN,
-        *,
-        cut: int = 0,
-        behind: bool = False,
-        guard: Guard | None = None,
-        orders: Callable[[], Order | None] = lambda: None,
-    ) -> Result:
-        """Carry the mission out, or what is left of it."""
-        if not self.outlives:
-            self.clock, self.driver = self._new()
-        with Cut(self.folder / "journal.sqlite", "mission", self.folder / "log", lambda line: None) as journal:
-            journal.at, journal.behind = cut, behind
-            return run(
-                authorized(task_for(plan), orchard(), self.robot),
-                site=orchard(),
-                robot=self.robot,
-                driver=self.driver,
-                guard=guard or NoGuard(),
-                clock=self.clock,
-                emit=lambda event: None,
-                orders=orders,
-                tape=journal,
-                simulated=not self.outlives,
-            )
-
-    @property
-    def lines(self) -> list[str]:
-        return (self.folder / "log").read_text().splitlines()
 
 
 @pytest.mark.parametrize("outlives", [False, True])
@@ -277,18 +179,6 @@ def test_a_full_disk_stops_the_robot_and_the_mission_goes_on_later(tmp_path: Pat
         with pytest.raises(JournalError, match=r"full.*free some space"):
             journal.commit()
     assert field.fly().status == "completed"
-
-
-def test_one_at_a_time(tmp_path: Path) -> None:
-    lock = tmp_path / "lock"
-    assert not taken(lock)
-    with alone(lock):
-        assert taken(lock)
-        with pytest.raises(JournalError, match="another process"), alone(lock):
-            pass
-    assert not taken(lock)
-    with alone(lock):
-        pass
 
 
 def test_the_disk_is_waited_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -136,7 +136,7 @@ class Robot:
 
 def begun(tmp_path: Path, robot: Robot) -> missions.Mission:
     given = replace(inputs(), world=None, departure=missions.departure_on(robot.vehicle))
-    return missions.open_mission(missions.begin(tmp_path, "m1", given))
+    return missions.begin(tmp_path, "m1", given)
 
 
 class _Killed(BaseException):
@@ -160,13 +160,13 @@ def test_a_mission_that_was_killed_goes_on_where_the_robot_is(tmp_path: Path) ->
     assert len([e for e in result.events if isinstance(e, Acted)]) == 1
     assert len([e for e in result.events if isinstance(e, Resumed)]) == 1
     assert result.spent.percent == pytest.approx(80.0 - robot.driver.charge_percent())
-    assert missions.begun_on(given.folder) == missions.Departure(by=BY, charge_percent=80.0)
+    assert missions.read_folder(given.folder).departure == missions.Departure(by=BY, charge_percent=80.0)
 
 
 def test_simulation_and_robot_are_not_mistaken_for_each_other(tmp_path: Path) -> None:
     robot = Robot.at_the_start()
     on_robot = begun(tmp_path, robot)
-    in_simulation = missions.open_mission(missions.begin(tmp_path, "m2", inputs()))
+    in_simulation = missions.begin(tmp_path, "m2", inputs())
     with pytest.raises(ExecutionError, match=r"begun on a robot \(dds, domain 7 as /east\).*resume it on that robot"):
         missions.carry_out(on_robot, emit=print)
     with pytest.raises(ExecutionError, match=r"begun in simulation and cannot be gone on with on a robot"):
@@ -175,11 +175,11 @@ def test_simulation_and_robot_are_not_mistaken_for_each_other(tmp_path: Path) ->
 
 
 def test_a_folder_says_on_what_it_was_begun_and_older_ones_open(tmp_path: Path) -> None:
-    older = missions.begin(tmp_path, "m1", inputs())
+    older = missions.begin(tmp_path, "m1", inputs()).folder
     about = json.loads((older / "mission.json").read_bytes())
     assert about["format"] == 1
     assert "departure" not in about
-    assert missions.begun_on(older) is None
+    assert missions.read_folder(older).departure is None
     newer = begun(tmp_path / "on", Robot.at_the_start()).folder
     about = json.loads((newer / "mission.json").read_bytes())
     assert about["format"] == 2
@@ -187,6 +187,6 @@ def test_a_folder_says_on_what_it_was_begun_and_older_ones_open(tmp_path: Path) 
     for bad in (None, {}, {"by": {"transport": "dds", "more": 1}, "charge_percent": 1}, {"by": {}}):
         (newer / "mission.json").write_text(json.dumps(about | {"departure": bad}))
         with pytest.raises(JournalError, match="no mission"):
-            missions.begun_on(newer)
+            assert missions.read_folder(newer).departure is None
         with pytest.raises(FieldhandError):
             missions.open_mission(newer)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from dataclasses import replace
 from pathlib import Path
@@ -9,9 +10,11 @@ from pathlib import Path
 import pytest
 
 from fieldhand import mission, missions
-from fieldhand.errors import ExecutionError, FieldhandError, JournalError
+from fieldhand.errors import ExecutionError, FieldhandError, JournalError, NotApprovedError
 from fieldhand.execution.journal import store
 from fieldhand.execution.world import World
+from fieldhand.robot.loader import parse_profile
+from fieldhand.site.geojson import site_of
 from fieldhand.task.results import Event
 from kept_missions import inputs
 
@@ -22,7 +25,7 @@ def _no_waiting(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_mission_from_its_folder_alone(tmp_path: Path) -> None:
-    folder = missions.begin(tmp_path, "m1", inputs())
+    folder = missions.begin(tmp_path, "m1", inputs()).folder
     assert missions.status(folder).now.state == "interrupted"
     given, events = missions.open_mission(folder), list[Event]()
     result = missions.carry_out(given, speed=None, emit=events.append)
@@ -45,15 +48,15 @@ def test_a_mission_from_its_folder_alone(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("file", ["task.xml", "robot.yaml", "world.yaml", "site/demo.geojson", "mission.json"])
 def test_another_byte_is_refused(tmp_path: Path, file: str) -> None:
-    folder = missions.begin(tmp_path, "m1", inputs())
+    folder = missions.begin(tmp_path, "m1", inputs()).folder
     (folder / file).write_bytes((folder / file).read_bytes() + b"\n")
     with pytest.raises(JournalError, match=r"not the one that the mission began with|another mission"):
         missions.carry_out(missions.open_mission(folder), speed=None, emit=print)
 
 
 def test_the_journal_of_another_mission_is_refused(tmp_path: Path) -> None:
-    one = missions.begin(tmp_path, "m1", inputs())
-    other = missions.begin(tmp_path, "m2", replace(inputs(), seed=4))
+    one = missions.begin(tmp_path, "m1", inputs()).folder
+    other = missions.begin(tmp_path, "m2", replace(inputs(), seed=4)).folder
     (one / "journal.sqlite").write_bytes((other / "journal.sqlite").read_bytes())
     with pytest.raises(JournalError, match="another mission"):
         missions.carry_out(missions.open_mission(one), speed=None, emit=print)
@@ -61,26 +64,62 @@ def test_the_journal_of_another_mission_is_refused(tmp_path: Path) -> None:
 
 def test_what_was_not_approved_is_refused(tmp_path: Path) -> None:
     """A folder that was made by hand, around another Task than the one that was approved."""
-    task = inputs().task.replace(b"Measure CO2 at tree 5.", b"Measure CO2 at tree 6.")
-    folder = missions.begin(tmp_path, "m1", replace(inputs(), task=task))
+    folder = missions.begin(tmp_path, "m1", inputs()).folder
+    task = (folder / "task.xml").read_bytes().replace(b"Measure CO2 at tree 5.", b"Measure CO2 at tree 6.")
+    about = json.loads((folder / "mission.json").read_bytes())
+    about["files"]["task.xml"] = hashlib.sha256(task).hexdigest()
+    (folder / "mission.json").write_text(json.dumps(about))
+    (folder / "task.xml").write_bytes(task)
     with pytest.raises(FieldhandError, match="not the one that was approved"):
         missions.open_mission(folder)
 
 
-@pytest.mark.parametrize("about", [b"", b"garbage", b"[]", b'{"format": 99}', b'{"format": 1}'])
+def test_nothing_begins_with_other_bytes_than_were_approved() -> None:
+    given = inputs()
+    other = replace(given.authorized.task, id="other")
+    files = replace(given.files, parts={"demo.geojson": given.files.parts["demo.geojson"] + b" "})
+    for changed in (
+        {"profile": given.profile + b"\n"},
+        {"files": files},
+        {"site": site_of(files)},
+        {"robot": parse_profile(given.profile + b"\n")},
+        {"authorized": replace(given.authorized, task=other)},
+    ):
+        with pytest.raises(NotApprovedError, match="not the one that was approved"):
+            replace(given, **changed)  # type: ignore[arg-type]
+
+
+def spoil(folder: Path) -> None:
+    """Put another mission's bytes in the place of every file that says what the mission is."""
+    for file in ("task.xml", "robot.yaml", "world.yaml", "site/demo.geojson", "mission.json"):
+        (folder / file).write_bytes(b"<not what was approved>")
+
+
+def test_what_is_carried_out_is_what_was_given_whatever_lies_in_the_folder_by_then(tmp_path: Path) -> None:
+    plain = missions.carry_out(missions.begin(tmp_path, "m1", inputs()), speed=None, emit=lambda _: None)
+    given = missions.begin(tmp_path, "m2", inputs())
+    spoil(given.folder)
+    assert missions.carry_out(given, speed=None, emit=lambda _: None).events == plain.events
+    again = missions.begin(tmp_path, "m3", inputs()).folder
+    contents = missions.read_folder(again)
+    spoil(again)
+    assert missions.carry_out(contents.mission(), speed=None, emit=lambda _: None).events == plain.events
+
+
+@pytest.mark.parametrize("about", [b"", b"garbage", b"[]", b'{"format": 99}', b'{"format": 1}', b"[" * 100_000])
 def test_a_folder_that_is_no_mission_is_refused(tmp_path: Path, about: bytes) -> None:
-    folder = missions.begin(tmp_path, "m1", inputs())
+    folder = missions.begin(tmp_path, "m1", inputs()).folder
     (folder / "mission.json").write_bytes(about)
     with pytest.raises(JournalError, match="no mission"):
         missions.open_mission(folder)
 
 
 def test_a_file_that_leads_elsewhere_is_refused(tmp_path: Path) -> None:
-    folder = missions.begin(tmp_path, "m1", inputs())
+    folder = missions.begin(tmp_path, "m1", inputs()).folder
     about = json.loads((folder / "mission.json").read_bytes())
     about["files"]["../secret"] = about["files"]["task.xml"]
     (folder / "mission.json").write_text(json.dumps(about))
-    (tmp_path / "secret").write_bytes(inputs().task)
+    (tmp_path / "secret").write_bytes(inputs().document)
     with pytest.raises(JournalError, match="leads elsewhere"):
         missions.open_mission(folder)
 
@@ -92,7 +131,7 @@ def test_a_folder_that_cannot_be_written_is_said(tmp_path: Path) -> None:
 
 
 def test_an_order_to_a_mission_that_is_cut_off_holds_when_it_goes_on(tmp_path: Path) -> None:
-    folder = missions.begin(tmp_path, "m1", inputs())
+    folder = missions.begin(tmp_path, "m1", inputs()).folder
     assert not missions.order(folder, "return", "rain is coming")
     assert missions.status(folder).order == "return"
     result = missions.carry_out(missions.open_mission(folder), speed=None, emit=list[Event]().append)

@@ -18,7 +18,7 @@ from fieldhand import missions
 from fieldhand.cli.app import assemble
 from fieldhand.errors import JournalError
 from fieldhand.execution.journal import store
-from fieldhand.execution.journal.desk import alone
+from fieldhand.folders import FolderLock
 from fieldhand.missions.listing import Entry, listed, older_than, removable, remove
 from fieldhand.task.results import Event
 from kept_missions import inputs
@@ -36,7 +36,7 @@ class _PowerCut(Exception):
 
 
 def begin(under: Path, name: str) -> Path:
-    return missions.begin(under, name, inputs())
+    return missions.begin(under, name, inputs()).folder
 
 
 def ended(under: Path, name: str) -> Path:
@@ -75,7 +75,7 @@ def test_every_mission_is_listed_as_it_stands_and_only_ended_ones_go(tmp_path: P
     assert [line.split()[0] for line in shown] == ["m0", "m1", "m2", "m3", "m4"]
     assert "completed" in shown[0]
     assert "Measure CO2 at tree 5." in shown[0]
-    with alone(under / "m0" / "lock"):
+    with FolderLock(under / "m0"):
         assert [entry.state for entry in listed(under)][:2] == ["running", "interrupted"], "it writes its report"
         assert json.loads(fieldhand("--missions", str(under), "--keep", "0", "--json").out)["removed"] == ["m2"]
     record = json.loads(fieldhand("--missions", str(under), "--keep", "0", "--json").out)
@@ -89,7 +89,7 @@ def test_every_mission_is_listed_as_it_stands_and_only_ended_ones_go(tmp_path: P
 
 def test_a_mission_that_goes_on_meanwhile_stays(tmp_path: Path) -> None:
     entry = listed(ended(tmp_path, "m0").parent)[0]
-    with alone(entry.folder / "lock"), pytest.raises(JournalError, match="has not ended"):
+    with FolderLock(entry.folder), pytest.raises(JournalError, match="has not ended"):
         remove(entry)
     assert missions.status(entry.folder).now.state == "ended"
 

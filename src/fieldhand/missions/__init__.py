@@ -5,24 +5,24 @@ begin ──▶ folder ──carry_out──▶ events          status and order
                      └────┘
 
     task.xml, site/…, robot.yaml, world.yaml, mission.json    what the mission is
-    journal.sqlite, events.jsonl                              what was done
+    journal.sqlite, journal.mark, events.jsonl                what was done
     report.html, observations.csv, observations.geojson       what came of it, where a robot's agent carried it out
-    orders.sqlite, lock                                       what people want; who carries it out
+    orders.sqlite                                             what people want
 """
 
 from fieldhand.missions.departure import require_charged, require_in_place
 from fieldhand.missions.finding import all_missions, exists, find, missions_folder
 from fieldhand.missions.folder import (
     Departure,
+    FolderContents,
     Inputs,
     Mission,
     begin,
-    begun_on,
     departure_on,
-    is_signed,
     new_id,
     open_mission,
-    signed_bundle,
+    read_folder,
+    signed_inputs,
 )
 from fieldhand.missions.kept import (
     Status,
@@ -36,32 +36,35 @@ from fieldhand.missions.kept import (
     stands,
     status,
 )
+from fieldhand.missions.orders import DirectOrders, Urgent
 
 __all__ = [
     "Departure",
+    "DirectOrders",
+    "FolderContents",
     "Inputs",
     "Mission",
     "Status",
+    "Urgent",
     "all_missions",
     "begin",
-    "begun_on",
     "carry_out",
     "departure_on",
     "events_of",
     "exists",
     "find",
     "is_running",
-    "is_signed",
     "last_order",
     "lines_after",
     "missions_folder",
     "new_id",
     "open_mission",
     "order",
+    "read_folder",
     "require_charged",
     "require_in_place",
     "require_vehicle",
-    "signed_bundle",
+    "signed_inputs",
     "stands",
     "status",
 ]

@@ -13,27 +13,34 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fieldhand import mission
-from fieldhand.errors import JournalError
+from fieldhand.errors import JournalError, NotApprovedError
 from fieldhand.execution.vehicle import Connection
-from fieldhand.files import store_names, write_stored, write_whole
+from fieldhand.files import FileFault, read_file, store_names, write_stored, write_whole
+from fieldhand.folders import Unguarded, require_guarded, require_own_file
+from fieldhand.missions.orders import nobody
 from fieldhand.missions.signed import require_signed
 from fieldhand.task.authorization import Authorization, AuthorizedTask
+from fieldhand.visible import json_text
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
+    from fieldhand.execution.orders import Order
     from fieldhand.execution.vehicle import Vehicle
     from fieldhand.execution.world import World
     from fieldhand.robot.model import RobotProfile
+    from fieldhand.site.formats.files import SiteFiles
     from fieldhand.site.model import Site
 
 #: Of mission.json: of one that is carried out in simulation, and of one on a robot. A program that knows no robots
 #: shall not go on with the latter.
 FORMAT, ON_ROBOT = 1, 2
 
-LOCK, JOURNAL, ORDERS, LOG, ABOUT = "lock", "journal.sqlite", "orders.sqlite", "events.jsonl", "mission.json"
+JOURNAL, ORDERS, LOG, ABOUT = "journal.sqlite", "orders.sqlite", "events.jsonl", "mission.json"
 #: The page of its report, once one was written here.
 REPORT = "report.html"
 _SIGNED = "signed.mission"
+#: Of any of its files: a site of 100 MB, and a bundle around it.
+_MOST_BYTES = 128_000_000
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,39 +58,85 @@ class Departure:
 
 @dataclass(frozen=True, kw_only=True)
 class Inputs:
-    """What a mission is: every byte that it needs, so that it depends on no other file from then on.
+    """A mission that is to begin, with the bytes from which each part of it was read.
 
     Attributes:
-        task: The Task document that was approved.
-        site: The site's files by name, the one that is opened first.
+        authorized: The Task, as it was approved.
+        site, robot: For which it was approved.
+        files, profile: The bytes from which these two were read.
         lenient: Whether the site was read leniently.
-        robot: The profile.
-        world: A world file; None for a world without surprises.
+        world: Of the simulation; None for a world without surprises.
         seed: Of every random thing in the simulation, and of the guard.
         planner: Who planned it.
-        signed: The signed bundle that all but the world and the seed came from; None where nobody has signed.
+        bundle: The signed mission that all but the world and the seed came from; None where nobody has signed.
         departure: Of a mission on a robot; None in simulation.
+
+    Raises:
+        NotApprovedError: These bytes are not the ones that were approved.
     """
 
-    task: bytes
-    site: Mapping[str, bytes]
-    robot: bytes
-    authorization: Authorization
-    world: bytes | None = None
+    authorized: AuthorizedTask
+    site: Site
+    robot: RobotProfile
+    files: SiteFiles
+    profile: bytes
     lenient: bool = False
+    world: World | None = None
     seed: int = 0
     planner: str = ""
-    signed: bytes | None = None
+    bundle: Bundle | None = None
     departure: Departure | None = None
+
+    def __post_init__(self) -> None:
+        approved = self.authorized.authorization
+        for what, read, given, wanted in (
+            ("Task", approved.task_sha256, _sha256(self.document), approved.task_sha256),
+            ("site", self.site.sha256, self.files.sha256, approved.site_sha256),
+            ("robot profile", self.robot.sha256, _sha256(self.profile), approved.robot_sha256),
+        ):
+            if not read == given == wanted:
+                raise NotApprovedError(
+                    f"the {what} is not the one that was approved (SHA-256 {given[:12]}, approved {wanted[:12]})",
+                    advice="approve the Task again",
+                )
+        if self.bundle is not None and self.authorized != self.bundle.authorized:
+            raise NotApprovedError("the Task is not the one that was signed", advice="carry out the signed mission")
+
+    @property
+    def document(self) -> bytes:
+        """The Task document."""
+        from fieldhand.task.codec import encode
+
+        return encode(self.authorized.task)
+
+
+def signed_inputs(
+    bundle: Bundle, *, world: World | None = None, seed: int = 0, departure: Departure | None = None
+) -> Inputs:
+    """Return what a signed mission begins with."""
+    return Inputs(
+        authorized=bundle.authorized,
+        site=bundle.site,
+        robot=bundle.robot,
+        files=bundle.files,
+        profile=bundle.profile,
+        lenient=bundle.manifest.site.lenient,
+        world=world,
+        seed=seed,
+        planner=bundle.manifest.task.planner,
+        bundle=bundle,
+        departure=departure,
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
 class Mission:
-    """A mission as its folder holds it.
+    """A mission that was begun. What is carried out is this; nothing of its folder but the journal is read again.
 
     Attributes:
         bundle: The signed mission that it is, where it is one and that was verified.
         departure: Of a mission on a robot; None in simulation.
+        told: Gives the order that stands in the memory of this process, beside those in the folder.
     """
 
     folder: Path
@@ -96,6 +149,7 @@ class Mission:
     sha256: str
     bundle: Bundle | None = None
     departure: Departure | None = None
+    told: Callable[[], Order | None] = nobody
 
     @property
     def id(self) -> str:
@@ -115,49 +169,52 @@ def new_id(at: datetime) -> str:
     return f"{at:%Y%m%d-%H%M%S}-{secrets.token_hex(3)}"
 
 
-def begin(under: Path, name: str, inputs: Inputs) -> Path:
+def begin(under: Path, name: str, inputs: Inputs) -> Mission:
     """Make the folder of a mission. Nothing is done yet; a folder that was not finished is no mission.
 
     Returns:
-        The folder.
+        The mission, from what was given: the folder is not read.
 
     Raises:
         JournalError: There is a mission of that name, or the folder cannot be written.
     """
     from fieldhand.execution.journal.desk import Desk
     from fieldhand.execution.journal.store import create
+    from fieldhand.execution.world import World
 
-    folder = under / name
-    files = {"task.xml": inputs.task, "robot.yaml": inputs.robot}
-    files.update({f"site/{Path(file).name}": data for file, data in inputs.site.items()})
-    if inputs.world is not None:
-        files["world.yaml"] = inputs.world
-    if inputs.signed is not None:
-        files[_SIGNED] = inputs.signed
+    folder, world = under / name, inputs.world or World()
+    files = {"task.xml": inputs.document, "robot.yaml": inputs.profile}
+    files.update({f"site/{Path(file).name}": data for file, data in inputs.files.parts.items()})
+    if world.data is not None:
+        files["world.yaml"] = world.data
+    if inputs.bundle is not None:
+        files[_SIGNED] = inputs.bundle.data
     about = {
         "format": FORMAT if inputs.departure is None else ON_ROBOT,
-        "site": f"site/{Path(next(iter(inputs.site))).name}",
+        "site": f"site/{Path(inputs.files.name).name}",
         "lenient": inputs.lenient,
         "seed": inputs.seed,
         "planner": inputs.planner,
-        "authorization": asdict(inputs.authorization),
-        "files": {file: hashlib.sha256(data).hexdigest() for file, data in files.items()},
+        "authorization": asdict(inputs.authorized.authorization),
+        "files": {file: _sha256(data) for file, data in files.items()},
     }
     if inputs.departure is not None:
         about["departure"] = asdict(inputs.departure)
-    whole = json.dumps(about, ensure_ascii=False, indent=1).encode()
+    whole = json_text(about, indent=1).encode()
     if (folder / ABOUT).exists():
         raise JournalError("there is a mission of that name already", where=str(folder), advice="fieldhand resume it")
     try:
-        (folder / "site").mkdir(parents=True, exist_ok=True)
+        for one in (under, folder, folder / "site"):
+            one.mkdir(mode=0o755, parents=True, exist_ok=True)
+        _require_guarded(folder)
         for file in (JOURNAL, f"{JOURNAL}-wal", f"{JOURNAL}-shm", ORDERS, f"{ORDERS}-wal", f"{ORDERS}-shm"):
             (folder / file).unlink(missing_ok=True)
         for file, data in files.items():
-            write_stored(folder / file, data)
-        create(folder / JOURNAL, hashlib.sha256(whole).hexdigest())
+            write_stored(folder / file, data, mode=0o644)
+        create(folder / JOURNAL, _sha256(whole))
         Desk(folder / ORDERS).create()
         store_names(folder / "site")
-        write_whole(folder / ABOUT, whole)
+        write_whole(folder / ABOUT, whole, mode=0o644)
         store_names(under)
     except OSError as error:
         raise JournalError(
@@ -165,31 +222,139 @@ def begin(under: Path, name: str, inputs: Inputs) -> Path:
             where=str(folder),
             advice="free some space, or give another folder with --missions",
         ) from None
-    return folder
+    return Mission(
+        folder=folder,
+        authorized=inputs.authorized,
+        site=inputs.site,
+        robot=inputs.robot,
+        world=world,
+        seed=inputs.seed,
+        planner=inputs.planner,
+        sha256=_sha256(whole),
+        bundle=inputs.bundle,
+        departure=inputs.departure,
+    )
 
 
-def is_signed(folder: Path) -> bool:
-    """Whether the mission came from a signed bundle, which then lies in its folder.
+@dataclass(frozen=True, kw_only=True)
+class FolderContents:
+    """The bytes of a mission's folder, each file read once. Everything that is decided about a mission follows from these.
+
+    Attributes:
+        about: What mission.json says; ``whole`` are its bytes.
+        files: Of every file that it names, each with the SHA-256 that it gives.
+    """  # noqa: E501
+
+    folder: Path
+    about: Mapping[str, Any]
+    whole: bytes
+    files: Mapping[str, bytes]
+
+    @property
+    def signed(self) -> bytes | None:
+        """The signed bundle that the mission came from; None where nobody signed it."""
+        return self.files.get(_SIGNED)
+
+    @property
+    def departure(self) -> Departure | None:
+        """On which robot the mission was begun; None for one in simulation.
+
+        Raises:
+            JournalError: mission.json does not say.
+        """
+        try:
+            return _departure_of(self.about)
+        except (KeyError, TypeError, ValueError) as error:
+            raise _no_mission(self.folder, f"{ABOUT} lacks {error}") from None
+
+    def mission(self, verify: Callable[[bytes, str], Bundle] | None = None) -> Mission:
+        """Return the mission that these bytes are.
+
+        Args:
+            verify: As for :func:`open_mission`.
+
+        Raises:
+            JournalError, NotApprovedError, BundleError, NotTrustedError: As :func:`open_mission`.
+        """
+        from fieldhand.execution.world import World, decode_world
+
+        folder, about, files = self.folder, self.about, self.files
+        try:
+            site_file = str(about["site"])
+            authorization = Authorization(
+                **{**about["authorization"], "confirmed": tuple(about["authorization"]["confirmed"])}
+            )
+            lenient, seed, planner = bool(about["lenient"]), int(about["seed"]), str(about["planner"])
+        except (KeyError, TypeError, ValueError) as error:
+            raise _no_mission(folder, f"{ABOUT} lacks {error}") from None
+        if site_file not in files or not {"task.xml", "robot.yaml"} <= files.keys():
+            raise _no_mission(folder, f"{ABOUT} names no Task, robot or site")
+        bundle = None
+        if verify is not None and self.signed is not None:
+            # Before anything else of the folder is read.
+            bundle = verify(self.signed, str(folder / _SIGNED))
+            require_signed(bundle, files, authorization, lenient=lenient, planner=planner, folder=folder)
+            authorized, site, robot = bundle.authorized, bundle.site, bundle.robot
+        else:
+            authorized, site, robot = self._unsigned(authorization, site_file, lenient=lenient)
+        world = files.get("world.yaml")
+        return Mission(
+            folder=folder,
+            authorized=authorized,
+            site=site,
+            robot=robot,
+            world=World() if world is None else decode_world(world, source=str(folder / "world.yaml")),
+            seed=seed,
+            planner=planner,
+            sha256=_sha256(self.whole),
+            bundle=bundle,
+            departure=self.departure,
+        )
+
+    def _unsigned(
+        self, authorization: Authorization, site_file: str, *, lenient: bool
+    ) -> tuple[AuthorizedTask, Site, RobotProfile]:
+        """Task, site and robot as the folder has them.
+
+        Raises:
+            NotApprovedError: They are not those that were approved.
+        """
+        from fieldhand.approval.authorize import approved_before
+        from fieldhand.robot.loader import parse_profile
+        from fieldhand.site.formats.files import SiteFiles
+        from fieldhand.site.geojson import site_of
+
+        folder, files = self.folder, self.files
+        robot = parse_profile(files["robot.yaml"], source=str(folder / "robot.yaml"))
+        named = {site_file: files[site_file]} | {file: data for file, data in files.items() if file.startswith("site/")}
+        parts = {Path(file).name: data for file, data in named.items()}
+        site = site_of(SiteFiles(parts=parts, source=str(folder / site_file)), lenient=lenient)
+        task = mission.decode_task(files["task.xml"], robot, source=str(folder / "task.xml"))
+        return approved_before(files["task.xml"], task, authorization, site, robot), site, robot
+
+
+def read_folder(folder: Path) -> FolderContents:
+    """Read the folder of a mission, each file once, and hold each against the SHA-256 that mission.json gives.
 
     Raises:
-        JournalError: This is no mission.
+        JournalError: This is no mission, a file is not the one that it began with, or others can write there.
     """
-    files = read_about(folder)[0].get("files")
-    return isinstance(files, dict) and _SIGNED in files
-
-
-def signed_bundle(folder: Path) -> bytes | None:
-    """The signed bundle that a mission came from, with the bytes that it began with; None where nobody signed it.
-
-    Raises:
-        JournalError: This is no mission, or the bundle is another.
-    """
-    sums = read_about(folder)[0].get("files")
-    return read_file(folder, _SIGNED, sums[_SIGNED]) if isinstance(sums, dict) and _SIGNED in sums else None
+    try:
+        if folder.is_dir():
+            _require_guarded(folder)
+    except OSError as error:
+        raise _no_mission(folder, error.strerror or str(error)) from None
+    about, whole = read_about(folder)
+    try:
+        sums = {str(file): str(sha256) for file, sha256 in dict(about["files"]).items()}
+    except (KeyError, TypeError, ValueError) as error:
+        raise _no_mission(folder, f"{ABOUT} lacks {error}") from None
+    files = {file: read_kept(folder, file, sha256) for file, sha256 in sums.items()}
+    return FolderContents(folder=folder, about=about, whole=whole, files=files)
 
 
 def open_mission(folder: Path, verify: Callable[[bytes, str], Bundle] | None = None) -> Mission:
-    """Read a mission from its folder; every byte has to be the one that it began with.
+    """Return the mission of a folder.
 
     Args:
         folder: The mission's.
@@ -202,59 +367,7 @@ def open_mission(folder: Path, verify: Callable[[bytes, str], Bundle] | None = N
         NotApprovedError: It is not what was approved, or not what was signed.
         BundleError, NotTrustedError: The bundle is broken, or nobody who is trusted here has signed it.
     """
-    from fieldhand.approval.authorize import approved_before
-    from fieldhand.execution.world import World, load_world
-    from fieldhand.robot.loader import parse_profile
-    from fieldhand.site.geojson import load_site
-
-    about, whole = read_about(folder)
-    try:
-        sums, site_file = dict(about["files"]), str(about["site"])
-        authorization = Authorization(
-            **{**about["authorization"], "confirmed": tuple(about["authorization"]["confirmed"])}
-        )
-        lenient, seed, planner = bool(about["lenient"]), int(about["seed"]), str(about["planner"])
-        departure = _departure_of(about)
-    except (KeyError, TypeError, ValueError) as error:
-        raise _no_mission(folder, f"{ABOUT} lacks {error}") from None
-    files = {file: read_file(folder, file, sha256) for file, sha256 in sums.items()}
-    if site_file not in files or not {"task.xml", "robot.yaml"} <= files.keys():
-        raise _no_mission(folder, f"{ABOUT} names no Task, robot or site")
-    bundle = None
-    if verify is not None and _SIGNED in files:
-        # Before anything else of the folder is read.
-        bundle = verify(files[_SIGNED], str(folder / _SIGNED))
-        require_signed(bundle, files, authorization, lenient=lenient, planner=planner, folder=folder)
-        authorized, site, robot = bundle.authorized, bundle.site, bundle.robot
-    else:
-        robot = parse_profile(files["robot.yaml"], source=str(folder / "robot.yaml"))
-        site = load_site(folder / site_file, lenient=lenient)
-        task = mission.decode_task(files["task.xml"], robot, source=str(folder / "task.xml"))
-        authorized = approved_before(files["task.xml"], task, authorization, site, robot)
-    return Mission(
-        folder=folder,
-        authorized=authorized,
-        site=site,
-        robot=robot,
-        world=load_world(folder / "world.yaml") if "world.yaml" in files else World(),
-        seed=seed,
-        planner=planner,
-        sha256=hashlib.sha256(whole).hexdigest(),
-        bundle=bundle,
-        departure=departure,
-    )
-
-
-def begun_on(folder: Path) -> Departure | None:
-    """On which robot a mission was begun; None for one in simulation.
-
-    Raises:
-        JournalError: This is no mission.
-    """
-    try:
-        return _departure_of(read_about(folder)[0])
-    except (KeyError, TypeError, ValueError) as error:
-        raise _no_mission(folder, f"{ABOUT} lacks {error}") from None
+    return read_folder(folder).mission(verify)
 
 
 def _departure_of(about: Mapping[str, Any]) -> Departure | None:
@@ -294,18 +407,22 @@ def read_about(folder: Path) -> tuple[dict[str, Any], bytes]:
         JournalError: It is missing, or is none.
     """
     try:
-        whole = (folder / ABOUT).read_bytes()
+        whole = read_file(folder / ABOUT, _MOST_BYTES, look=lambda status: require_own_file(folder / ABOUT, status))
         about = json.loads(whole)
-    except OSError as error:
-        raise _no_mission(folder, f"{ABOUT}: {error.strerror}") from None
+    except Unguarded as fault:
+        raise _unguarded(fault) from None
+    except FileFault as fault:
+        raise _no_mission(folder, f"{ABOUT} {fault.what}") from None
     except ValueError as error:
         raise _no_mission(folder, f"{ABOUT} is not JSON: {error}") from None
+    except RecursionError:
+        raise _no_mission(folder, f"{ABOUT} is nested too deep") from None
     if not isinstance(about, dict) or about.get("format") not in (FORMAT, ON_ROBOT):
         raise _no_mission(folder, f"{ABOUT} has not the format {FORMAT} or {ON_ROBOT} that this version reads")
     return about, whole
 
 
-def read_file(folder: Path, file: str, sha256: str) -> bytes:
+def read_kept(folder: Path, file: str, sha256: str) -> bytes:
     """The bytes of a file of the folder, which have to be those that the mission began with.
 
     Raises:
@@ -315,10 +432,12 @@ def read_file(folder: Path, file: str, sha256: str) -> bytes:
     if path.resolve() != folder.resolve() / file:
         raise _no_mission(folder, f"{file} leads elsewhere")
     try:
-        data = path.read_bytes()
-    except (OSError, ValueError) as error:
-        raise _no_mission(folder, f"{file} cannot be read: {error}") from None
-    if hashlib.sha256(data).hexdigest() != sha256:
+        data = read_file(path, _MOST_BYTES, plain=True, look=lambda status: require_own_file(path, status))
+    except Unguarded as fault:
+        raise _unguarded(fault) from None
+    except FileFault as fault:
+        raise _no_mission(folder, f"{file} {fault.what}") from None
+    if _sha256(data) != sha256:
         raise JournalError(
             f"{file} is not the one that the mission began with",
             where=str(folder),
@@ -327,5 +446,28 @@ def read_file(folder: Path, file: str, sha256: str) -> bytes:
     return data
 
 
+def _require_guarded(folder: Path) -> None:
+    """Check that nobody else can change the folder of a mission, or put another in its place.
+
+    Raises:
+        JournalError: Somebody else can.
+        OSError: It may not be looked into.
+    """
+    try:
+        require_guarded(folder)
+    except Unguarded as fault:
+        raise _unguarded(fault) from None
+
+
+def _unguarded(fault: Unguarded) -> JournalError:
+    return JournalError(
+        fault.what, where=str(fault.path), advice=f"{fault.advice}; or give another folder with --missions"
+    )
+
+
 def _no_mission(folder: Path, why: str) -> JournalError:
     return JournalError(f"this is no mission: {why}", where=str(folder), advice="give the folder that run has made")
+
+
+def _sha256(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()

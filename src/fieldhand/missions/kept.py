@@ -10,17 +10,18 @@ from typing import TYPE_CHECKING
 
 from fieldhand import mission
 from fieldhand.errors import ExecutionError
+from fieldhand.folders import is_locked
 from fieldhand.missions.folder import (
     JOURNAL,
-    LOCK,
     LOG,
     ORDERS,
     REPORT,
     Departure,
     Mission,
     read_about,
-    read_file,
+    read_kept,
 )
+from fieldhand.missions.orders import latest
 from fieldhand.task.event_lines import from_json
 from fieldhand.task.results import Event
 
@@ -74,7 +75,7 @@ def carry_out(
         JournalError: Another process carries it out; its journal is damaged, of another mission or does not fit; the
             disk is full.
     """
-    from fieldhand.execution.journal.desk import Desk, alone
+    from fieldhand.execution.journal.desk import Desk
     from fieldhand.execution.journal.store import Journal
     from fieldhand.execution.vehicle import simulation
 
@@ -92,7 +93,6 @@ def carry_out(
 
     folder = given.folder
     with (
-        alone(folder / LOCK),
         Journal(folder / JOURNAL, given.sha256, folder / LOG, tell) as journal,
         closing(Desk(folder / ORDERS)) as desk,
     ):
@@ -105,7 +105,7 @@ def carry_out(
             emit=emit,
             interrupted=interrupted,
             watched=watched,
-            orders=desk.standing,
+            orders=latest(given.told, desk.standing),
             tape=journal,
         )
 
@@ -142,18 +142,18 @@ def status(folder: Path) -> Status:
         JournalError: This is no mission, or its journal cannot be read.
     """
     from fieldhand.evaluation.standing import standing
-    from fieldhand.execution.journal.desk import Desk, taken
+    from fieldhand.execution.journal.desk import Desk
     from fieldhand.execution.journal.records import sight_of
     from fieldhand.execution.journal.store import heard
     from fieldhand.robot.loader import parse_profile
     from fieldhand.task.codec import decode
 
     about, _ = read_about(folder)
-    running = taken(folder / LOCK)
+    running = is_locked(folder)
     number, lines, sight, _ = heard(folder / JOURNAL)
     events = tuple(e for e in (from_json(line, where=str(folder)) for _, line in lines) if e is not None)
-    task = decode(read_file(folder, "task.xml", about["files"]["task.xml"]), source=str(folder / "task.xml"))
-    robot = parse_profile(read_file(folder, "robot.yaml", about["files"]["robot.yaml"]), source=f"{folder}/robot.yaml")
+    task = decode(read_kept(folder, "task.xml", about["files"]["task.xml"]), source=str(folder / "task.xml"))
+    robot = parse_profile(read_kept(folder, "robot.yaml", about["files"]["robot.yaml"]), source=f"{folder}/robot.yaml")
     now = standing(task, robot, events, running=running)
     if sight is not None and now.state != "ended":
         seen = sight_of(sight)
@@ -184,7 +184,6 @@ def stands(folder: Path) -> bool:
     from fieldhand.execution.journal.records import sight_of
     from fieldhand.execution.journal.store import heard
 
-    read_about(folder)
     sight = heard(folder / JOURNAL)[2]
     return sight is None or sight_of(sight).progress.over
 
@@ -197,7 +196,6 @@ def events_of(folder: Path) -> tuple[Event, ...]:
     """
     from fieldhand.execution.journal.store import heard
 
-    read_about(folder)
     events = (from_json(line, where=str(folder)) for _, line in heard(folder / JOURNAL)[1])
     return tuple(event for event in events if event is not None)
 
@@ -210,7 +208,6 @@ def lines_after(folder: Path, after: int, most: int) -> tuple[tuple[int, str, st
     """
     from fieldhand.execution.journal.store import lines_after
 
-    read_about(folder)
     return lines_after(folder / JOURNAL, after, most)
 
 
@@ -230,14 +227,14 @@ def order(
         ExecutionError: It has ended, or was told to stop before.
         JournalError: This is no mission.
     """
-    from fieldhand.execution.journal.desk import Desk, taken
+    from fieldhand.execution.journal.desk import Desk
     from fieldhand.execution.journal.store import heard
     from fieldhand.task.results import Ended
 
     if any(isinstance(event, Ended) for event in events_of(folder)):
         raise ExecutionError("the mission has ended", where=folder.name)
     number = Desk(folder / ORDERS).say(said, reason)
-    while taken(folder / LOCK):
+    while is_locked(folder):
         if heard(folder / JOURNAL)[0] >= number:
             return True
         if not wait():
@@ -257,7 +254,5 @@ def last_order(folder: Path) -> str:
 
 
 def is_running(folder: Path) -> bool:
-    """Whether a process is carrying the mission out."""
-    from fieldhand.execution.journal.desk import taken
-
-    return taken(folder / LOCK)
+    """Return True if a process is carrying the mission out."""
+    return is_locked(folder)

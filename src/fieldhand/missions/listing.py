@@ -7,8 +7,9 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 from fieldhand.errors import FieldhandError, JournalError
+from fieldhand.folders import is_locked
 from fieldhand.missions.finding import all_missions, begun_at
-from fieldhand.missions.folder import JOURNAL, LOCK, read_about, read_file, remove_folder
+from fieldhand.missions.folder import JOURNAL, read_about, read_kept, remove_folder
 from fieldhand.task.event_lines import from_json
 from fieldhand.task.results import Continued, Ended, Exited, Paused
 
@@ -83,17 +84,16 @@ def remove(entry: Entry) -> None:
 
 def _entry(folder: Path) -> Entry:
     from fieldhand.evaluation.standing import state_of
-    from fieldhand.execution.journal.desk import taken
     from fieldhand.execution.journal.store import heard
     from fieldhand.task.codec import decode
 
     begun = begun_at(folder)
     try:
         files = read_about(folder)[0]["files"]
-        running = taken(folder / LOCK)
+        running = is_locked(folder)
         lines = heard(folder / JOURNAL)[1]
         events = [from_json(line) for _, line in lines if line.startswith(_TURNS)]
-        task = decode(read_file(folder, "task.xml", files["task.xml"]))
+        task = decode(read_kept(folder, "task.xml", files["task.xml"]))
         last = datetime.fromisoformat(lines[-1][0]) if lines else begun
     except (FieldhandError, KeyError, TypeError, ValueError) as error:
         why = (
