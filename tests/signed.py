@@ -60,7 +60,13 @@ def orchard_files(trees: int = 6) -> SiteFiles:
 
 
 def pack_mission(
-    files: SiteFiles | None = None, *, key: SigningKey = KEY, lenient: bool = False, at: str = WHEN, by: str = "Ada"
+    files: SiteFiles | None = None,
+    *,
+    key: SigningKey = KEY,
+    lenient: bool = False,
+    at: str = WHEN,
+    by: str = "Ada",
+    **more: Any,
 ) -> bytes:
     """A good bundle: CO2 at tree 1, with what is warned of (once, not three times) confirmed."""
     files = files or orchard_files()
@@ -70,7 +76,9 @@ def pack_mission(
     act = Act(id="", action="read_co2", at=TreeIs(tree="1"), said=((0, 30),))
     task = task_for(site, act, "Take 3 CO2 readings at tree 1.")
     authorized = approve(task, site, robot, by=by, at=at, confirmed=EveryWarning())
-    return pack(authorized, site, robot, files=files, lenient=lenient, profile=profile, key=key, planner="english")
+    return pack(
+        authorized, site, robot, files=files, lenient=lenient, profile=profile, key=key, planner="english", **more
+    )
 
 
 @cache
@@ -110,3 +118,13 @@ def archive_of(*files: tuple[zipfile.ZipInfo | str, bytes], method: int = zipfil
         for name, data in files:
             archive.writestr(name, data, method)
     return packed.getvalue()
+
+
+def undated(data: bytes) -> bytes:
+    """The same mission as a version before would have signed it: without number, and without an end."""
+    manifest = manifest_of(data)
+    del manifest["approved"]["until"], manifest["approved"]["number"]
+    document = (json.dumps(manifest | {"format": 1}, ensure_ascii=False, indent=2) + "\n").encode()
+    members = members_of(data) | {MANIFEST: document}
+    members[SIGNATURE] = sign_manifest(document, KEY).text()
+    return wrap(members)

@@ -13,15 +13,18 @@ from shapely import Point
 
 import fieldhand
 from fieldhand.approval.bundle.container import MANIFEST, unwrap
+from fieldhand.approval.bundle.opening import content_of, unseal
 from fieldhand.approval.keys.public import PublicKey
+from fieldhand.delivery.verified import require_sendable
 from fieldhand.errors import BundleError, NotTrustedError
 from fieldhand.robot.loader import load_robot
+from fieldhand.site.formats import gis
 from fieldhand.site.formats.files import SiteFiles, read_files
 from fieldhand.site.geojson import site_files, site_of
 from fieldhand.task.codec import encode
 from gisfiles import kml, placemark, write_layer
 from orchards import at
-from signed import KEY, WHEN, good, manifest_of, members_of, opened, orchard_files, pack_mission, signing_key
+from signed import KEY, NOW, WHEN, good, manifest_of, members_of, opened, orchard_files, pack_mission, signing_key
 from sites import collection, point
 
 
@@ -96,6 +99,26 @@ def test_a_site_of_any_format_is_the_same_site_on_the_robot(make, tmp_path: Path
     here, there = site_of(files), opened(pack_mission(files)).site
     assert (there.sha256, there.content_sha256, there.name) == (here.sha256, here.content_sha256, here.name)
     assert str(tmp_path).encode() not in pack_mission(files)  # nor does it say where the file lay
+
+
+@pytest.mark.parametrize("make", [_kml, _shapefile], ids=lambda f: f.__name__)
+def test_gdal_reads_nothing_of_a_stranger(make, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Neither to inspect a mission nor to send it, whatever reader of such files there is."""
+    data = pack_mission(make(tmp_path))
+    sealed = unseal(data, source="m.mission")
+
+    def read(*_: object, **__: object) -> None:
+        raise AssertionError("a file of a stranger was read")
+
+    monkeypatch.setattr(gis, "read_confined", read)
+    monkeypatch.setattr(gis, "read_here", read)
+    with pytest.raises(NotTrustedError, match="read only if someone trusted has signed it"):
+        content_of(sealed, now=NOW, stranger=True)
+    assert require_sendable(data, source="m.mission", known={}, now=NOW).hashes == sealed.hashes
+    with pytest.raises(NotTrustedError, match="not trusted here"):
+        opened(data, {})
+    with pytest.raises(AssertionError, match="a file of a stranger was read"):
+        opened(data)
 
 
 def test_a_site_that_was_read_leniently_is_read_so_again() -> None:

@@ -153,6 +153,19 @@ def test_a_budget_that_cannot_last_is_an_error_with_the_numbers(limit, severity)
     assert all("10 m" in p.what for p in found)
 
 
+def test_a_budget_above_the_mean_says_what_it_takes_in_bad_missions():
+    start, end, tree = SITE.start, SITE.markers["end"], SITE.by_id["20"].place
+    drives = drives_for(SITE, ROBOT)
+    there = drives.between(start, tree)
+    metres = there.length_m + drives.between(there.end, end).length_m
+    constraints = Constraints(budgets=(Budget(kind="distance_m", limit=1.1 * metres, failure_probability=0.02),))
+    plan = ForEach(id="", select=TreeIs(tree="20"), body=PICTURE, optional=True)
+    (error,) = errors(plan, constraints=constraints)
+    mean, high, chance = map(int, re.search(r"about (\d+) m .* more than (\d+) m in (\d+) of 100", error.what).groups())
+    assert mean < 1.1 * metres < high, "the figures say why it does not last"
+    assert chance == 2
+
+
 def test_a_budget_in_which_no_optional_visit_fits_is_an_error_with_the_numbers():
     constraints = Constraints(budgets=(Budget(kind="distance_m", limit=24.0),))
     plan = ForEach(id="", select=TreeIs(tree="20"), body=PICTURE, optional=True)

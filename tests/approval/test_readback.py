@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from fieldhand.approval.readback import read_back
 from fieldhand.forecast.estimate import estimate
 from fieldhand.task.conditions import Compare, Level
-from fieldhand.task.frames import Budget, Constraints
+from fieldhand.task.frames import Budget, Constraints, FaultedExit
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Optional, Repeat, Sequence, Stop, Try, walk
 from fieldhand.task.selectors import (
     Bound,
@@ -221,6 +221,21 @@ def test_faults_reserve_assumptions_and_totals_are_said():
     assert "Assumed: “it” is the first tree." in text
     assert re.search(r"In all: 1 capture, about \d+ m, .* % of the battery\.", text)
     assert words.totals.metres.p90 >= words.totals.metres.mean > 0
+
+
+def test_what_every_plan_has_is_left_out_unless_somebody_consents_to_it():
+    words = read(act(at=TreeIs(tree="1")))
+    short = words.text_lines(usual=False)
+    assert set(words.text_lines()) - set(short) == {f"  {text}" for text in words.faults} | {
+        "  Limit: at least 20 % charge is left at the end (the robot's own reserve)."
+    }
+
+
+def test_what_a_task_asks_for_itself_is_in_every_read_back():
+    exits = (FaultedExit(fault="action_failed", then="stay"),)
+    task = task_for(SITE, act(at=TreeIs(tree="1")), constraints=Constraints(reserve_percent=20.0), faulted=exits)
+    words = read_back(task, SITE, husky(), estimate(task, SITE, husky()))
+    assert words.text_lines(usual=False) == words.text_lines()
 
 
 def test_a_site_without_an_end_marker_is_said_to_have_none():

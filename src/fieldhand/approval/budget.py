@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from fieldhand.approval.problem import Problem
@@ -12,7 +13,9 @@ from fieldhand.forecast.limits import Resource, resources_of
 from fieldhand.forecast.routes import drives_for, first_places
 from fieldhand.forecast.service import service_of
 from fieldhand.forecast.state import Work
+from fieldhand.forecast.ways import cost_model
 from fieldhand.language import message
+from fieldhand.orienteering.tail import quantile_table, standardised
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context
 from fieldhand.site.model import Site
@@ -56,12 +59,14 @@ def _nothing_fits(task: Task, site: Site, robot: RobotProfile) -> Iterator[Probl
             continue
         try:
             places = first_places(node, site, Context(here=site.start))
-            metres = min(drives.between(site.start, p).length_m + drives.between(p, home).length_m for p in places)
+            ways = [(drives.between(site.start, p).length_m, drives.between(p, home).length_m) for p in places]
+            metres = min(ways, key=sum)
         except (FieldhandError, ValueError):
             continue  # where its places hang on the way there, no single visit can be costed
         seconds, joules = service_of(node.body, robot)
         for resource in resources_of(task.constraints, robot):
-            need = metres * resource.per_metre + resource.of_work(robot, Work(seconds=seconds, joules=joules))
+            work = resource.of_work(robot, Work(seconds=seconds, joules=joules))
+            need = sum(metres) * resource.per_metre + work
             amount, limit = _amount(resource, need), _amount(resource, resource.limit)
             sentence = Problem(
                 node=node.id,
@@ -76,14 +81,24 @@ def _nothing_fits(task: Task, site: Site, robot: RobotProfile) -> Iterator[Probl
             if need > resource.limit:
                 yield sentence
             elif resource.kind != "reserve":
-                safe = say_number(100 * (1 - resource.failure_probability))
+                high = _exceeded(metres, robot, resource.failure_probability) * resource.per_metre + work
                 what = message(
-                    "{limit} does not last for a single visit with {chance} % certainty: {amount}",
+                    "{limit} does not last for a single visit: the nearest takes about {amount} with the way home on"
+                    " average, and more than {high} in {chance} of 100 missions",
                     limit=limit,
-                    chance=safe,
                     amount=amount,
+                    high=_amount(resource, high),
+                    chance=say_number(100 * resource.failure_probability),
                 )
                 yield replace(sentence, what=what)
+
+
+def _exceeded(metres: Sequence[float], robot: RobotProfile, chance: float) -> float:
+    """Return the metres that drives of these lengths cost together with that chance, or more."""
+    second, third = cost_model(robot).cumulants()
+    variance, cubes = (sum(length**power for length in metres) for power in (2, 3))
+    over = standardised(quantile_table(chance), second * variance, third * cubes)
+    return sum(metres) + math.sqrt(second * variance) * over
 
 
 def _amount(resource: Resource, value: float) -> str:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from fieldhand.approval.account import unaccounted
+from fieldhand.approval.battery import battery_problems
 from fieldhand.approval.branch_checks import branch_problems, exit_problems
 from fieldhand.approval.budget import budget_problems
 from fieldhand.approval.doubts import doubts
@@ -94,6 +95,7 @@ def examine(
                 forecast = estimate(task, site, robot, seed, charge_percent=charge_percent)
                 problems.extend(exit_problems(forecast, site))
                 problems.extend(budget_problems(task, site, robot, forecast))
+                problems.extend(battery_problems(task, robot))
     once = dict.fromkeys(with_words(problem, task) for problem in problems)
     return Examination(problems=tuple(sorted(once, key=lambda p: p.severity != "error")), estimate=forecast)
 

@@ -35,8 +35,12 @@ _SCALES = (1.25, 1.15, 1.05, 0.95, 0.85)
 _UNIT = re.compile(r"(\d) (m|min|h|s|%|°C|ppm)(?!\w)")
 
 
-def draw_panel(ax: Axes, task: Task, plan: Plan, words: ReadBack, colours: dict[str, str], language: Language) -> None:
-    """Write the words from the top down; steps that find no room are counted, the legend and totals always stand."""
+def draw_panel(ax: Axes, task: Task, plan: Plan, words: ReadBack, colours: dict[str, str], language: Language) -> float:
+    """Write the words from the top down; steps that find no room are counted, the legend and totals always stand.
+
+    Returns:
+        Points that are left below.
+    """
     legend, totals = _legend(plan, colours, language), language.read(say_totals(words.totals))
     request = " ".join(task.command.request.split())
     writer = next(
@@ -65,6 +69,7 @@ def draw_panel(ax: Axes, task: Task, plan: Plan, words: ReadBack, colours: dict[
     for text in totals:
         for line in writer.wrapped(text, _SMALL_PT):
             writer.write(line, _SMALL_PT, colour=_QUIET)
+    return writer.left
 
 
 def _legend_points(entries: int) -> float:

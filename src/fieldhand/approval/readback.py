@@ -7,11 +7,12 @@ will take.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from fieldhand.approval.paths import FAULTS, say_decisions
 from fieldhand.approval.resolved import gather
 from fieldhand.approval.sentences import Line, say_exit_after, write_lines
+from fieldhand.brief import brief_repr
 from fieldhand.forecast.estimate import BranchEstimate, Estimate, Figure
 from fieldhand.forecast.limits import ResourceKind, reserve_percent
 from fieldhand.forecast.steps import Walk
@@ -19,7 +20,8 @@ from fieldhand.language import counted, joined, message, recalled
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.site.places import notes
-from fieldhand.task.frames import Budget, Task, Then
+from fieldhand.task.build import FAULTED_EXITS
+from fieldhand.task.frames import Budget, FaultedExit, Task, Then
 from fieldhand.task.plan import selector_of
 from fieldhand.task.words import capitalised, listed, say_duration, say_number, say_rounded
 
@@ -45,7 +47,7 @@ class Totals:
     worst: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class ReadBack:
     """A Task in words.
 
@@ -56,6 +58,7 @@ class ReadBack:
         assumptions: What was assumed in reading the request.
         notes: What a person may not expect of where it leads: a tie, the end of a row, trees of which nothing is known.
         totals: What it takes.
+        usual: Those of ``limits`` and ``faults`` that every Task has which does not ask for something else.
     """
 
     lines: tuple[Line, ...]
@@ -64,14 +67,22 @@ class ReadBack:
     assumptions: tuple[str, ...]
     notes: tuple[str, ...]
     totals: Totals
+    usual: frozenset[str] = frozenset()
 
-    def text_lines(self) -> tuple[str, ...]:
-        """The whole read-back for a terminal: steps with their numbers, then the rest."""
+    __repr__ = brief_repr
+
+    def text_lines(self, *, usual: bool = True) -> tuple[str, ...]:
+        """Return the read-back for a terminal: steps with their numbers, then the rest.
+
+        Args:
+            usual: Include the limits and exits that every Task has unless it asks for something else.
+        """
+        left_out = frozenset() if usual else self.usual
         return (
             *(_numbered(line) for line in self.lines),
             "",
-            *(_indented(message("Limit: {text}", text=text)) for text in self.limits),
-            *(_indented(text) for text in self.faults),
+            *(_indented(message("Limit: {text}", text=text)) for text in self.limits if text not in left_out),
+            *(_indented(text) for text in self.faults if text not in left_out),
             *(_indented(message("Assumed: {text}", text=text)) for text in self.assumptions),
             *(_indented(message("Note: {text}", text=text)) for text in self.notes),
             *(_indented(text) for text in say_totals(self.totals)),
@@ -88,13 +99,15 @@ def read_back(task: Task, site: Site, robot: RobotProfile, estimate: Estimate) -
     """
     walks = [branch.walk for branch in estimate.branches]
     found = gather(task, walks, max((c.chance for c in estimate.worst.chances), default=0.0))
+    limits, faults = _limits(task, robot), _faults(task, site)
     return ReadBack(
         lines=write_lines(task, site, robot, found),
-        limits=_limits(task, robot),
-        faults=_faults(task, site),
+        limits=limits,
+        faults=faults,
         assumptions=tuple(recalled(text, "assumption") for text in task.command.assumptions),
         notes=_notes(walks, site),
         totals=_totals(estimate, task, robot),
+        usual=_usual(task, limits, faults),
     )
 
 
@@ -160,6 +173,21 @@ def _limits(task: Task, robot: RobotProfile) -> tuple[str, ...]:
     if speed is not None:
         found.append(message("at most {speed} m/s.", speed=say_number(speed)))
     return tuple(found)
+
+
+def _usual(task: Task, limits: Sequence[str], faults: Sequence[str]) -> frozenset[str]:
+    """Return the limits and faults that the Task has because it asks for nothing else."""
+    own = limits[len(task.constraints.budgets) :][:1] if task.constraints.reserve_percent is None else ()
+    return frozenset({*own, *(faults if set(task.composition.faulted) in _usual_exits(task) else ())})
+
+
+def _usual_exits(task: Task) -> tuple[set[FaultedExit], ...]:
+    """Return the exits that planners write: as every mission has them, and with the mission's own end on low budget."""
+    home = task.composition.nominal
+    return (
+        set(FAULTED_EXITS),
+        {replace(e, then=home) if e.fault == "low_budget" else e for e in FAULTED_EXITS},
+    )
 
 
 def _faults(task: Task, site: Site) -> tuple[str, ...]:

@@ -4,22 +4,27 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from datetime import datetime
+from datetime import datetime, timedelta
 from typing import Annotated, Any, NoReturn
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from fieldhand.approval.bundle.container import MANIFEST
 from fieldhand.errors import BundleError
+from fieldhand.visible import find_hidden, json_text
 
-#: Of the bundle. A reader takes exactly this one: an older or newer one may mean something else by the same words.
-FORMAT = 1
+#: Of the bundle as it is written. A reader takes this one and ``UNDATED``, which an earlier version wrote: without a
+#: number, and without a date until which it may begin. A newer one may mean something else by the same words.
+FORMAT, UNDATED = 2, 1
+#: How long an approval may be begun: the longest, which also holds for one that does not say it, and the usual.
+LONGEST_VALID, USUALLY_VALID = timedelta(days=366), timedelta(days=90)
 
 
 def _printable(text: str) -> str:
-    """What a terminal shows must not steer it; a request may have several lines."""
-    if not text.replace("\n", " ").replace("\t", " ").isprintable():
-        raise ValueError("holds signs that cannot be shown")
+    """Return the text if a person can see all of it; a request may have several lines."""
+    hidden = find_hidden(text, lines=True)
+    if hidden is not None:
+        raise ValueError(f"holds the character {hidden.name}, which nobody can see")
     return text
 
 
@@ -55,10 +60,17 @@ class _Part(BaseModel):
 
 
 class Approved(_Part):
-    """Who approved, when, what they confirmed, and in which language they read it (ISO 639)."""
+    """An approval: by whom, when, what was confirmed, and in which language it was read (ISO 639).
+
+    Attributes:
+        until: Until when the mission may be begun.
+        number: Of this signer's approvals; a later one has a higher number.
+    """
 
     by: Line
     at: Moment
+    until: Moment | None = None
+    number: Annotated[int, Field(ge=1, le=10**12)] | None = None
     confirmed: list[Words]
     language: Annotated[str, Field(pattern=r"^[a-z]{2,3}$")]
 
@@ -112,9 +124,35 @@ class Manifest(_Part):
     robot: RobotPart
     files: dict[str, Sha256]
 
+    @model_validator(mode="after")
+    def _dated(self) -> Manifest:
+        given = [value is not None for value in (self.approved.until, self.approved.number)]
+        if given != [self.format != UNDATED] * 2:
+            raise ValueError(f"approved.until and approved.number do not fit format {self.format}")
+        if not self.approved_at < self.until <= self.approved_at + LONGEST_VALID:
+            raise ValueError(f"approved.until is not within {LONGEST_VALID.days} days after approved.at")
+        return self
+
+    @property
+    def approved_at(self) -> datetime:
+        """Return the time of approval."""
+        return datetime.fromisoformat(self.approved.at)
+
+    @property
+    def until(self) -> datetime:
+        """Until when the mission may be begun."""
+        until = self.approved.until
+        return self.approved_at + LONGEST_VALID if until is None else datetime.fromisoformat(until)
+
+    @property
+    def number(self) -> int:
+        """Return the number of this approval, higher for later ones of a signer; its date in seconds if it has none."""
+        number = self.approved.number
+        return int(self.approved_at.timestamp()) if number is None else number
+
     def document(self) -> bytes:
         """As it stands in the bundle: JSON, UTF-8, the same for the same manifest."""
-        return (json.dumps(self.model_dump(), ensure_ascii=False, indent=2) + "\n").encode()
+        return (json_text(self.model_dump(exclude_none=True), indent=2) + "\n").encode()
 
 
 def parse_manifest(data: bytes, *, source: str) -> Manifest:
@@ -126,10 +164,10 @@ def parse_manifest(data: bytes, *, source: str) -> Manifest:
     at = f"{source}, {MANIFEST}"
     content = _content(data, at)
     found = content.get("format")
-    if type(found) is not int or found != FORMAT:
+    if type(found) is not int or found not in (FORMAT, UNDATED):
         newer = type(found) is int and found > FORMAT
         raise BundleError(
-            f"has format {str(found)[:20]}, and this program reads format {FORMAT}",
+            f"has format {str(found)[:20]}, and this program reads formats {UNDATED} and {FORMAT}",
             where=at,
             advice="update this program" if newer else "approve the mission again with this version",
         )

@@ -17,7 +17,7 @@ from fieldhand.errors import BundleError, NotTrustedError
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import parse_profile
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.formats.files import SiteFiles
+from fieldhand.site.formats.files import SiteFiles, is_plain
 from fieldhand.site.geojson import site_of
 from fieldhand.site.model import Site
 from fieldhand.task.authorization import Authorization, AuthorizedTask
@@ -147,19 +147,41 @@ def require_trusted(sealed: Sealed, known: Mapping[str, KnownKey]) -> KnownKey:
     return key
 
 
-def content_of(sealed: Sealed, *, now: datetime) -> Content:
-    """Task, site and robot, read again and held against the manifest.
+def manifest_of(sealed: Sealed, *, now: datetime) -> Manifest:
+    """Return the manifest, held against the files of the bundle. Nothing else is read of them.
 
     Raises:
+        BundleError: The manifest cannot be used, or a file is not the one that it names.
+    """
+    manifest = parse_manifest(sealed.members[MANIFEST], source=sealed.source)
+    _require_files(manifest, sealed)
+    _require_past(manifest, now, sealed.source)
+    return manifest
+
+
+def content_of(sealed: Sealed, *, now: datetime, stranger: bool = False) -> Content:
+    """Task, site and robot, read again and held against the manifest.
+
+    Args:
+        sealed: The bundle.
+        now: With time zone.
+        stranger: Nobody who is trusted here signed it: a site that takes a program like GDAL to read is not read.
+
+    Raises:
+        NotTrustedError: It is of a stranger, and has such a site.
         BundleError: The manifest cannot be used, a file is not the one that it names, or is read otherwise here.
         SiteError, ProfileError, TaskError: One of the files cannot be used.
     """
     source, members = sealed.source, sealed.members
-    manifest = parse_manifest(members[MANIFEST], source=source)
-    _require_files(manifest, sealed)
-    _require_past(manifest, now, source)
+    manifest = manifest_of(sealed, now=now)
     robot = parse_profile(members[ROBOT], source=f"{source}, {ROBOT}")
     files = site_files_of(members, manifest.site.file, source=source)
+    if stranger and not is_plain(files):
+        raise NotTrustedError(
+            "its site is read only if someone trusted has signed it (Shapefile, GeoPackage, KML, zip)",
+            where=files.source,
+            advice="compare the fingerprint with the owner of the key and give fieldhand keys trust, then look again",
+        )
     site = site_of(files, lenient=manifest.site.lenient)
     require_valid(members[TASK], capabilities_of(robot), source=f"{source}, {TASK}")
     task = decode(members[TASK], source=f"{source}, {TASK}")

@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 import hashlib
-from datetime import datetime
+from datetime import datetime, timedelta
 
 from pydantic import ValidationError
 
 from fieldhand import __version__
 from fieldhand.approval.bundle.container import MANIFEST, ROBOT, SIGNATURE, TASK, wrap
-from fieldhand.approval.bundle.manifest import FORMAT, Approved, Manifest, RobotPart, SitePart, TaskPart
+from fieldhand.approval.bundle.manifest import (
+    FORMAT,
+    USUALLY_VALID,
+    Approved,
+    Manifest,
+    RobotPart,
+    SitePart,
+    TaskPart,
+)
 from fieldhand.approval.bundle.members import site_members
 from fieldhand.approval.bundle.opening import content_of, unseal
 from fieldhand.approval.bundle.signature import sign_manifest
@@ -32,6 +40,8 @@ def pack(
     profile: bytes,
     key: SigningKey,
     planner: str,
+    valid_for: timedelta = USUALLY_VALID,
+    number: int | None = None,
 ) -> bytes:
     """The signed bundle: the same bytes for the same approval and key.
 
@@ -42,11 +52,15 @@ def pack(
         profile: The YAML from which the robot was read.
         key: Of the person who approves.
         planner: Who planned the Task.
+        valid_for: How long after the approval the mission may be begun.
+        number: Of this signer's approvals (:meth:`fieldhand.approval.keys.signing.SigningKeys.next_number`); by default
+            the date in seconds.
 
     Raises:
         BundleError: The files are not those that were approved, cannot be read again to the same, or are too large.
     """
     authorization = authorized.authorization
+    at = datetime.fromisoformat(authorization.at)
     members = {TASK: encode(authorized.task), ROBOT: profile, **site_members(files)}
     try:
         manifest = Manifest(
@@ -55,6 +69,8 @@ def pack(
             approved=Approved(
                 by=authorization.by,
                 at=authorization.at,
+                until=(at + valid_for).isoformat(timespec="seconds"),
+                number=max(1, int(at.timestamp())) if number is None else number,
                 confirmed=[str(line) for line in authorization.confirmed],
                 language=authorization.language,
             ),
@@ -84,5 +100,5 @@ def pack(
     members |= {MANIFEST: signed, SIGNATURE: sign_manifest(signed, key).text()}
     data = wrap(members)
     # What is given away has been opened once, as the robot will.
-    content_of(unseal(data, source="the bundle"), now=datetime.fromisoformat(authorization.at))
+    content_of(unseal(data, source="the bundle"), now=at)
     return data

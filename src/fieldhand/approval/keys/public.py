@@ -8,12 +8,13 @@ import hashlib
 import re
 from dataclasses import dataclass
 
+from fieldhand.approval.keys.curve import is_sound
+from fieldhand.approval.keys.names import clean_name
 from fieldhand.errors import KeyFileError
 
 #: What a line with a public key begins with.
 MARK = "fieldhand-ed25519"
 KEY_BYTES = 32
-MAX_NAME = 80
 #: 160 bits: nobody finds a second key with the same fingerprint.
 _FINGERPRINT_BYTES = 20
 _LINE = re.compile(rf"[>\s]*{MARK} +([A-Za-z0-9+/=]+)(?: +(.*))?")
@@ -42,10 +43,12 @@ class PublicKey:
         return " ".join(part for part in (MARK, base64.b64encode(self.raw).decode(), self.name) if part)
 
     def verifies(self, signature: bytes, message: bytes) -> bool:
-        """Whether the owner of the key has signed exactly this message."""
+        """Return True if the key's owner signed exactly this message; False for a key that nobody can own."""
         from cryptography.exceptions import InvalidSignature
         from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PublicKey
 
+        if not is_sound(self.raw):
+            return False
         try:
             Ed25519PublicKey.from_public_bytes(self.raw).verify(signature, message)
         except (InvalidSignature, ValueError):
@@ -72,18 +75,6 @@ def parse_public(text: str, *, source: str) -> PublicKey:
         raise KeyFileError(what, where=source, advice=f"give a file with one line that begins with {MARK}")
     encoded, name = found.pop()
     return PublicKey(raw=_raw(encoded, source), name=clean_name(name or "", source) if name else "")
-
-
-def clean_name(name: str, source: str = "--name") -> str:
-    """The name of a key, without spaces around it.
-
-    Raises:
-        KeyFileError: It is empty, too long, or cannot be printed on one line.
-    """
-    name = name.strip()
-    if not name or len(name) > MAX_NAME or not name.isprintable():
-        raise KeyFileError("this is no name", where=source, advice=f"give one line of at most {MAX_NAME} characters")
-    return name
 
 
 def parse_fingerprint(text: str) -> str:
@@ -114,4 +105,19 @@ def _raw(encoded: str, source: str) -> bytes:
         raw = b""
     if len(raw) != KEY_BYTES or base64.b64encode(raw).decode() != encoded:
         raise KeyFileError("the public key is damaged", where=source, advice="ask its owner to send the line again")
+    require_sound(raw, source)
     return raw
+
+
+def require_sound(raw: bytes, source: str) -> None:
+    """Refuse a key with which signatures could be made without a private key.
+
+    Raises:
+        KeyFileError: It is one.
+    """
+    if not is_sound(raw):
+        raise KeyFileError(
+            "this is no Ed25519 public key that anyone can own: anybody could sign with it",
+            where=source,
+            advice="do not trust whoever sent it; a key is made with fieldhand keys new",
+        )

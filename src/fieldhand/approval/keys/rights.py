@@ -8,23 +8,25 @@ from pathlib import Path
 
 from fieldhand.errors import KeyFileError, OutputError
 from fieldhand.files import FileFault, read_file, write_stored, write_whole
+from fieldhand.folders import Unguarded, require_guarded
 
 #: A key is a few lines.
 MAX_BYTES = 64_000
 
 
-def read_guarded(path: Path, *, private: bool) -> bytes:
+def read_guarded(path: Path, *, private: bool, most: int = MAX_BYTES) -> bytes:
     """The bytes of a small file of the user's own.
 
     Args:
         path: Of the file.
         private: Nobody else may read it either; else nobody else may write it.
+        most: Bytes that it may have.
 
     Raises:
         KeyFileError: It is missing, no file, too large, not the user's own, or others have rights on it.
     """
     try:
-        return read_file(path, MAX_BYTES, look=lambda status: require_own(status, path, private=private))
+        return read_file(path, most, look=lambda status: require_own(status, path, private=private))
     except FileFault as fault:
         raise not_a_key(path, fault) from None
 
@@ -50,6 +52,23 @@ def require_own(status: os.stat_result, path: Path, *, private: bool) -> None:
         what = "can be read by others" if private else "can be written by others"
         mode = "600" if private else "go-w"
         raise KeyFileError(what, where=str(path), advice=f"chmod {mode} {path}; if others use this machine, doubt it")
+
+
+def require_own_folder(path: Path) -> None:
+    """Refuse a folder of keys that others can change, or put another in the place of.
+
+    Raises:
+        KeyFileError: They can.
+        OSError: It may not be looked into.
+    """
+    for folder in (path.parent, path):
+        require_own(folder.stat(), folder, private=False)
+    try:
+        require_guarded(path)
+    except Unguarded as fault:
+        raise KeyFileError(
+            fault.what, where=str(fault.path), advice=f"{fault.advice}; if others use this machine, doubt it"
+        ) from None
 
 
 def make_folder(path: Path) -> None:

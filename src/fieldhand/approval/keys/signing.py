@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fieldhand.approval.keys.public import PublicKey, clean_name, parse_public
-from fieldhand.approval.keys.rights import make_folder, read_guarded, write_new
+from fieldhand.approval.keys.names import clean_name
+from fieldhand.approval.keys.public import PublicKey, parse_public
+from fieldhand.approval.keys.rights import make_folder, read_guarded, replace, require_own_folder, write_new
 from fieldhand.errors import KeyFileError
 
 if TYPE_CHECKING:
@@ -94,7 +96,10 @@ class SigningKeys:
         """
         found = []
         try:
-            files = sorted(self.folder.glob("*.key")) if self.folder.exists() else []
+            if not self.folder.exists():
+                return ()
+            require_own_folder(self.folder)
+            files = sorted(self.folder.glob("*.key"))
         except OSError as error:
             raise KeyFileError(
                 f"cannot be read: {error.strerror}", where=str(self.folder), advice="check the rights on the folder"
@@ -122,6 +127,24 @@ class SigningKeys:
         if len(chosen) > 1:
             raise KeyFileError("there are several keys", where="--key", advice=f"choose one of: {names}")
         return chosen[0]
+
+    def next_number(self, key: OwnKey, at: datetime) -> int:
+        """Return the number of the next approval of a key: the time in seconds, and higher than any before it.
+
+        Raises:
+            KeyFileError: The number of the last one cannot be read.
+            OutputError: It cannot be kept.
+        """
+        file = key.file.with_suffix(".number")
+        try:
+            last = int(read_guarded(file, private=False)) if file.exists() else 0
+        except ValueError:
+            raise KeyFileError(
+                "holds no number", where=str(file), advice="remove it; the time takes its place"
+            ) from None
+        number = max(last + 1, int(at.timestamp()), 1)
+        replace(file, f"{number}\n".encode())
+        return number
 
     def open(self, key: OwnKey, passphrase: Callable[[], str | None]) -> SigningKey:
         """Take a key in hand.

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Mapping
-from dataclasses import dataclass
-from datetime import datetime
+import dataclasses
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Protocol
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
-from fieldhand.approval.keys.public import KEY_BYTES, PublicKey, clean_name, parse_fingerprint
-from fieldhand.approval.keys.rights import make_folder, read_guarded, replace, require_own
+from fieldhand.approval.keys.names import clean_name, skeleton
+from fieldhand.approval.keys.public import KEY_BYTES, PublicKey, parse_fingerprint, require_sound
+from fieldhand.approval.keys.rights import make_folder, read_guarded, replace, require_own_folder
 from fieldhand.errors import KeyFileError
 
+#: Beside the keys: the number of their list.
+_LIST = "list.json"
 State = Literal["trusted", "revoked", "unknown"]
 
 
@@ -67,28 +71,142 @@ class KnownKey:
         return f"the key of {self.name} ({self.fingerprint})"
 
 
+@dataclass(frozen=True, kw_only=True)
+class TrustSeen:
+    """Memory of the trusted keys, stored apart from them.
+
+    Attributes:
+        number: The highest number that their list had.
+        revoked: When each key was revoked, by fingerprint.
+    """
+
+    number: int = 0
+    revoked: Mapping[str, str] = field(default_factory=dict)
+
+
+class TrustMemory(Protocol):
+    """Remembers the list of trusted keys (:class:`fieldhand.approval.memory.ApprovalMemory`)."""
+
+    def trust(self) -> TrustSeen:
+        """Return what is remembered."""
+        ...
+
+    def note_trust(self, number: int, revoked: Mapping[str, str]) -> None:
+        """Remember a list."""
+        ...
+
+    def time(self, clock: datetime) -> datetime:
+        """Return the clock, or the latest time that was seen."""
+        ...
+
+
+class _List(BaseModel):
+    """The form of the file of the list: its number rises with each change; it may run out."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+    number: int = Field(default=0, ge=0)
+    until: Moment | None = None
+
+
 class TrustStore:
     """The folder of the keys that are trusted here.
 
     Args:
         folder: The user's configuration (:func:`fieldhand.files.config_folder`).
+        memory: Remembers what was revoked, and how far the list had come; None to remember nothing.
+        clock: The time, for a list that runs out.
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        memory: TrustMemory | None = None,
+        clock: Callable[[], datetime] = lambda: datetime.now(UTC),
+    ) -> None:
         self.folder = folder / "trusted"
+        self._memory, self._clock = memory, clock
 
     def known(self) -> Mapping[str, KnownKey]:
         """Every key by its fingerprint, in the order of names.
 
         Raises:
+            KeyFileError: A file cannot be used, others could have written it, or the list is an older copy or has run
+                out.
+        """
+        if self._memory is None:
+            return self._files()
+        listed, seen = self._list(), self._memory.trust()
+        found = self._with_revoked(seen)
+        if listed.number < seen.number:
+            raise KeyFileError(
+                f"the list of trusted keys is an older copy: it has number {listed.number}, and {seen.number} was seen",
+                where=str(self.folder),
+                advice="bring the later one back, or look at the keys and give fieldhand keys confirm",
+            )
+        if listed.until is not None and self._memory.time(self._clock()) > datetime.fromisoformat(listed.until):
+            raise KeyFileError(
+                f"the list of trusted keys ran out at {listed.until}",
+                where=str(self.folder),
+                advice="look at the keys and give fieldhand keys confirm",
+            )
+        return found
+
+    def confirm(self, until: datetime | None = None) -> None:
+        """Take the list as it is for the latest, until a date if one is given; what was revoked stays so.
+
+        Raises:
+            KeyFileError: A file cannot be used.
+            OutputError: The folder cannot be written.
+        """
+        self._advance(None if until is None else until.isoformat(timespec="seconds"))
+
+    def listed(self) -> Mapping[str, KnownKey]:
+        """Every key as the files have it, whatever the list's number; one that was revoked here is revoked.
+
+        Raises:
             KeyFileError: A file cannot be used, or others could have written it.
         """
+        return self._with_revoked(TrustSeen() if self._memory is None else self._memory.trust())
+
+    def _with_revoked(self, seen: TrustSeen) -> Mapping[str, KnownKey]:
+        found = dict(self._files())
+        for fingerprint, revoked in seen.revoked.items():
+            before = found.get(fingerprint)
+            if before is None:
+                found[fingerprint] = KnownKey(
+                    fingerprint=fingerprint, name="unknown", since=revoked, public=None, revoked=revoked
+                )
+            elif before.revoked is None:
+                found[fingerprint] = dataclasses.replace(before, revoked=revoked)
+        return found
+
+    def _list(self) -> _List:
+        path = self.folder / _LIST
+        if not path.exists():
+            return _List()
+        try:
+            return _List.model_validate_json(read_guarded(path, private=False))
+        except (ValidationError, ValueError, RecursionError):
+            raise _damaged(path) from None
+
+    def _advance(self, until: str | None) -> None:
+        """Give the list the next number, and remember it with every key that was revoked."""
+        seen = TrustSeen() if self._memory is None else self._memory.trust()
+        number = max(self._list().number, seen.number) + 1
+        make_folder(self.folder)
+        text = _List(number=number, until=until).model_dump_json(exclude_none=True)
+        replace(self.folder / _LIST, f"{text}\n".encode())
+        if self._memory is not None:
+            revoked = {key.fingerprint: key.revoked for key in self._files().values() if key.revoked is not None}
+            self._memory.note_trust(number, revoked)
+
+    def _files(self) -> Mapping[str, KnownKey]:
         try:
             if not self.folder.exists():
                 return {}
-            for folder in (self.folder.parent, self.folder):
-                require_own(folder.stat(), folder, private=False)
-            found = [_read(path) for path in sorted(self.folder.glob("*.json"))]
+            require_own_folder(self.folder)
+            found = [_read(path) for path in sorted(self.folder.glob("*.json")) if path.name != _LIST]
         except OSError as error:
             raise KeyFileError(f"cannot be read: {error.strerror}", where=str(self.folder)) from None
         return {key.fingerprint: key for key in sorted(found, key=lambda k: (k.name, k.fingerprint))}
@@ -97,10 +215,13 @@ class TrustStore:
         """Trust a key from now on; one that is trusted already gets the new name.
 
         Raises:
-            KeyFileError: It was revoked.
+            KeyFileError: It was revoked, nobody can own it, or its name looks like that of another trusted key.
             OutputError: The folder cannot be written.
         """
-        before = self.known().get(public.fingerprint)
+        require_sound(public.raw, public.fingerprint)
+        name, known = clean_name(name), self.known()
+        _require_other_name(name, public.fingerprint, known)
+        before = known.get(public.fingerprint)
         if before is not None and before.revoked is not None:
             raise KeyFileError(
                 f"this key was revoked on {before.revoked}",
@@ -108,7 +229,7 @@ class TrustStore:
                 advice="have its owner make a new one; a revoked key is never trusted again",
             )
         since = at.isoformat(timespec="seconds") if before is None else before.since
-        return self._write(KnownKey(fingerprint=public.fingerprint, name=clean_name(name), since=since, public=public))
+        return self._write(KnownKey(fingerprint=public.fingerprint, name=name, since=since, public=public))
 
     def revoke(self, fingerprint: str, *, at: datetime) -> KnownKey:
         """Never run again what this key has signed, whenever it did. It need not be known yet.
@@ -137,7 +258,9 @@ class TrustStore:
             revoked=key.revoked,
         )
         make_folder(self.folder)
+        until = self._list().until
         replace(self.folder / f"{key.fingerprint}.json", f"{record.model_dump_json(indent=2)}\n".encode())
+        self._advance(until)
         return key
 
 
@@ -154,6 +277,8 @@ def _read(path: Path) -> KnownKey:
         raise _damaged(path)
     if public is not None and (len(public.raw) != KEY_BYTES or public.fingerprint != record.fingerprint):
         raise _damaged(path)
+    if public is not None:
+        require_sound(public.raw, str(path))
     return KnownKey(
         fingerprint=record.fingerprint, name=record.name, since=record.since, public=public, revoked=record.revoked
     )
@@ -161,3 +286,18 @@ def _read(path: Path) -> KnownKey:
 
 def _damaged(path: Path) -> KeyFileError:
     return KeyFileError("is damaged", where=str(path), advice="take the file away, and trust or revoke the key again")
+
+
+def _require_other_name(name: str, fingerprint: str, known: Mapping[str, KnownKey]) -> None:
+    """Refuse a name that a person may take for that of another key that is trusted.
+
+    Raises:
+        KeyFileError: There is one.
+    """
+    for other in known.values():
+        if other.state == "trusted" and other.fingerprint != fingerprint and skeleton(other.name) == skeleton(name):
+            raise KeyFileError(
+                f"the name '{name}' looks like '{other.name}', whose key {other.fingerprint} is trusted here",
+                where="--name",
+                advice="give a name that tells them apart, such as --name 'Ada, office'; or revoke the other key first",
+            )

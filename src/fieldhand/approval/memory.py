@@ -1,0 +1,228 @@
+"""Remember approvals, so that an old file that is put back does not count again.
+
+As in The Update Framework (TUF): the highest number seen of each mission and signer, the latest time seen, which keys
+were revoked, and the highest number of the list of trusted keys. Kept twice where both folders can be written: each
+copy alone is enough, and the higher of two values holds.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from fieldhand.approval.bundle.manifest import LONGEST_VALID
+from fieldhand.approval.keys.rights import make_folder, read_guarded, replace
+from fieldhand.approval.keys.trust import TrustSeen, TrustStore
+from fieldhand.errors import KeyFileError, NotApprovedError, OutputError
+from fieldhand.files import config_folder, state_folder
+
+if TYPE_CHECKING:
+    from fieldhand.approval.bundle.manifest import Manifest
+
+
+class _Seen(BaseModel):
+    """The highest number of a mission, and until when an older approval could still be begun."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+    number: int
+    keep_until: float
+
+
+class _Remembered(BaseModel):
+    """The form of the file.
+
+    Attributes:
+        latest: The latest time seen, in seconds since 1970.
+        trusted: The highest number of the list of trusted keys.
+        revoked: When each key was revoked, by fingerprint.
+        seen: By signer and id of the Task.
+    """
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+    format: int = Field(default=1, ge=1, le=1)
+    latest: float = 0.0
+    trusted: int = 0
+    revoked: dict[str, str] = {}
+    seen: dict[str, dict[str, _Seen]] = {}
+
+
+class ApprovalMemory:
+    """The memory of one machine.
+
+    Args:
+        files: Its copies. The folder of the first must be writable, those of the others may be.
+    """
+
+    def __init__(self, *files: Path) -> None:
+        self._files = files
+
+    def time(self, clock: datetime) -> datetime:
+        """Return the time by which approvals are judged: never earlier than one that was seen."""
+        latest = self._read().latest
+        return datetime.fromtimestamp(max(latest, clock.timestamp()), clock.tzinfo)
+
+    def admit(self, manifest: Manifest, signer: str, *, clock: datetime, source: str) -> None:
+        """Take note of a mission that is about to begin, or has arrived.
+
+        Args:
+            manifest: Of its bundle, whose signature was found to be good.
+            signer: Fingerprint of its key.
+            clock: The time of this machine.
+            source: What to call it in messages.
+
+        Raises:
+            NotApprovedError: Its approval has run out, or a later one of the same mission was seen.
+            KeyFileError, OutputError: The memory cannot be used.
+        """
+        with self._changed() as memory:
+            now = max(memory.latest, clock.timestamp())
+            require_unexpired(manifest, datetime.fromtimestamp(now, clock.tzinfo), clock, source)
+            seen = memory.seen.setdefault(signer, {})
+            before = seen.get(manifest.task.id)
+            if before is not None and manifest.number < before.number:
+                raise NotApprovedError(
+                    f"is approval number {manifest.number} of this mission, and number {before.number} was seen here",
+                    where=source,
+                    advice="run the later one, or have this one approved again",
+                )
+            keep_until = (manifest.approved_at + LONGEST_VALID).timestamp()
+            if before is None or manifest.number > before.number:
+                seen[manifest.task.id] = _Seen(number=manifest.number, keep_until=keep_until)
+            memory.latest = now
+            for tasks in memory.seen.values():
+                for task in [task for task, one in tasks.items() if one.keep_until < now]:
+                    del tasks[task]
+
+    def trust(self) -> TrustSeen:
+        """Return what is remembered of the list of trusted keys."""
+        found = self._read()
+        return TrustSeen(number=found.trusted, revoked=found.revoked)
+
+    def note_trust(self, number: int, revoked: Mapping[str, str]) -> None:
+        """Take note of the list of trusted keys.
+
+        Raises:
+            KeyFileError, OutputError: The memory cannot be used.
+        """
+        before = self._read()
+        if number > before.trusted or not revoked.keys() <= before.revoked.keys():
+            with self._changed() as memory:
+                memory.trusted = max(memory.trusted, number)
+                memory.revoked = dict(revoked) | memory.revoked
+
+    def set_clock(self, clock: datetime) -> None:
+        """Believe the clock again, which somebody has looked at: a time that was seen was wrong.
+
+        Raises:
+            KeyFileError, OutputError: The memory cannot be used.
+        """
+        with self._changed() as memory:
+            memory.latest = clock.timestamp()
+
+    @contextmanager
+    def _changed(self) -> Iterator[_Remembered]:
+        """Yield the memory for one process at a time to change; write it if nothing is raised."""
+        make_folder(self._files[0].parent)
+        with _alone(self._files[0].parent):
+            memory = self._read()
+            before = memory.model_copy(deep=True)
+            yield memory
+            if memory != before or not self._files[0].exists():
+                data = f"{memory.model_dump_json(indent=1)}\n".encode()
+                replace(self._files[0], data)
+                for file in self._files[1:]:
+                    with suppress(OutputError):
+                        if file.parent.is_dir():
+                            replace(file, data)
+
+    def _read(self) -> _Remembered:
+        """Return the higher of what the copies say."""
+        merged = _Remembered()
+        for file in self._files:
+            if not file.exists():
+                continue
+            try:
+                found = _Remembered.model_validate_json(read_guarded(file, private=False, most=64_000_000))
+            except (ValidationError, ValueError, RecursionError):
+                raise KeyFileError(
+                    "what was remembered of approvals is damaged",
+                    where=str(file),
+                    advice="bring it back; if you remove it, look at the trusted keys with fieldhand keys confirm",
+                ) from None
+            merged.latest = max(merged.latest, found.latest)
+            merged.trusted = max(merged.trusted, found.trusted)
+            merged.revoked = found.revoked | merged.revoked
+            for signer, tasks in found.seen.items():
+                own = merged.seen.setdefault(signer, {})
+                for task, one in tasks.items():
+                    if task not in own or own[task].number < one.number:
+                        own[task] = one
+        return merged
+
+
+def approval_memory(environ: Mapping[str, str]) -> ApprovalMemory:
+    """Return the memory that belongs to the keys of this configuration: in the state folder, and beside the keys.
+
+    Raises:
+        InputError: What the environment names is a file, or the user has no home.
+    """
+    config = config_folder(environ)
+    # One user may have several configurations; each has a list of keys, and a memory, of its own.
+    name = hashlib.sha256(os.fsencode(config.absolute())).hexdigest()[:16]
+    return ApprovalMemory(state_folder(environ) / f"approvals-{name}.json", config / "approvals.json")
+
+
+def trust_store(environ: Mapping[str, str]) -> TrustStore:
+    """Return the trusted keys of this user, held against what this machine remembers of them.
+
+    Raises:
+        InputError: What the environment names is a file, or the user has no home.
+    """
+    return TrustStore(config_folder(environ), memory=approval_memory(environ))
+
+
+def require_unexpired(manifest: Manifest, now: datetime, clock: datetime, source: str) -> None:
+    """Refuse a mission whose approval has run out.
+
+    Args:
+        manifest: Of its bundle.
+        now: The later of the clock and the latest time that was seen.
+        clock: The time of this machine.
+        source: What to call it in messages.
+
+    Raises:
+        NotApprovedError: It has.
+    """
+    if now > manifest.until:
+        until, said = manifest.until.isoformat(timespec="seconds"), now.isoformat(timespec="seconds")
+        behind = clock < now
+        raise NotApprovedError(
+            f"could be begun until {until}, and it is {said}{' by what this machine has seen' if behind else ''}",
+            where=source,
+            advice="have it approved again"
+            + ("; if that time was never true, set the clock and give fieldhand keys confirm" if behind else ""),
+        )
+
+
+@contextmanager
+def _alone(folder: Path) -> Iterator[None]:
+    try:
+        import fcntl
+    except ImportError:  # a system without such locks
+        yield
+        return
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(descriptor)
