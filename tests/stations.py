@@ -25,6 +25,7 @@ from fieldhand.delivery.link import RobotLink
 from fieldhand.delivery.verified import acceptance, sha256_of
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.model import Site
+from patience import LONG_S
 from signed import KEY, NOW, orchard_files, pack_mission
 
 TOKEN = "a-token-that-nobody-guesses-0123456789"
@@ -91,7 +92,7 @@ class Station:
 
     def again(self) -> None:
         """End the agent, and start it anew."""
-        self.crew.join(30)
+        self.crew.join(LONG_S)
         self.depot.close()
         self.begin()
 
@@ -188,7 +189,7 @@ def patient(carry: Carry, gate: Any) -> Carry:
     """Carries a mission out once the gate is open."""
 
     def wait(given: missions.Mission) -> object:
-        assert gate.wait(30)
+        assert gate.wait(LONG_S)
         return carry(given)
 
     return wait

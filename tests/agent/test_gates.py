@@ -45,19 +45,23 @@ def test_no_token_no_answer(station: Station, said: str) -> None:
     assert station.slept == [0.5]
 
 
-def test_guessing_is_slow_and_ends(station: Station) -> None:
+def test_guessing_is_slow_and_ends_and_never_locks_the_right_token_out(station: Station) -> None:
+    """Who guesses may share an address with who may give orders."""
+
     def guess() -> int:
         return station.call("GET", "/agent", headers=WRONG).status_code
 
     assert [guess() for _ in range(7)] == [401] * 5 + [429] * 2
-    assert station.slept == [0.5] * 5
-    assert station.call("GET", "/agent").status_code == 429
+    assert station.slept == [0.5] * 7
+    assert station.call("GET", "/agent").status_code == 200
+    assert station.upload(good()).status_code == 201
+    assert guess() == 429
     station.seconds = 31.0
     assert [guess() for _ in range(6)] == [401] * 5 + [429]
     station.seconds += 31.0
-    assert station.call("GET", "/agent").headers["retry-after"] == "29"
-    station.seconds += 30.0
+    assert station.call("GET", "/agent", headers=WRONG).headers["retry-after"] == "29"
     assert station.call("GET", "/agent").status_code == 200
+    station.seconds += 30.0
     assert guess() == 401
 
 

@@ -17,6 +17,7 @@ from browser import Browser, Says, browser
 from fieldhand.api.gates import SECURITY_HEADERS
 from fieldhand.api.problems import Turned
 from fieldhand.api.work import Limits, Workers
+from patience import LONG_S
 
 SMALL = Limits(body_bytes=1000)
 
@@ -156,7 +157,7 @@ def test_so_much_work_at_once_and_no_more() -> None:
         with lock:
             inside += 1
             most = max(most, inside)
-        release.wait(10)
+        assert release.wait(LONG_S)
         with lock:
             inside -= 1
         return "done"

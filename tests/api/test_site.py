@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import shapely
 
 from browser import browser
-from fieldhand.site.geojson import demo_path, load_demo
+from fieldhand.site.geojson import demo_path, load_demo, parse_site
+from fieldhand.site.orchards import random_orchard
 
 
 def point(lon: float, lat: float, **properties: object) -> dict[str, Any]:
@@ -39,6 +41,20 @@ def test_the_map_holds_every_tree_marker_and_zone_where_it_is() -> None:
     for feature, zone in zip(zones, site.zones, strict=True):
         lon, lat = feature["geometry"]["coordinates"][0][0]
         assert site.projection.metres(lat, lon)[0] == pytest.approx(zone.polygon.exterior.coords[0], abs=0.02)
+
+
+def test_each_block_has_an_outline_around_its_trees() -> None:
+    data = random_orchard(3, trees=200, blocks=2, named="rows and blocks").to_bytes()
+    given = {"name": "made.geojson", "text": data.decode()}
+    features = browser().post("/api/site", {"site": given}).json()["map"]["features"]
+    site = parse_site(data, name="made")
+    blocks = [f for f in features if f["properties"]["role"] == "block"]
+    assert len(blocks) == len(site.planting.blocks) == 2
+    for feature, block in zip(blocks, site.planting.blocks, strict=True):
+        outline = shapely.Polygon(feature["geometry"]["coordinates"][0])
+        trees = [site.trees[int(k)].place for row in block.rows for k in row.trees]
+        assert all(outline.covers(shapely.Point(place.lon, place.lat)) for place in trees)
+        assert block.name in feature["properties"]["name"]
 
 
 def test_a_file_sent_as_text_keeps_its_hash() -> None:

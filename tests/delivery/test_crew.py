@@ -18,6 +18,7 @@ from fieldhand.delivery.standing import Standing
 from fieldhand.delivery.verified import sha256_of
 from fieldhand.errors import ExecutionError, FieldhandError, InputError, OutputError, StoreError
 from fieldhand.execution.journal import store
+from patience import LONG_S, until
 from signed import NOW, good
 from stations import Station, fly, other_mission, patient
 
@@ -47,7 +48,7 @@ def tell(station: Station, data: bytes, said: str) -> bool:
 def test_a_mission_runs_once_however_often_it_is_sent_and_started(station: Station) -> None:
     for _ in range(3):
         tell(station, good(), "start")
-        station.crew.join(30)
+        station.crew.join(LONG_S)
         assert station.upload(good()).json()["mission"]["state"] == "ended"
         station.again()
     found = standing(station, good())
@@ -65,9 +66,9 @@ def test_one_at_a_time(station: Station) -> None:
     with pytest.raises(ExecutionError, match="another mission is under way"):
         tell(station, other_mission(), "start")
     gate.set()
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     tell(station, other_mission(), "start")
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     assert [standing(station, data).state for data in (good(), other_mission())] == ["ended", "ended"]
 
 
@@ -85,7 +86,7 @@ def test_after_a_power_cut_nothing_else_begins_and_the_mission_goes_on(station: 
         assert station.crew.go_on() == sha256_of(good())
     else:
         tell(station, good(), "resume")
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     assert standing(station, good()).status == "completed"
     assert station.crew.go_on() is None
 
@@ -116,7 +117,7 @@ def test_a_mission_that_may_not_run_any_more_does_not_go_on_and_keeps_nobody_fro
     assert not missions.events_of(folder)
     if changed != "key":
         tell(station, other_mission(), "start")
-        station.crew.join(30)
+        station.crew.join(LONG_S)
         assert standing(station, other_mission()).status == "completed"
 
 
@@ -127,7 +128,7 @@ def test_a_mission_that_was_cut_off_can_be_called_home(station: Station, said: s
     station.again()
     station.carry = fly
     tell(station, good(), said)
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     assert standing(station, good()).status == "aborted"
     assert f'"then": "{then}' in "".join(station.events(good()))
     with pytest.raises(ExecutionError):
@@ -140,11 +141,9 @@ def test_pause_and_resume(station: Station) -> None:
     tell(station, good(), "start")
     tell(station, good(), "pause")
     gate.set()
-    until = threading.Event()
-    while standing(station, good()).state != "paused":
-        until.wait(0.01)
+    until(lambda: standing(station, good()).state == "paused")
     assert tell(station, good(), "resume") in (True, False)
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     assert standing(station, good()).status == "completed"
     kinds = "".join(station.events(good()))
     assert '"paused"' in kinds
@@ -152,15 +151,15 @@ def test_pause_and_resume(station: Station) -> None:
 
 
 def test_an_agent_that_ends_lets_its_robot_stand_still(station: Station) -> None:
-    station.carry = lambda given: missions.carry_out(given, speed=5.0, emit=lambda _: None)
+    # Slow enough to be ended under way, however long this thread waits for its turn.
+    station.carry = lambda given: missions.carry_out(given, speed=0.5, emit=lambda _: None)
     tell(station, good(), "start")
     moment = threading.Event()
-    while not missions.is_running(station.depot.folder_of(station.depot.get(sha256_of(good())))):
-        moment.wait(0.01)
+    until(lambda: missions.is_running(station.depot.folder_of(station.depot.get(sha256_of(good())))))
     station.crew.rest(lambda: not moment.wait(0.01))
     assert standing(station, good()).state == "paused"
     tell(station, good(), "abort")
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     station.crew.rest(lambda: pytest.fail("nothing is under way"))
 
 
@@ -168,24 +167,23 @@ def test_what_has_ended_is_reported_once_before_the_next_begins(station: Station
     gate, reported = threading.Event(), list[str]()
 
     def conclude(given: missions.Mission) -> None:
-        assert gate.wait(30)
+        assert gate.wait(LONG_S)
         (given.folder / "report.html").write_text("done")
         reported.append(given.id)
 
     station.conclude = conclude
     first, second = (station.depot.folder_of(station.depot.get(sha256_of(d))) for d in (good(), other_mission()))
     tell(station, good(), "start")
-    while standing(station, good()).state != "ended":
-        threading.Event().wait(0.01)
+    until(lambda: standing(station, good()).state == "ended")
     assert standing(station, good()).report == ""
     assert not station.call("GET", f"/agent/missions/{sha256_of(good())}/events").json()["idle"]
     threading.Timer(0.05, gate.set).start()
     tell(station, other_mission(), "start")
     assert standing(station, good()).report == str(first / "report.html")
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     station.again()
     station.crew.make_up()
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     assert reported == [first.name, second.name]
 
 
@@ -197,29 +195,29 @@ def test_a_report_that_could_not_be_written_is_made_up_for(station: Station, cut
 
     station.conclude = full
     tell(station, good(), "start")
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     found = standing(station, good())
     assert (found.state, found.status, found.report) == ("ended", "completed", "")
     assert ("the disk is full" in found.fault) == (cut == "disk")
     gate = threading.Event()
-    station.conclude = lambda given: gate.wait(30) and (given.folder / "report.html").write_text("done")
+    station.conclude = lambda given: gate.wait(LONG_S) and (given.folder / "report.html").write_text("done")
     station.again()
     station.crew.make_up()
     assert standing(station, good()).report == "", "the agent answers while it is written"
     gate.set()
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     assert standing(station, good()).report.endswith("report.html")
 
 
 def test_an_agent_on_which_nothing_ran_has_nothing_to_make_up_for(station: Station) -> None:
     station.conclude = lambda _: pytest.fail("there is nothing to report")
     station.crew.make_up()
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     station.carry = lambda _: None
     tell(station, good(), "start")
     station.again()
     station.crew.make_up()
-    station.crew.join(30)
+    station.crew.join(LONG_S)
 
 
 @pytest.mark.parametrize("said", ["pause", "resume", "return", "abort"])
@@ -232,7 +230,7 @@ def test_what_was_not_begun_can_only_be_started(station: Station, said: str) -> 
 
 def test_what_a_mission_did_is_not_forgotten_with_its_folder(station: Station) -> None:
     tell(station, good(), "start")
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     shutil.rmtree(station.depot.missions)
     station.again()
     assert standing(station, good()).state == "lost"
@@ -250,7 +248,7 @@ def test_a_bundle_that_changed_on_the_disk_does_not_start(station: Station) -> N
         tell(station, good(), "start")
     station.upload(good())
     tell(station, good(), "start")
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     assert standing(station, good()).status == "completed"
 
 
@@ -264,25 +262,25 @@ def test_a_fault_of_a_mission_leaves_the_agent_as_it_was(station: Station) -> No
     for carry, said in ((broken, "ZeroDivisionError"), (stuck, "the disk is full")):
         station.carry = carry
         tell(station, good(), "resume" if station.depot.last_begun() else "start")
-        station.crew.join(30)
+        station.crew.join(LONG_S)
         assert said in standing(station, good()).fault
     station.carry = fly
     tell(station, other_mission(), "start")
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     assert standing(station, other_mission()).status == "completed"
 
 
 def test_a_journal_that_is_damaged_keeps_no_robot_from_working(station: Station) -> None:
     station.carry = lambda _: None
     tell(station, good(), "start")
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     (station.store / "missions" / sha256_of(good())[:16] / "journal.sqlite").write_bytes(b"garbage" * 1000)
     station.again()
     station.carry = fly
     assert standing(station, good()).state == "lost"
     assert station.call("GET", "/agent").json()["missions"][0]["fault"]
     tell(station, other_mission(), "start")
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     assert standing(station, other_mission()).status == "completed"
 
 
@@ -292,10 +290,10 @@ def test_a_clock_that_was_set_back_is_said(station: Station) -> None:
         tell(station, good(), "start")
     station.now = lambda: NOW
     tell(station, good(), "start")
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     station.now = lambda: NOW - timedelta(hours=20)
     tell(station, other_mission(), "start")
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     last = station.depot.last_begun()
     assert last is not None
     assert last.sha256 == sha256_of(other_mission())
@@ -357,7 +355,7 @@ def test_a_power_cut_while_a_mission_begins_lets_it_begin_once(
     station.again()
     assert standing(station, good()).state == "interrupted"
     assert station.crew.go_on() == sha256_of(good())
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     assert standing(station, good()).status == "completed"
 
 

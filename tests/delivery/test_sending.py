@@ -24,6 +24,7 @@ from fieldhand.delivery.verified import Sendable, require_sendable, sha256_of
 from fieldhand.delivery.wire import EventLine
 from fieldhand.errors import DeliveryError, InputError, KeyFileError, NotTrustedError, StoreError, UnreachableError
 from fieldhand.execution.journal import store
+from patience import LONG_S
 from signed import NOW, good, known
 from stations import Station, other_mission
 
@@ -100,7 +101,7 @@ def test_however_the_link_is_lost_the_mission_arrives_and_runs_once(
     sender.put(good(), start=True)
     while sender.outbox.waiting():
         sender.posting.post_due(all_of_them=True)
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     assert [entry.state for entry in sender.outbox.entries()] == ["delivered"]
     lines = station.events(good())
     taken: list[EventLine] = []
@@ -168,7 +169,7 @@ def test_what_may_succeed_later_is_tried_later(status: int, later: bool) -> None
 def test_an_event_that_is_missing_is_noticed(station: Station) -> None:
     station.upload(good())
     station.call("POST", f"/agent/missions/{sha256_of(good())}/orders", json={"order": "start"})
-    station.crew.join(30)
+    station.crew.join(LONG_S)
     path = f"/agent/missions/{sha256_of(good())}/events"
     found = station.call("GET", path).json()
     del found["events"][1]

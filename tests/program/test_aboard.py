@@ -25,6 +25,7 @@ from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
+from patience import LONG_S
 from signed import KEY, NOW, good
 from stations import fly, other_mission
 
@@ -79,7 +80,7 @@ class Agent:
     def tell(self, data: bytes, said: str) -> Standing:
         held = self.depot.get(sha256_of(data))
         self.crew.tell(held, said_of(said), "a test")
-        self.crew.join(30)
+        self.crew.join(LONG_S)
         return self.crew.standing(held)
 
     def folders(self) -> list[str]:
@@ -95,7 +96,7 @@ def test_a_mission_is_carried_out_on_the_robot_that_was_looked_at(agent: Agent) 
     found = agent.tell(good(), "start")
     assert (found.state, found.status) == ("ended", "completed")
     assert (agent.reached, agent.let_go) == (1, 1)
-    departure = missions.begun_on(agent.depot.folder_of(agent.depot.get(sha256_of(good()))))
+    departure = missions.read_folder(agent.depot.folder_of(agent.depot.get(sha256_of(good())))).departure
     assert departure == missions.Departure(by=BY, charge_percent=90.0)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import ipaddress
 import json
 import os
 import re
@@ -13,46 +12,20 @@ import socket
 import ssl
 import subprocess
 import sys
-import time
 from collections.abc import Callable
 from contextlib import closing, suppress
-from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import pytest
-from cryptography import x509
-from cryptography.hazmat.primitives import hashes, serialization
-from cryptography.hazmat.primitives.asymmetric import ec
-from cryptography.x509.oid import NameOID
 
+from certificates import certificate
 from command import Run, fieldhand
 from fieldhand.delivery.verified import sha256_of
 from fieldhand.evaluation.calibration.history import kept
+from patience import LONG_S, until
 from signed import good
 
 TOKEN = "a-token-that-nobody-guesses-0123456789"
-
-
-def certificate(folder: Path, name: str) -> tuple[Path, Path, str]:
-    """A certificate of this machine, its key, and its SHA-256."""
-    key, now = ec.generate_private_key(ec.SECP256R1()), datetime.now(UTC)
-    subject = x509.Name([x509.NameAttribute(NameOID.COMMON_NAME, name)])
-    local = x509.SubjectAlternativeName([x509.IPAddress(ipaddress.ip_address("127.0.0.1"))])
-    made = (
-        x509.CertificateBuilder(subject_name=subject, issuer_name=subject, public_key=key.public_key())
-        .serial_number(x509.random_serial_number())
-        .not_valid_before(now - timedelta(days=1))
-        .not_valid_after(now + timedelta(days=1))
-        .add_extension(local, critical=False)
-        .add_extension(x509.BasicConstraints(ca=True, path_length=0), critical=True)
-        .sign(key, hashes.SHA256())
-    )
-    cert, private = folder / f"{name}.crt", folder / f"{name}.key"
-    cert.write_bytes(made.public_bytes(serialization.Encoding.PEM))
-    private.touch(0o600)
-    pem = serialization.PrivateFormat.PKCS8
-    private.write_bytes(key.private_bytes(serialization.Encoding.PEM, pem, serialization.NoEncryption()))
-    return cert, private, hashlib.sha256(made.public_bytes(serialization.Encoding.DER)).hexdigest()
 
 
 def free_port() -> int:
@@ -97,7 +70,7 @@ def test_every_command_of_the_page(tmp_path: Path) -> None:
     finally:
         for agent in agents:
             agent.terminate()
-            agent.communicate(timeout=60)
+            agent.communicate(timeout=LONG_S)
     (log,) = (tmp_path / "store" / "missions").glob("*/events.jsonl")
     assert (tmp_path / "events.jsonl").read_bytes() == log.read_bytes()
     page = log.parent / "report.html"
@@ -120,16 +93,7 @@ def _await(agent: subprocess.Popen[str], port: int) -> None:
         assert agent.poll() is None, "the agent has ended"
         return False
 
-    _until(answers, "the agent never answered")
-
-
-def _until(so: Callable[[], bool], otherwise: str) -> None:
-    """Wait for another process until something is so; half a minute is far more than it takes."""
-    for _ in range(3000):
-        if so():
-            return
-        time.sleep(0.01)
-    pytest.fail(otherwise)
+    until(answers)
 
 
 def _try_what_is_refused(folder: Path, url: str, run: Callable[..., Run]) -> None:
@@ -154,16 +118,16 @@ def test_an_agent_that_is_killed_within_an_upload_has_nothing(tmp_path: Path) ->
     agent = subprocess.Popen(command, cwd=tmp_path, env=env, stderr=subprocess.PIPE, text=True)
     try:
         _await(agent, port)
-        with closing(socket.create_connection(("127.0.0.1", port), timeout=30)) as link:
+        with closing(socket.create_connection(("127.0.0.1", port), timeout=LONG_S)) as link:
             head = f"PUT /agent/missions/{sha256_of(good())} HTTP/1.1\r\nHost: localhost\r\n"
             head += f"Authorization: Bearer {TOKEN}\r\nContent-Length: {len(good())}\r\n\r\n"
             link.sendall(head.encode() + good()[:-1])
-            _until(lambda: any((tmp_path / "store" / "incoming").iterdir()), "the upload never began")
+            until(lambda: any((tmp_path / "store" / "incoming").iterdir()))
             agent.send_signal(signal.SIGKILL)
-            agent.wait(60)
+            agent.wait(LONG_S)
     finally:
         agent.kill()
-        agent.communicate(timeout=60)
+        agent.communicate(timeout=LONG_S)
     assert not any((tmp_path / "store" / "bundles").iterdir())
     assert not any((tmp_path / "store" / "missions").iterdir())
 

@@ -6,7 +6,6 @@ import json
 import socket
 import subprocess
 import sys
-import time
 import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -15,6 +14,7 @@ import pytest
 
 from command import fieldhand
 from fieldhand.api.serving import hosts_for, is_loopback
+from patience import LONG_S, until
 
 
 def free_port() -> int:
@@ -32,22 +32,23 @@ def serving(*words: str) -> Iterator[tuple[int, subprocess.Popen[str]]]:
         yield port, server
     finally:
         server.terminate()
-        server.communicate(timeout=30)
+        server.communicate(timeout=LONG_S)
 
 
 def fetch(port: int, path: str) -> bytes:
     # The address is printed before the first connection is taken; how long that is, is the machine's business.
-    for _ in range(200):
+    def answer() -> bytes | None:
         try:
-            with urllib.request.urlopen(f"http://127.0.0.1:{port}{path}", timeout=20) as answer:
-                return bytes(answer.read())
-        except ConnectionRefusedError:
-            time.sleep(0.1)
+            with urllib.request.urlopen(f"http://127.0.0.1:{port}{path}", timeout=LONG_S) as found:
+                return bytes(found.read())
         except OSError as error:
-            if not isinstance(getattr(error, "reason", None), ConnectionRefusedError):
+            if not isinstance(getattr(error, "reason", error), ConnectionRefusedError):
                 raise
-            time.sleep(0.1)
-    raise AssertionError("the server does not answer")
+            return None
+
+    read = until(answer)
+    assert read is not None
+    return read
 
 
 def test_serves_page_and_api_on_this_machine_alone() -> None:
@@ -95,6 +96,6 @@ def test_help_knows_serve_and_loads_no_server() -> None:
         "heavy = {'fastapi', 'uvicorn', 'starlette', 'pydantic', 'shapely', 'numpy', 'lxml'} & set(sys.modules)\n"
         "print('loaded:', sorted(heavy))\n"
     )
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=True)
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=LONG_S, check=True)
     assert "serve" in done.stdout
     assert "loaded: []" in done.stdout

@@ -14,7 +14,7 @@ from fieldhand.agent.gates import Guessing, SmallBodies, TokenGate
 from fieldhand.agent.routes import Identity, router
 from fieldhand.agent.uploads import Uploads
 from fieldhand.api.gates import CallerGate, LastResort, SecurityHeaders
-from fieldhand.api.problems import answer_problems, problem
+from fieldhand.api.problems import EscapedAnswer, answer_problems, problem
 from fieldhand.delivery.crew import Crew
 from fieldhand.delivery.depot import Depot
 from fieldhand.errors import ExecutionError, OutputError
@@ -46,7 +46,14 @@ def create_agent(
         uploads, guessing: What it puts up with.
         clock, sleep: For wrong tokens.
     """
-    app = FastAPI(title="Fieldhand agent", version=__version__, docs_url=None, redoc_url=None, openapi_url=None)
+    app = FastAPI(
+        title="Fieldhand agent",
+        version=__version__,
+        docs_url=None,
+        redoc_url=None,
+        openapi_url=None,
+        default_response_class=EscapedAnswer,
+    )
     answer_problems(app)
 
     @app.exception_handler(OutputError)

@@ -1,4 +1,4 @@
-"""Who may talk to a robot: whoever has its token. Guessing it is slow, and soon ends."""
+"""Admit callers to a robot by its token."""
 
 from __future__ import annotations
 
@@ -10,19 +10,21 @@ from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 
 from starlette.datastructures import Headers
+from starlette.responses import Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
+from fieldhand.api.admission import Rank, network_of, set_rank
 from fieldhand.api.gates import BodyGate
 from fieldhand.api.problems import problem
 
 
 @dataclass(frozen=True, kw_only=True)
 class Guessing:
-    """What is done about wrong tokens.
+    """Limits on wrong tokens. A right one passes at any time.
 
     Attributes:
         delay_s: Before a wrong one is answered.
-        tries: Wrong ones of an address until it is locked out.
+        tries: Wrong ones of an address until it is told to wait.
         lockout_s: For how long; doubled with each further round, up to ``longest_s``.
         addresses: How many are remembered; the oldest is forgotten.
     """
@@ -36,6 +38,9 @@ class Guessing:
 
 class TokenGate:
     """Lets through who says the token, before a byte of a body is read.
+
+    The right token passes whatever came before it from its address, which others may share. So the length of the token
+    (:data:`fieldhand.delivery.token.SHORTEST`) keeps it from being guessed; delays only spare the robot work.
 
     Args:
         token: None where nobody has to say one.
@@ -54,35 +59,40 @@ class TokenGate:
     ) -> None:
         self._app, self._guessing, self._clock, self._sleep = app, guessing, clock, sleep
         self._wanted = None if token is None else _digest(token)
-        #: By address: wrong tokens so far, and until when it is locked out.
+        #: By address: wrong tokens so far, and until when it has to wait.
         self._wrong: OrderedDict[str, tuple[int, float]] = OrderedDict()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] != "http" or self._wanted is None:
+        if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
-        address = (scope.get("client") or ("", 0))[0]
+        kind, _, said = Headers(scope=scope).get("authorization", "").partition(" ")
+        right = kind.lower() == "bearer" and hmac.compare_digest(_digest(said.strip()), self._wanted or b"")
+        if right or self._wanted is None:
+            set_rank(scope, Rank.OPERATOR if is_order(scope) else Rank.WORKING)
+            await self._app(scope, receive, send)
+            return
+        set_rank(scope, Rank.WAITING)
+        response = self._refusal((scope.get("client") or ("", 0))[0], said=bool(said))
+        await self._sleep(self._guessing.delay_s)
+        await response(scope, receive, send)
+
+    def _refusal(self, client: str, *, said: bool) -> Response:
+        """Count a wrong token, before it is answered: many guesses at once are counted, too."""
+        address = network_of(client)
         wrong, until = self._wrong.get(address, (0, -math.inf))
         left = until - self._clock()
         if left > 0:
             response = problem(429, "too many wrong tokens", "Authorization", f"try again in {math.ceil(left)} seconds")
             response.headers["Retry-After"] = str(math.ceil(left))
-            await response(scope, receive, send)
-            return
-        kind, _, said = Headers(scope=scope).get("authorization", "").partition(" ")
-        if kind.lower() == "bearer" and hmac.compare_digest(_digest(said.strip()), self._wanted):
-            self._wrong.pop(address, None)
-            await self._app(scope, receive, send)
-            return
+            return response
         self._note(address, wrong + 1)
-        await self._sleep(self._guessing.delay_s)
         what = "this is not the robot's token" if said else "the robot's token is missing"
         response = problem(401, what, "Authorization", "give its file with --token-file, or set FIELDHAND_TOKEN")
         response.headers["WWW-Authenticate"] = "Bearer"
-        await response(scope, receive, send)
+        return response
 
     def _note(self, address: str, wrong: int) -> None:
-        """Remember a wrong token, before it is answered: many guesses at once are counted, too."""
         rules = self._guessing
         rounds = wrong // rules.tries
         lock = wrong % rules.tries == 0
@@ -91,6 +101,11 @@ class TokenGate:
         self._wrong.move_to_end(address)
         while len(self._wrong) > rules.addresses:
             self._wrong.popitem(last=False)
+
+
+def is_order(scope: Scope) -> bool:
+    """Return True for a request that tells a mission something."""
+    return bool(scope["method"] == "POST" and scope["path"].endswith("/orders"))
 
 
 class SmallBodies:

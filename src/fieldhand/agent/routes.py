@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated
@@ -12,6 +11,7 @@ from fastapi import APIRouter, Path, Query, Request, Response
 from starlette.concurrency import run_in_threadpool
 
 from fieldhand import __version__
+from fieldhand.agent.order_desk import OrderDesk
 from fieldhand.agent.uploads import Entrance, Uploads, receive, size_of
 from fieldhand.api.problems import Turned
 from fieldhand.delivery.crew import Crew
@@ -32,8 +32,8 @@ from fieldhand.delivery.wire import (
 
 #: Missions that are listed.
 LISTED = 50
-#: Seconds between two looks at a journal, and until an order that was not heard is answered.
-LOOK_S, ANSWER_WITHIN_S = 0.2, 5.0
+#: Seconds between two looks at a journal.
+LOOK_S = 0.2
 
 Bundle = Annotated[str, Path(pattern=r"^[0-9a-f]{64}$")]
 
@@ -57,7 +57,7 @@ class Identity:
 def router(depot: Depot, crew: Crew, who: Identity, uploads: Uploads) -> APIRouter:
     """Every address."""
     routes = APIRouter()
-    entrance = Entrance(uploads.at_once)
+    entrance, orders = Entrance(uploads.at_once), OrderDesk(depot, crew)
 
     @routes.get("/agent")
     def robot() -> RobotState:
@@ -77,9 +77,16 @@ def router(depot: Depot, crew: Crew, who: Identity, uploads: Uploads) -> APIRout
     async def upload(bundle: Bundle, request: Request, response: Response) -> Receipt:
         """Take a mission: its bytes, whose SHA-256 is in the address. Nothing runs by this."""
         size = size_of(request, uploads)
-        with entrance.entered(), depot.receiving() as part:
-            await receive(request, part, size, uploads)
-            held, new = await run_in_threadpool(depot.take, part, bundle)
+        with entrance.entered():
+            receiving = depot.receiving()
+            # The disk may be slow: nothing of it is done in the thread that answers everyone.
+            part = await run_in_threadpool(receiving.__enter__)
+            try:
+                await receive(request, part, size, uploads)
+                held, new = await run_in_threadpool(depot.take, part, bundle)
+            finally:
+                with anyio.CancelScope(shield=True):
+                    await run_in_threadpool(receiving.__exit__, None, None, None)
         response.status_code = 201 if new else 200
         return Receipt(hashes=dict(held.hashes), new=new, mission=shown(await run_in_threadpool(crew.standing, held)))
 
@@ -90,16 +97,14 @@ def router(depot: Depot, crew: Crew, who: Identity, uploads: Uploads) -> APIRout
         return Receipt(hashes=dict(held.hashes), new=False, mission=shown(crew.standing(held)))
 
     @routes.post("/agent/missions/{bundle}/orders")
-    def order(bundle: Bundle, body: Order) -> Heard:
+    async def order(bundle: Bundle, body: Order) -> Heard:
         """Tell a mission to start, pause, resume, return or abort."""
-        held, until = found(bundle), time.monotonic() + ANSWER_WITHIN_S
+        return await orders.take(body, bundle)
 
-        def wait() -> bool:
-            time.sleep(0.02)
-            return time.monotonic() < until
-
-        heard = crew.tell(held, body.order, body.because or f"{body.order} from elsewhere", wait=wait)
-        return Heard(heard=heard, mission=shown(crew.standing(found(bundle))))
+    @routes.post("/agent/orders")
+    async def order_now(body: Order) -> Heard:
+        """Tell the mission under way, else the one begun last, to pause, resume, return or abort."""
+        return await orders.take(body, None)
 
     @routes.get("/agent/missions/{bundle}/events")
     async def events(

@@ -8,7 +8,7 @@ from fieldhand import __version__
 from fieldhand.api import catalogue, check, plan, run, site
 from fieldhand.api.gates import BodyGate, CallerGate, LastResort, SecurityHeaders
 from fieldhand.api.plan import Planners
-from fieldhand.api.problems import answer_problems
+from fieldhand.api.problems import VisibleAnswer, answer_problems
 from fieldhand.api.work import Limits, Workers
 
 
@@ -29,6 +29,7 @@ def create_app(planners: Planners, *, hosts: frozenset[str] | None, limits: Limi
         docs_url=None,
         redoc_url=None,
         openapi_url="/api/openapi.json",
+        default_response_class=VisibleAnswer,
     )
     answer_problems(app)
     for router in (

@@ -8,8 +8,10 @@ server runs only scripts that came from this server (the content security policy
 from __future__ import annotations
 
 import logging
+from dataclasses import dataclass
 from urllib.parse import urlsplit
 
+import anyio
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -112,16 +114,39 @@ def _origin_host(origin: str) -> str:
         return ""
 
 
-class BodyGate:
-    """Turns away a body above a size: by what it says of itself, and by counting while it comes in.
+@dataclass(frozen=True, kw_only=True)
+class BodyTime:
+    """Seconds that the body of a request may take.
 
-    Args:
-        most: Bytes.
+    Attributes:
+        start_s, bytes_s: It has so many seconds, and one more for each so many bytes that have come.
+        idle_s: Without a byte.
     """
 
-    def __init__(self, app: ASGIApp, most: int) -> None:
+    start_s: float = 10.0
+    bytes_s: float = 20_000.0
+    idle_s: float = 10.0
+
+
+#: Bytes of a body that are always taken: a request in words is far smaller.
+_SMALL = 64_000
+
+
+class BodyGate:
+    """Turns away a body above a size, by its declared size and by counting; and one that comes too slowly.
+
+    Large bodies together have a bound, too; small ones are taken all the same.
+
+    Args:
+        most: Bytes of one body.
+        time: What it may take.
+        together: Bytes of all bodies that are being read or worked on; by default of four of the largest.
+    """
+
+    def __init__(self, app: ASGIApp, most: int, time: BodyTime | None = None, together: int | None = None) -> None:
         self._app = app
-        self._most = most
+        self._most, self._time = most, time or BodyTime()
+        self._together, self._held = 4 * most if together is None else together, 0
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":
@@ -131,19 +156,33 @@ class BodyGate:
         if not told.isascii() or not told.isdigit() or len(told) > 15 or int(told) > self._most:
             await too_big()(scope, receive, send)
             return
-        taken = 0
+        taken, whole, begun = 0, False, anyio.current_time()
 
         async def counted() -> Message:
-            nonlocal taken
-            message = await receive()
+            nonlocal taken, whole
+            if whole:
+                return await receive()  # for the end of the connection
+            now, time = anyio.current_time(), self._time
+            try:
+                with anyio.fail_after(min(time.idle_s, begun + time.start_s + taken / time.bytes_s - now)):
+                    message = await receive()
+            except TimeoutError:
+                raise HTTPException(408) from None
             if message["type"] == "http.request":
-                taken += len(message.get("body", b""))
+                whole = not message.get("more_body", False)
+                size = len(message.get("body", b""))
+                taken, self._held = taken + size, self._held + size
+                # This type alone passes through the reading of the body as it is.
                 if taken > self._most:
-                    # This type alone passes through the reading of the body as it is.
                     raise HTTPException(413)
+                if taken > _SMALL and self._held > self._together:
+                    raise HTTPException(503)
             return message
 
-        await self._app(scope, counted, send)
+        try:
+            await self._app(scope, counted, send)
+        finally:
+            self._held -= taken
 
 
 def _name(url: str) -> str | None:

@@ -1,8 +1,9 @@
 """Sites, plans and driven paths as GeoJSON, in degrees WGS 84, each feature with a ``role``.
 
-``zone``, ``row``, ``tree``, ``gate``, ``marker``: the site. ``path``, ``stop``: a plan, the legs with the node that
-drives them, the stops with their number and the nodes that go or act there. ``choice``: a place that an answer to a
-question would mean. ``leg``, ``capture``, ``end``: what was driven, with times in seconds since the mission began.
+``zone``, ``block``, ``row``, ``tree``, ``gate``, ``marker``: the site. ``path``, ``stop``: a plan, the legs with the
+node that drives them, the stops with their number and the nodes that go or act there. ``choice``: a place that an
+answer to a question would mean. ``leg``, ``capture``, ``end``: what was driven, with times in seconds since the mission
+began.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fieldhand.site.choices import choice_marks
+from fieldhand.site.drawing.blocks import block_words, outline_of
 from fieldhand.site.model import Place, Site
 from fieldhand.site.projection import Projection
 from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event
@@ -27,12 +29,16 @@ _DECIMALS = 7
 
 
 def site_map(site: Site) -> Feature:
-    """A site: zones, rows, trees, gates, markers."""
+    """A site: zones, blocks, rows, trees, gates, markers."""
     zones = [
         _feature("Polygon", _rings(zone.polygon, site.projection), role="zone", name=zone.name, kind=zone.kind)
         for zone in site.zones
     ]
     planting = site.planting
+    blocks = [
+        _feature("Polygon", _rings(outline_of(site, block), site.projection), role="block", name=block_words(block))
+        for block in planting.blocks
+    ]
     rows = [
         _feature(
             "LineString",
@@ -53,7 +59,7 @@ def site_map(site: Site) -> Feature:
     ]
     gates = [_at(gate.place, role="gate", name=gate.place.id, width_m=gate.width_m) for gate in site.gates]
     markers = [_at(place, role="marker", name=name) for name, place in site.markers.items()]
-    return _collection([*zones, *rows, *trees, *gates, *markers])
+    return _collection([*zones, *blocks, *rows, *trees, *gates, *markers])
 
 
 def plan_map(site: Site, estimate: Estimate) -> Feature:

@@ -5,6 +5,7 @@ Where warnings were not confirmed, ``warnings`` holds each of them.
 400  what was given cannot be used (every InputError)
 403  a page of another site tries to use this one, or calls it by another name
 404, 405  no such address, no such method
+408  the body came too slowly
 413  the body is too big
 422  the shape of the body is wrong; a mission is not approved; the robot could not do it
 500  a fault of the program; the log of the server says more
@@ -13,7 +14,6 @@ Where warnings were not confirmed, ``warnings`` holds each of them.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from http import HTTPStatus
 from typing import Any
@@ -21,14 +21,29 @@ from typing import Any
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
-from starlette.responses import Response
+from starlette.responses import JSONResponse, Response
 
 from fieldhand.errors import FieldhandError, InputError, NotConfirmedError
+from fieldhand.visible import json_text, visible_json
 
 MEDIA_TYPE = "application/problem+json"
 
 #: Parts of a pydantic location that say which kind of a choice was tried, not where the fault is.
 _CHOICES = ("SiteText", "dict[str,any]", "literal['demo']")
+
+
+class VisibleAnswer(JSONResponse):
+    """An answer whose texts a page shows as they stand: hidden characters in them are made visible."""
+
+    def render(self, content: Any) -> bytes:
+        return visible_json(content, separators=(",", ":"), allow_nan=False).encode()
+
+
+class EscapedAnswer(JSONResponse):
+    """An answer for programs: the same text again, hidden characters as escapes."""
+
+    def render(self, content: Any) -> bytes:
+        return json_text(content, separators=(",", ":"), allow_nan=False).encode()
 
 
 class Turned(Exception):
@@ -49,7 +64,7 @@ class Turned(Exception):
 
 def problem(status: int, what: str, where: str = "", advice: str = "", **more: Any) -> Response:
     """A problem as a response."""
-    body = json.dumps({"status": status, "what": what, "where": where, "advice": advice, **more})
+    body = visible_json({"status": status, "what": what, "where": where, "advice": advice, **more})
     return Response(body, status_code=status, media_type=MEDIA_TYPE)
 
 
@@ -86,6 +101,10 @@ def answer_problems(app: FastAPI) -> None:
             return problem(400, "the body cannot be read as JSON", "body", "send one JSON object in UTF-8")
         if error.status_code == 413:
             return too_big()
+        if error.status_code == 408:
+            return problem(408, "the body came too slowly", "body", "send it again")
+        if error.status_code == 503:
+            return problem(503, "too many large requests at once", "body", "try again in a moment")
         return problem(error.status_code, HTTPStatus(error.status_code).phrase.lower())
 
 

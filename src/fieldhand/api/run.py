@@ -82,7 +82,7 @@ def _deadline(seconds: float) -> Callable[[], str | None]:
 
 
 def _answer(authorized: AuthorizedTask, ground: Ground, events: Sequence[Event]) -> dict[str, Any]:
-    assessment = mission.assess(authorized.task, events)
+    assessment = mission.assess(authorized.task, events, ground.robot)
     ended = next(event for event in reversed(events) if isinstance(event, Ended))
     tell = Teller(ground.robot).tell
     return {
@@ -93,7 +93,8 @@ def _answer(authorized: AuthorizedTask, ground: Ground, events: Sequence[Event])
         "travelled_m": ended.travelled_m,
         "seconds": ended.t,
         "charge_percent": ended.charge_percent,
-        "success": ended.status == "completed" and assessment.success,
+        "success": assessment.success,
+        "exceeded": [asdict(one) for one in assessment.exceeded],
         "goals": _goals(authorized.task, ground, assessment),
         "events": [json.loads(to_json(event)) for event in events],
         "told": [tell(event) or "" for event in events],

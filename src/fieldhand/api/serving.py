@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 import ipaddress
+import logging
 import sys
+import traceback
+from contextlib import suppress
 from importlib.util import find_spec
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from fieldhand.errors import InputError
+from fieldhand.visible import print_error, visible
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
+    import uvicorn
     from fastapi import FastAPI
+
+    from fieldhand.api.connections import Connections
 
 
 def require_extra() -> None:
@@ -48,19 +57,88 @@ def serve_forever(app: FastAPI, host: str, port: int) -> None:
     Raises:
         InputError: The address cannot be listened on.
     """
-    import uvicorn
-
+    log_visibly()
     require_free(host, port)
     shown = f"[{host}]" if ":" in host else host
-    print(f"Fieldhand is at http://{shown}:{port}/ (Ctrl-C to stop)", file=sys.stderr)  # noqa: T201
+    print_error(f"Fieldhand is at http://{shown}:{port}/ (Ctrl-C to stop)")
     if not is_loopback(host):
-        print(  # noqa: T201
-            "warning: everyone who reaches this address can plan and simulate missions; there is no login",
-            file=sys.stderr,
-        )
-    uvicorn.run(
-        app, host=host, port=port, log_level="warning", server_header=False, date_header=False, limit_concurrency=200
+        print_error("warning: everyone who reaches this address can plan and simulate missions; there is no login")
+    with suppress(KeyboardInterrupt):
+        make_server(app, host, port).run()
+
+
+def make_server(
+    app: FastAPI,
+    host: str = "127.0.0.1",
+    port: int = 0,
+    *,
+    tls: tuple[Path, Path] | None = None,
+    limits: Connections | None = None,
+) -> uvicorn.Server:
+    """Return the server of an application, with limits on its connections.
+
+    Args:
+        app: The application.
+        host, port: Where to listen.
+        tls: Certificate and key (PEM), if it has them.
+        limits: On the connections; fewer where the system allows this process few files.
+    """
+    import ssl
+    from dataclasses import replace
+
+    import uvicorn
+
+    from fieldhand.api.connections import Connections, protocol_factory
+
+    context = None
+    if tls is not None:
+        context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+        context.load_cert_chain(*tls)
+    limits = limits or Connections()
+    limits = replace(limits, total=min(limits.total, _most_connections()))
+    config = uvicorn.Config(
+        app,
+        host=host,
+        port=port,
+        log_level="error",  # what strangers send is no warning to anyone
+        http=protocol_factory(limits, context),  # type: ignore[arg-type]
+        ws="none",
+        server_header=False,
+        date_header=False,
+        # A header says of itself from where it comes; only the connection is believed.
+        proxy_headers=False,
+        # asyncio accepts so many at a time before it closes any.
+        backlog=64,
+        timeout_graceful_shutdown=5,
     )
+    return uvicorn.Server(config)
+
+
+def _most_connections() -> int:
+    """Return how many connections leave enough open files for everything else."""
+    try:
+        import resource
+    except ImportError:
+        return sys.maxsize
+    soft, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
+    return sys.maxsize if soft == resource.RLIM_INFINITY else max(16, soft // 2 - 64)
+
+
+def log_visibly() -> None:
+    """Have every log record of the process on one line, hidden characters in it made visible."""
+    logging.setLogRecordFactory(_VisibleRecord)
+
+
+class _VisibleRecord(logging.LogRecord):
+    """A log record whose text, whoever sent it, cannot steer the terminal that shows the log."""
+
+    def __init__(self, *args: Any, **more: Any) -> None:
+        super().__init__(*args, **more)
+        if self.exc_info and self.exc_info[0] is not None:
+            self.exc_text = visible("".join(traceback.format_exception(*self.exc_info)), lines=True)
+
+    def getMessage(self) -> str:  # noqa: N802  a name of the standard library
+        return visible(super().getMessage())
 
 
 def require_free(host: str, port: int) -> None:

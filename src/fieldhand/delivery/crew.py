@@ -8,18 +8,21 @@ from __future__ import annotations
 import logging
 import threading
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal, get_args
 
 from fieldhand import missions
 from fieldhand.delivery.depot import Depot
 from fieldhand.delivery.ledger import Held
 from fieldhand.delivery.standing import Line, Standing, State
-from fieldhand.errors import ExecutionError, FieldhandError, InputError, NotTrustedError
+from fieldhand.errors import ExecutionError, FieldhandError, InputError, JournalError, NotTrustedError
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from fieldhand.approval.bundle.opening import Bundle
+    from fieldhand.execution.orders import Order
+    from fieldhand.execution.world import World
 
 log = logging.getLogger("fieldhand.agent")
 
@@ -31,13 +34,54 @@ Said = Literal["start", "pause", "resume", "return", "abort"]
 ORDERS: tuple[Said, ...] = get_args(Said)
 
 
+@dataclass(frozen=True, kw_only=True)
+class Direct:
+    """An order that was given in memory."""
+
+    orders: missions.DirectOrders
+    order: Order
+    said: missions.Urgent
+
+    @property
+    def heard(self) -> bool:
+        """Return True if the mission has taken it."""
+        return self.orders.taken(self.order)
+
+    def follow(self, folder: Path, wait: Callable[[], bool]) -> bool:
+        """Keep the order in the mission's folder, too, so that it stands after a power cut.
+
+        Args:
+            folder: The mission's.
+            wait: As for :meth:`Crew.tell`.
+
+        Returns:
+            Whether the mission has heard it.
+
+        Raises:
+            ExecutionError: The mission has ended, or was told otherwise before.
+            JournalError: It cannot be kept, and the mission has not heard it.
+        """
+        try:
+            heard = missions.order(folder, self.said, self.order.reason, wait=lambda: not self.heard and wait())
+        except FieldhandError as error:
+            # A disk that is full, slow or locked keeps the order from nothing but its folder.
+            while not self.heard and isinstance(error, JournalError) and wait():
+                pass
+            if not self.heard:
+                self.orders.drop(self.order)
+                raise
+            return True
+        self.orders.drop(self.order)
+        return heard or self.heard
+
+
 class Crew:
     """Carries missions out, one at a time, each in a thread of its own. Safe for several threads.
 
     Args:
         depot: Where they have arrived.
         carry: Who carries one out.
-        world: The world file of a simulation.
+        world: Of a simulation.
         check: Refuses a mission that this world, or this robot, does not fit; says on which robot it begins.
         conclude: Judges and reports a mission that has ended.
         seed: Of the simulation and of the guard.
@@ -48,7 +92,7 @@ class Crew:
         depot: Depot,
         *,
         carry: Carry,
-        world: bytes | None = None,
+        world: World | None = None,
         check: Callable[[Bundle], missions.Departure | None] = lambda _: None,
         conclude: Callable[[missions.Mission], object] = lambda _: None,
         seed: int = 0,
@@ -56,7 +100,8 @@ class Crew:
         self._depot, self._carry, self._world, self._check, self._seed = depot, carry, world, check, seed
         self._conclude = conclude
         self._guard = threading.Lock()
-        self._active: str | None = None
+        self._active: Held | None = None
+        self._direct = missions.DirectOrders()
         self._thread: threading.Thread | None = None
         self._faults: dict[str, str] = {}
         #: What has ended stays as it is, and need not be read again each time somebody looks.
@@ -67,7 +112,18 @@ class Crew:
     @property
     def active(self) -> str | None:
         """SHA-256 of the mission that is under way."""
+        held = self.under_way
+        return None if held is None else held.sha256
+
+    @property
+    def under_way(self) -> Held | None:
+        """The mission that is under way, from memory: no disk is read."""
         return self._active if self._thread is not None and self._thread.is_alive() else None
+
+    @property
+    def latest(self) -> Held | None:
+        """The mission that is under way, else the one that was begun last."""
+        return self.under_way or self._depot.last_begun()
 
     def standing(self, held: Held) -> Standing:
         """How a mission stands."""
@@ -136,6 +192,9 @@ class Crew:
             JournalError: Its folder cannot be used.
         """
         folder = self._depot.folder_of(held)
+        direct = self.tell_directly(held.sha256, said, reason)
+        if direct is not None:
+            return self.follow(held, direct, wait=wait)
         with self._guard:
             known = missions.exists(folder)
             if said == "start":
@@ -147,9 +206,28 @@ class Crew:
                 raise ExecutionError("the mission was not begun", where=held.name, advice="start it first")
             if self.active != held.sha256 and not missions.is_running(folder):
                 return self._go_on(held, folder, said, reason)
-        if said == "resume" and missions.last_order(folder) != "pause":
-            return True
+        if said == "resume":
+            self._direct.drop()
+            if missions.last_order(folder) != "pause":
+                return True
         return missions.order(folder, "continue" if said == "resume" else said, reason, wait=wait)
+
+    def follow(self, held: Held, direct: Direct, *, wait: Callable[[], bool]) -> bool:
+        """Keep an order that was given in memory in the mission's folder, too; see :meth:`tell`."""
+        return direct.follow(self._depot.folder_of(held), wait)
+
+    def tell_directly(self, sha256: str, said: Said, reason: str) -> Direct | None:
+        """Give an order to the mission under way in memory: it waits for no disk, no lock and no other order.
+
+        Returns:
+            The order, which is still to be kept in the mission's folder; None if this mission is not under way here,
+            the order is none that makes a robot stop or come home, or comes too late.
+        """
+        if self.active != sha256 or said == "start" or said == "resume":
+            return None
+        orders = self._direct
+        order = orders.give(said, reason)
+        return None if order is None else Direct(orders=orders, order=order, said=said)
 
     def go_on(self) -> str | None:
         """Go on with the mission that a power cut has cut off, if there is one; a paused one stays paused.
@@ -213,19 +291,21 @@ class Crew:
         self._require_free(held)
         bundle = self._depot.open(held.sha256)
         departure = self._check(bundle)
-        missions.begin(self._depot.missions, held.name, _inputs(bundle, self._world, self._seed, departure))
+        inputs = missions.signed_inputs(bundle, world=self._world, seed=self._seed, departure=departure)
+        given = missions.begin(self._depot.missions, held.name, inputs)
         self._depot.note_begun(held.sha256)
-        self._run(held, self._read(held))
+        self._run(held, given)
 
     def _read(self, held: Held) -> missions.Mission:
         """A mission as it lies in its folder, its signature, the trust in it and every byte verified again."""
         folder = self._depot.folder_of(held)
         try:
-            if not missions.is_signed(folder):
+            contents = missions.read_folder(folder)
+            if contents.signed is None:
                 raise NotTrustedError(
                     "its folder lacks the signed mission", where=held.name, advice="have it approved and sent again"
                 )
-            return missions.open_mission(folder, self._depot.verify)
+            return contents.mission(self._depot.verify)
         except FieldhandError as error:
             # What may not go on shall not keep the robot from working.
             self._faults[held.sha256] = str(error)
@@ -274,9 +354,11 @@ class Crew:
 
     def _run(self, held: Held, given: missions.Mission) -> None:
         self._faults.pop(held.sha256, None)
+        self._direct = missions.DirectOrders(missions.last_order(given.folder))
+        told = replace(given, told=self._direct.standing)
 
         def carry() -> None:
-            self._carry(given)
+            self._carry(told)
             if missions.status(given.folder).now.state == "ended":
                 self._conclude(given)
 
@@ -294,7 +376,7 @@ class Crew:
                 self._faults[held.sha256] = f"a fault of the program: {type(error).__name__}"
                 log.exception("mission %s", held.name)
 
-        self._active = held.sha256
+        self._active = held
         self._thread = threading.Thread(target=run, name=f"mission {held.name}", daemon=True)
         self._thread.start()
 
@@ -309,20 +391,3 @@ def said_of(word: str) -> Said:
         if said == word:
             return said
     raise InputError(f"no order '{word[:40]}'", where="order", advice=f"give one of {', '.join(ORDERS)}")
-
-
-def _inputs(bundle: Bundle, world: bytes | None, seed: int, departure: missions.Departure | None) -> missions.Inputs:
-    from fieldhand.task.codec import encode
-
-    return missions.Inputs(
-        task=encode(bundle.authorized.task),
-        site=bundle.files.parts,
-        robot=bundle.profile,
-        authorization=bundle.authorized.authorization,
-        world=world,
-        lenient=bundle.manifest.site.lenient,
-        seed=seed,
-        planner=bundle.manifest.task.planner,
-        signed=bundle.data,
-        departure=departure,
-    )

@@ -26,6 +26,7 @@ from fieldhand.delivery.ledger import Held, Ledger
 from fieldhand.delivery.verified import Accept
 from fieldhand.errors import BundleError, ExecutionError, StoreError
 from fieldhand.files import move_whole
+from fieldhand.folders import Unguarded, require_guarded
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
@@ -38,19 +39,32 @@ class Depot:
         folder: It is made if it is not there.
         accept: Reads a bundle, and refuses what may not run here.
         now: With time zone; for the record only, nothing is decided by it.
+        admit: Refuses a mission whose approval has run out or was superseded, when it arrives and when it begins.
 
     Raises:
         StoreError: Another process has it open, it is damaged, or it cannot be written.
     """
 
-    def __init__(self, folder: Path, *, accept: Accept, now: Callable[[], datetime]) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        *,
+        accept: Accept,
+        now: Callable[[], datetime],
+        admit: Callable[[Bundle], object] = lambda _: None,
+    ) -> None:
         self.missions = folder / "missions"
-        self._folder, self._accept, self._now = folder, accept, now
+        self._folder, self._accept, self._now, self._admit = folder, accept, now, admit
         self._bundles, self._incoming = folder / "bundles", folder / "incoming"
         self._guard = threading.Lock()
         try:
             for one in (folder, self.missions, self._bundles, self._incoming):
                 one.mkdir(mode=0o700, parents=True, exist_ok=True)
+            require_guarded(folder)
+        except Unguarded as fault:
+            raise StoreError(
+                fault.what, where=str(fault.path), advice=f"{fault.advice}; or give another folder with --store"
+            ) from None
         except OSError as error:
             raise unwritable(folder, error) from None
         self._ledger = Ledger(folder / "depot.sqlite")
@@ -111,6 +125,7 @@ class Depot:
             known = self.find(sha256)
             if known is None:
                 self._require_latest(bundle)
+                self._admit(bundle)
             self._put(part, sha256)
             if known is None:
                 self._note(bundle)
@@ -212,7 +227,9 @@ class Depot:
             ) from None
         if hashlib.sha256(data).hexdigest() != sha256:
             raise StoreError("the bundle is not what arrived", where=str(path), advice="send it again")
-        return self._verified(data, sha256)
+        bundle = self._verified(data, sha256)
+        self._admit(bundle)
+        return bundle
 
     def note_begun(self, sha256: str) -> None:
         """Keep that a mission was begun: it is never begun again, whatever becomes of its folder.

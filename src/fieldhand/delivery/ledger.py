@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fieldhand.errors import StoreError
+from fieldhand.folders import FolderLock, FolderTaken
 
 #: Of the database; a program that writes another one refuses this.
 FORMAT = 1
@@ -67,12 +68,22 @@ class Ledger:
     def __init__(self, path: Path) -> None:
         self._path = path
         self._guard = threading.RLock()
-        self._db = self._open()
+        with self._said():
+            # The lock lies on the folder: a database that was deleted would take its own lock along.
+            self._lock = FolderLock(path.parent)
+        try:
+            self._db = self._open()
+            found = path.stat()
+        except BaseException:
+            self._lock.close()
+            raise
+        self._file = found.st_dev, found.st_ino
 
     def close(self) -> None:
         """Let go of it."""
         with self._guard:
             self._db.close()
+            self._lock.close()
 
     def note(self, held: Held) -> None:
         """Keep that a mission has arrived."""
@@ -87,12 +98,14 @@ class Ledger:
             held.begun_at,
         ]
         with self._guard, self._said():
+            self._require_in_place()
             self._db.execute(f"INSERT INTO held ({_COLUMNS}) VALUES (?, ?, ?, ?, ?, ?, ?, ?)", row)  # noqa: S608
 
     def note_begun(self, sha256: str, at: str) -> None:
         """Keep that a mission was begun."""
         turn = "(SELECT coalesce(max(turn), 0) + 1 FROM held)"
         with self._guard, self._said():
+            self._require_in_place()
             self._db.execute(
                 f"UPDATE held SET begun_at = ?, turn = {turn} WHERE sha256 = ? AND begun_at IS NULL",  # noqa: S608
                 [at, sha256],
@@ -126,6 +139,24 @@ class Ledger:
             rows = self._db.execute(f"SELECT {_COLUMNS} FROM held {where}", values).fetchall()  # noqa: S608
             return tuple(_held(row) for row in rows)
 
+    def _require_in_place(self) -> None:
+        """Refuse to write to a database that was deleted or replaced: what it says then nobody would find again.
+
+        Raises:
+            StoreError: It was.
+        """
+        try:
+            found = self._path.lstat()
+            in_place = (found.st_dev, found.st_ino) == self._file
+        except FileNotFoundError:
+            in_place = False
+        if not in_place:
+            raise StoreError(
+                "the database of the store is not at its place any more",
+                where=str(self._path),
+                advice="bring the folder of the store back as it was, and start the agent again",
+            )
+
     def _open(self) -> sqlite3.Connection:
         path = self._path
         with self._said():
@@ -133,7 +164,7 @@ class Ledger:
             try:
                 # Whoever has it open keeps it until the end, so that two agents never hold one store.
                 db.execute("PRAGMA locking_mode=EXCLUSIVE")
-                db.execute("PRAGMA synchronous=FULL")
+                db.execute("PRAGMA synchronous=EXTRA")  # the removal of the rollback journal is synced, too
                 db.execute("BEGIN EXCLUSIVE")
                 if not db.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]:
                     for table in _TABLES:
@@ -160,8 +191,14 @@ class Ledger:
         """What SQLite complains of, in words."""
         try:
             yield
-        except (sqlite3.Error, ValueError) as error:
-            if "locked" in str(error):
+        except OSError as error:
+            raise StoreError(
+                f"the store cannot be used: {error.strerror or error}",
+                where=str(self._path),
+                advice="see to its rights",
+            ) from None
+        except (sqlite3.Error, ValueError, FolderTaken) as error:
+            if isinstance(error, FolderTaken) or "locked" in str(error):
                 raise StoreError(
                     "another agent has this store open",
                     where=str(self._path),

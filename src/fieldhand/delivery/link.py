@@ -108,6 +108,16 @@ class RobotLink:
         body = {"order": said, "because": because}
         return self._ask(Heard, "POST", f"/agent/missions/{sha256}/orders", json=body)
 
+    def order_now(self, said: Said, because: str = "") -> Heard | None:
+        """Tell the mission under way, else the one begun last; None if this agent has to be told which one.
+
+        Raises:
+            DeliveryError: There is none, or it has ended.
+        """
+        status, body = self._send("POST", "/agent/orders", json={"order": said, "because": because})
+        # An agent of an earlier version has no such address, and says so as of any other.
+        return None if status in (404, 405) and b"there is nothing here" in body else self._read(Heard, status, body)
+
     def events(self, sha256: str, after: int, wait_s: float) -> Events:
         """The events behind number ``after``.
 

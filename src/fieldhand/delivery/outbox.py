@@ -119,9 +119,13 @@ class Outbox:
                 "UPDATE entries SET tries = ?, next_at = ?, state = ?, said = ? WHERE n = ?",
                 [entry.tries, entry.next_at, entry.state, entry.said, entry.n],
             )
-            waiting = "SELECT count(*) FROM entries WHERE sha256 = ? AND state = 'waiting'"
-            if not db.execute(waiting, [entry.sha256]).fetchone()[0]:
-                self._bundle(entry.sha256).unlink(missing_ok=True)
+        # Only once that is on the disk: what waits has its bundle. Under the lock again, for it may be put in anew.
+        with self._db() as db:
+            waiting = db.execute("SELECT DISTINCT sha256 FROM entries WHERE state = 'waiting'")
+            needed = {self._bundle(sha256) for (sha256,) in waiting}
+            for path in self._folder.glob("*.mission"):
+                if path not in needed:
+                    path.unlink()
 
     def entries(self) -> tuple[Entry, ...]:
         """All, in the order in which they were given.
@@ -164,7 +168,7 @@ class Outbox:
         """The database in a transaction."""
         try:
             with closing(sqlite3.connect(self._path, isolation_level=None, timeout=5.0)) as db:
-                db.execute("PRAGMA synchronous=FULL")
+                db.execute("PRAGMA synchronous=EXTRA")  # the removal of the rollback journal is synced, too
                 db.execute("BEGIN IMMEDIATE")
                 for table in _TABLES:
                     db.execute(table)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,6 +10,7 @@ import typer
 
 from fieldhand.cli.aboard import DomainOption, NamespaceOption, OnOption, SimTimeOption
 from fieldhand.errors import InputError
+from fieldhand.visible import print_error
 
 if TYPE_CHECKING:
     from fastapi import FastAPI
@@ -84,7 +84,7 @@ def agent(
         app = create_app(station, token=token, host=host)
         station.crew.make_up()
         if resume and (cut := station.crew.go_on()):
-            print(f"going on with mission {cut[:16]}", file=sys.stderr)  # noqa: T201
+            print_error(f"going on with mission {cut[:16]}")
         _serve(app, host, port, tls, token)
     finally:
         station.close()
@@ -107,7 +107,7 @@ def create_app(station: Station, *, token: str | None, host: str) -> FastAPI:
 
 
 def _tell(line: str) -> None:
-    print(f"warning: {line}", file=sys.stderr)  # noqa: T201
+    print_error(f"warning: {line}")
 
 
 def _tls(cert: Path | None, key: Path | None) -> tuple[Path, Path] | None:
@@ -157,26 +157,14 @@ def _require_guarded(host: str, *, token: bool, tls: bool, insecure: bool) -> No
 
 
 def _serve(app: FastAPI, host: str, port: int, tls: tuple[Path, Path] | None, token: str | None) -> None:
-    import uvicorn
+    from contextlib import suppress
 
+    from fieldhand.api.serving import log_visibly, make_server
+
+    log_visibly()
     shown = f"[{host}]" if ":" in host else host
-    print(  # noqa: T201
-        f"The agent is at http{'s' if tls else ''}://{shown}:{port} (Ctrl-C to stop)", file=sys.stderr, flush=True
-    )
+    print_error(f"The agent is at http{'s' if tls else ''}://{shown}:{port} (Ctrl-C to stop)")
     if token is None:
-        print("warning: there is no token; who reaches this address can tell the robot to run", file=sys.stderr)  # noqa: T201
-    uvicorn.run(
-        app,
-        host=host,
-        port=port,
-        log_level="warning",
-        http="h11",
-        ws="none",
-        server_header=False,
-        date_header=False,
-        limit_concurrency=64,
-        timeout_keep_alive=5,
-        timeout_graceful_shutdown=5,
-        ssl_certfile=None if tls is None else str(tls[0]),
-        ssl_keyfile=None if tls is None else str(tls[1]),
-    )
+        print_error("warning: there is no token; who reaches this address can tell the robot to run")
+    with suppress(KeyboardInterrupt):
+        make_server(app, host, port, tls=tls).run()

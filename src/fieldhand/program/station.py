@@ -111,29 +111,34 @@ def compose_station(
     from functools import partial
 
     from fieldhand import missions, past
-    from fieldhand.approval.keys.trust import TrustStore
+    from fieldhand.approval.memory import approval_memory, trust_store
     from fieldhand.delivery.verified import acceptance
     from fieldhand.execution.world import World, load_world
-    from fieldhand.files import config_folder
     from fieldhand.robot.loader import load_robot
     from fieldhand.site.geojson import open_site
 
     profile = load_robot(robot)
     places = tuple(open_site(one, lenient=lenient) for one in sites)
-    trusted = TrustStore(config_folder(environ))
+    trusted = trust_store(environ)
     trusted.known()
     here = World() if world is None else load_world(world)
+    memory = approval_memory(environ)
+
+    def admit(bundle: Bundle) -> None:
+        memory.admit(bundle.manifest, bundle.signer.fingerprint, clock=_now(), source="the mission")
+
     depot = Depot(
         store or missions.missions_folder(environ).parent / "agent",
         accept=acceptance(robot=profile, sites=places, trusted=trusted, now=_now),
         now=_now,
+        admit=admit,
     )
     conclude = partial(_conclude, past.history_folder(environ), tell)
     if connection is None:
         crew = Crew(
             depot,
             carry=partial(missions.carry_out, speed=speed, emit=lambda _: None),
-            world=here.data,
+            world=here,
             check=partial(_require_sound, here),
             conclude=conclude,
             seed=seed,
