@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fieldhand.forecast.estimate import estimate
+from fieldhand.forecast.estimate import estimate, limit_problems
 from fieldhand.forecast.limits import resources_of
 from fieldhand.forecast.rest import rest_after
 from fieldhand.forecast.routes import drives_for
@@ -210,3 +210,18 @@ def test_what_must_be_done_is_judged_without_what_may_be_left_out() -> None:
     far = "Go to tree 100. Then take pictures of as many trees as you can without driving more than {} m."
     assert any("what must be done" in sentence for sentence in problems(far.format(150)))
     assert problems(far.format(500)) == ()
+
+
+def test_a_forecast_that_exceeds_what_is_accepted_is_said_of_optional_visits_too():
+    limits = (Budget(kind="distance_m", limit=60.0), Budget(kind="duration_s", limit=2000.0))
+    task = task_for(SITE, replace(ROUND, optional=True), constraints=Constraints(budgets=limits))
+    found = estimate(task, SITE, ROBOT)
+    assert found.worst.visits > 0
+    assert found.problems == ()
+    resources, drives = resources_of(task.constraints, ROBOT, 100.0), drives_for(SITE, ROBOT)
+    for kind, words in (("distance_m", "the distance budget of 60 m"), ("duration_s", "the time budget of 2000 s")):
+        said = tuple(replace(c, chance=0.44 if c.kind == kind else c.chance) for c in found.worst.chances)
+        branches = (found.worst, replace(found.worst, chances=said))
+        (sentence,) = limit_problems(task, SITE, drives, resources, branches)
+        assert words in sentence
+        assert "44% chance of running short where 10% is accepted" in sentence

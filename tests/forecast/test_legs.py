@@ -59,7 +59,7 @@ def test_a_policy_over_the_graph_visits_about_as_much(planted):
             accepted=0.1,
             most=None,
         )
-        policy = policy_for(problem, 0)
+        policy = policy_for(problem)
         assert 1 <= policy.next(State(vertex=0, left=tuple(x.budget for x in problem.limits))) < problem.end
         found.append(policy.outlook.reward)
     assert found[1] == pytest.approx(found[0], rel=0.08)

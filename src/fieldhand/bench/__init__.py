@@ -7,6 +7,7 @@ follow      a plan held against an event log; account: what the log shows of it
 referee     a finished mission judged from its Task and its log alone
 fly         a mission of a seed flown and judged
 summary     many missions in figures
+repeated    one request flown many times, against its forecast
 missions    requests with what they mean, planned, flown and judged from their logs
 planning    how long the English planner takes on an orchard of a size
 

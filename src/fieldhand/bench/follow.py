@@ -23,6 +23,7 @@ from fieldhand.task.results import (
     Event,
     Exited,
     Faulted,
+    LimitCrossed,
     Shed,
     Started,
     Visiting,
@@ -60,7 +61,7 @@ class _Reader:
     def __init__(self, site: Site, events: Sequence[Event]) -> None:
         self._site = site
         over = next((k for k, e in enumerate(events) if isinstance(e, Exited | Ended)), len(events))
-        self.left = [e for e in events[:over] if not isinstance(e, Started)]
+        self.left = [e for e in events[:over] if not isinstance(e, Started | LimitCrossed)]
         self.account = Account()
         self._hand = ""
         self._optional = 0

@@ -17,7 +17,17 @@ from fieldhand.site.model import Place, Site
 from fieldhand.task.build import FAULTED_EXITS
 from fieldhand.task.frames import Task, Then
 from fieldhand.task.plan import ForEach, walk
-from fieldhand.task.results import Arrived, Ended, Event, Exited, Faulted, MissionStatus, Shed, Started
+from fieldhand.task.results import (
+    Arrived,
+    Ended,
+    Event,
+    Exited,
+    Faulted,
+    LimitCrossed,
+    MissionStatus,
+    Shed,
+    Started,
+)
 
 #: What floating-point sums may differ by.
 _SUMS = 1e-6
@@ -159,11 +169,13 @@ def _misplaced(task: Task, site: Site, events: Sequence[Event], ended: Ended, un
     if ended.status in ("faulted", "aborted"):
         return ""
     exits = {e.fault: e.then for e in (*FAULTED_EXITS, *task.composition.faulted)}
-    then: Then = exits["low_budget"] if undone else task.composition.nominal
+    turned = any(isinstance(e, LimitCrossed) and e.then in ("return", "end") for e in events)
+    then: Then = exits["low_budget"] if undone or turned else task.composition.nominal
     taken = events[leaving[-1]]
     if not isinstance(taken, Exited) or taken.then != then:
         return f"the exit {then} was to be taken"
-    if (ended.status == "returned") != bool(undone):
+    said_done = ended.status == "completed" or (ended.status == "exceeded" and taken.exit == "nominal")
+    if said_done == (bool(undone) or turned):
         return f"it ended as {ended.status} with {len(undone)} things undone"
     arrivals = [e for e in events if isinstance(e, Arrived)]
     if then == "stay":
@@ -185,7 +197,11 @@ def _sums(events: Sequence[Event], ended: Ended) -> list[str]:
     """Whether the figures of the log add up."""
     wrong = []
     legs = sum(e.leg_m for e in events if isinstance(e, Arrived))
-    if ended.status != "faulted" and abs(legs - ended.travelled_m) > _SUMS * max(1.0, legs):
+    # A drive that was broken off to turn home is in what was driven, and no leg.
+    broken_off = any(isinstance(e, LimitCrossed) and e.then != "go_on" for e in events)
+    missing = ended.travelled_m - legs
+    wrong_sum = missing < -_SUMS * max(1.0, legs) if broken_off else abs(missing) > _SUMS * max(1.0, legs)
+    if ended.status != "faulted" and wrong_sum:
         wrong.append(f"legs of {legs:.1f} m are not the {ended.travelled_m:.1f} m that were driven")
     if any(b.t < a.t - _SUMS for a, b in itertools.pairwise(events)):
         wrong.append("time runs backwards")

@@ -26,6 +26,9 @@ _FEWEST = 12
 #: Of a site, unless the caller says otherwise.
 MOST_TREES = 400
 
+#: Of each kind of block the metres between rows and between trees, the bend, and the rows for each tree of a row.
+_MADE = {"straight": (5.0, 4.0, 0.0, 0.8), "curved": (2.6, 1.8, 0.08, 0.8)}
+
 
 def random_site(rng: np.random.Generator, most_trees: int = MOST_TREES) -> Site:
     """An orchard of 4 trees to about ``most_trees``: one to three blocks, trees in no rows, or a handful.
@@ -97,3 +100,35 @@ def _with_worth(rng: np.random.Generator, made: MadeOrchard) -> bytes:
         for f in made.collection["features"]
     ]
     return json.dumps({**made.collection, "features": features}, separators=(",", ":")).encode()
+
+
+def made_block(kind: str, trees: int, seed: int = 5) -> Site:
+    """Return a block of about so many trees with fence, pond, start and end, whose rows are named.
+
+    Args:
+        kind: ``straight``: an orchard; ``curved``: a vineyard of narrow rows that bend.
+        trees: How many are planted; some are missing.
+        seed: The same seed gives the same site.
+
+    Raises:
+        SiteError: There is no such kind, or there are too few trees.
+    """
+    if kind not in _MADE:
+        raise SiteError(f"no block is {kind}", advice=f"ask for {' or '.join(_MADE)}")
+    row_m, tree_m, bend, slender = _MADE[kind]
+    rows = max(2, round(math.sqrt(trees * slender)))
+    shape = BlockShape(
+        rows=rows,
+        trees_a_row=max(2, trees // rows),
+        row_spacing_m=row_m,
+        tree_spacing_m=tree_m,
+        bearing_deg=12.0,
+        bend=bend,
+        missing=0.03,
+        jitter=0.03,
+    )
+    made = make_orchard(
+        np.random.default_rng(seed), [shape], named="rows and blocks", shuffled=False, pond_m=4.0, fenced=True,
+        markers=True,
+    )  # fmt: skip
+    return parse_site(made.to_bytes(), name=f"{kind} block of {trees} trees")

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from fieldhand.brief import brief_repr
 from fieldhand.errors import DriveFault, PlaceError
 from fieldhand.forecast import routes
 from fieldhand.forecast.drawn import Drawn, Luck
@@ -60,7 +61,7 @@ class Broken:
     steps: tuple[Step, ...]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Branches:
     """What was found.
 
@@ -78,6 +79,8 @@ class Branches:
     told: tuple[Walk, ...] = ()
     broken: tuple[Broken, ...] = ()
     coverage: Coverage = "enumerated"
+
+    __repr__ = brief_repr
 
     @property
     def complete(self) -> bool:

@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from fieldhand.errors import PlaceError
+from fieldhand.language import joined, message, named
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context
 from fieldhand.site.kinds import phrase
@@ -19,7 +20,17 @@ from fieldhand.site.model import Place, Site
 from fieldhand.site.places import resolve
 from fieldhand.task.conditions import AllOf, AnyOf, Between, Compare, Condition, Level, Not, TreeHas
 from fieldhand.task.selectors import Test, TreeIs, Value, Where
-from fieldhand.task.words import TESTS, listed, say_name, say_number, say_unit, say_value
+from fieldhand.task.words import listed, say_name, say_number, say_unit, say_value
+
+#: How a test is said in a sentence that a log keeps.
+_HOW: Mapping[Test, str] = {
+    "lt": message("below", context="log"),
+    "le": message("at most", context="log"),
+    "gt": message("above", context="log"),
+    "ge": message("at least", context="log"),
+    "eq": message("exactly", context="log"),
+    "ne": message("other than", context="log"),
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,10 +65,11 @@ def evaluate(condition: Condition, facts: Facts) -> Finding:
     """Test a condition. Never fails: what cannot be known is unknown."""
     match condition:
         case Compare(test=how, value=value, unit=unit):
-            return _measured(condition, facts, lambda r: _passes(r, how, value), f"{TESTS[how]} {_amount(value, unit)}")
+            bound = {"how": _HOW[how], "limit": _amount(value, unit)}
+            return _measured(condition, facts, lambda r: _passes(r, how, value), _compared, bound)
         case Between(low=low, high=high, unit=unit):
-            words = f"between {say_number(low)} and {_amount(high, unit)}"
-            return _measured(condition, facts, lambda r: low <= r <= high, words)
+            between = {"low": say_number(low), "high": _amount(high, unit)}
+            return _measured(condition, facts, lambda r: low <= r <= high, _between, between)
         case Level():
             return _level(condition, facts)
         case TreeHas():
@@ -88,53 +100,86 @@ def _passes(value: float, how: Test, threshold: float) -> bool:
 
 
 def _measured(
-    condition: Compare | Between | Level, facts: Facts, passes: Callable[[float], bool], words: str
+    condition: Compare | Between | Level,
+    facts: Facts,
+    passes: Callable[[float], bool],
+    say: Callable[[bool, Mapping[str, str]], str],
+    bounds: Mapping[str, str],
 ) -> Finding:
-    """A reading against a threshold that ``words`` says ("below 33 degC")."""
+    """Hold a reading against a threshold; ``say`` says what came of it, with ``bounds`` and what was read."""
     value = facts.readings.get(condition.reading, {}).get(condition.quantity)
     name = say_name(condition.quantity)
     if value is None:
-        return Finding(truth=None, why=f"there is no reading of {name}")
+        return Finding(truth=None, why=message("there is no reading of {name}", context="log", name=name))
     quantity = facts.robot.quantity.get(condition.quantity)
     truth = passes(value)
     amount = _amount(value, quantity.unit if quantity else "")
-    return Finding(truth=truth, why=f"{name} {amount} is {'' if truth else 'not '}{words}")
+    return Finding(truth=truth, why=say(truth, {"name": name, "amount": amount, **bounds}))
+
+
+def _compared(truth: bool, fills: Mapping[str, str]) -> str:
+    if truth:
+        return message("{name} {amount} is {how} {limit}", context="log", **fills)
+    return message("{name} {amount} is not {how} {limit}", context="log", **fills)
+
+
+def _between(truth: bool, fills: Mapping[str, str]) -> str:
+    if truth:
+        return message("{name} {amount} is between {low} and {high}", context="log", **fills)
+    return message("{name} {amount} is not between {low} and {high}", context="log", **fills)
+
+
+def _on_level(truth: bool, fills: Mapping[str, str]) -> str:
+    if truth:
+        return message("{name} {amount} is {word} ({how} {limit})", context="log", **fills)
+    return message("{name} {amount} is not {word} ({how} {limit})", context="log", **fills)
 
 
 def _level(condition: Level, facts: Facts) -> Finding:
     quantity = facts.robot.quantity.get(condition.quantity)
     level = None if quantity is None else quantity.levels.get(condition.level)
     if quantity is None or level is None:
-        why = f"the robot has no word '{condition.level}' for {say_name(condition.quantity)}"
+        why = message(
+            "the robot has no word '{word}' for {name}",
+            context="log",
+            word=named(condition.level, "level"),
+            name=say_name(condition.quantity),
+        )
         return Finding(truth=None, why=why)
     how: Test = "lt" if level.direction == "below" else "gt"
-    words = f"{condition.level} ({level.direction} {_amount(level.value, quantity.unit)})"
-    return _measured(condition, facts, lambda r: _passes(r, how, level.value), words)
+    bound = {"word": named(condition.level, "level"), "how": _HOW[how], "limit": _amount(level.value, quantity.unit)}
+    return _measured(condition, facts, lambda r: _passes(r, how, level.value), _on_level, bound)
 
 
 def _attribute(condition: TreeHas, facts: Facts) -> Finding:
     """What the site file says of the tree in hand, tested exactly as the selector ``Where`` tests it."""
     tree = facts.site.by_id.get(facts.here.id) if facts.here.kind == "tree" else None
     if tree is None:
-        return Finding(truth=None, why="the robot is not at a tree")
+        return Finding(truth=None, why=message("the robot is not at a tree", context="log"))
     name = say_name(condition.attribute)
     known = {phrase(key): value for key, value in tree.properties.items()}
     value = tree.properties.get(condition.attribute, known.get(phrase(condition.attribute)))
     if value is None:
-        return Finding(truth=None, why=f"the site does not say the {name} of tree {tree.place.id}")
+        why = message("the site does not say the {name} of tree {id}", context="log", name=name, id=tree.place.id)
+        return Finding(truth=None, why=why)
     selector = Where(
         attribute=condition.attribute, test=condition.test, value=condition.value, of=TreeIs(tree=tree.place.id)
     )
-    said = f"the {name} of tree {tree.place.id}, {say_value(value)},"
+    fills = {"name": name, "id": tree.place.id, "has": say_value(value), "bound": say_value(condition.value)}
     if condition.test not in ("eq", "ne") and not (_is_number(value) and _is_number(condition.value)):
-        return Finding(truth=None, why=f"{said} cannot be ordered against {say_value(condition.value)}")
+        why = message("the {name} of tree {id}, {has}, cannot be ordered against {bound}", context="log", **fills)
+        return Finding(truth=None, why=why)
     try:
         truth = bool(resolve(selector, facts.site, Context(here=facts.here)))
     except PlaceError:
         # No tree has the value that is asked for, this one included.
         truth = False
-    words = f"{'' if truth else 'not '}{TESTS[condition.test]} {say_value(condition.value)}"
-    return Finding(truth=truth, why=f"{said} is {words}")
+    fills["how"] = _HOW[condition.test]
+    if truth:
+        why = message("the {name} of tree {id}, {has}, is {how} {bound}", context="log", **fills)
+    else:
+        why = message("the {name} of tree {id}, {has}, is not {how} {bound}", context="log", **fills)
+    return Finding(truth=truth, why=why)
 
 
 def _is_number(value: Value) -> bool:
@@ -149,11 +194,19 @@ def _joined(found: Sequence[Finding], *, decisive: bool) -> Finding:
     """All of, or any of: one finding that is ``decisive`` settles it, else one that is unknown leaves it open."""
     settling = [f for f in found if f.truth is decisive]
     if settling:
-        return Finding(truth=decisive, why=listed([f.why for f in settling]))
+        return Finding(truth=decisive, why=_all(settling))
     unknown = [f for f in found if f.truth is None]
-    return Finding(truth=None if unknown else not decisive, why=listed([f.why for f in unknown or found]))
+    return Finding(truth=None if unknown else not decisive, why=_all(unknown or found))
+
+
+def _all(found: Sequence[Finding]) -> str:
+    """Return what some findings say, as a list that a log keeps."""
+    whys = [finding.why for finding in found]
+    if len(whys) < 2:
+        return listed(whys)
+    return message("{known} and {also}", context="log", known=joined(", ", whys[:-1]), also=whys[-1])
 
 
 def _amount(value: float, unit: str) -> str:
     """A value as people read it: "31.2 °C". The log's readings hold every digit."""
-    return f"{say_number(value, 4)} {say_unit(unit)}".rstrip()
+    return joined(" ", [part for part in (say_number(value, 4), say_unit(unit)) if part])

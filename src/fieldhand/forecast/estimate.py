@@ -6,6 +6,7 @@ from collections.abc import Sequence as Sequence_
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from fieldhand.brief import brief_repr
 from fieldhand.forecast import routes
 from fieldhand.forecast.branches import Branches, branches
 from fieldhand.forecast.drawn import DRAWS, Luck
@@ -23,10 +24,10 @@ from fieldhand.task.words import say_rounded
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
 
-__all__ = ["BranchEstimate", "Estimate", "Figure", "estimate", "explore", "mandatory_part"]
+__all__ = ["BranchEstimate", "Estimate", "Figure", "estimate", "explore", "limit_problems", "mandatory_part"]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Estimate:
     """What a Task will take.
 
@@ -47,6 +48,8 @@ class Estimate:
     exits: Exits
     problems: tuple[str, ...]
     charge_percent: float = 100.0
+
+    __repr__ = brief_repr
 
     @property
     def complete(self) -> bool:
@@ -146,11 +149,11 @@ def _estimated(kept: _Kept, task: Task, site: Site, robot: RobotProfile, charge_
     estimates = tuple(figures_of(w, resources, task.constraints, robot, charge_percent) for w in found.walks)
     worst = _worst(estimates)
     ways_home = exits(task, site, robot, drives, found.walks, found.told, kept.luck)
-    if worst.visits and any(c.exceeded for c in worst.chances):
-        # Optional visits can be left out, so what counts is whether the rest lasts without them.
+    problems: tuple[str, ...] = ()
+    if any(b.visits and c.exceeded for b in estimates for c in b.chances):
+        # Optional visits can be left out, so what counts first is whether the rest lasts without them.
         problems = _of_mandatory(kept, task, site, robot, charge_percent)
-    else:
-        problems = _problems(task, site, drives, resources, worst)
+    problems = problems or limit_problems(task, site, drives, resources, estimates)
     return Estimate(
         branches=estimates,
         worst=worst,
@@ -171,8 +174,7 @@ def _of_mandatory(kept: _Kept, task: Task, site: Site, robot: RobotProfile, char
     resources = resources_of(part.constraints, robot, charge_percent)
     found = branches(part, site, robot, charge_percent=charge_percent, luck=kept.luck, seed=kept.luck.seed)
     estimates = [figures_of(w, resources, part.constraints, robot, charge_percent) for w in found.walks]
-    worst = _worst(estimates)
-    return _problems(part, site, routes.drives_for(site, robot), resources, worst)
+    return limit_problems(part, site, routes.drives_for(site, robot), resources, estimates)
 
 
 def _worst(estimates: Sequence_[BranchEstimate]) -> BranchEstimate:
@@ -201,14 +203,16 @@ def _without_optional(node: Node) -> Node:
             return node
 
 
-def _problems(
-    task: Task, site: Site, drives: Drives, resources: tuple[Resource, ...], worst: BranchEstimate
+def limit_problems(
+    task: Task, site: Site, drives: Drives, resources: tuple[Resource, ...], estimates: Sequence_[BranchEstimate]
 ) -> tuple[str, ...]:
-    """Sentences about limits that the mission will not keep."""
+    """Return a sentence about each limit that the mission will not keep, on the branch most likely to exceed it."""
     found = []
     home = site.home(task.composition.nominal, site.start)
     alone = 0.0 if home.xy == site.start.xy else drives.between(site.start, home).length_m
-    for resource, chance in zip(resources, worst.chances, strict=True):
+    for number, resource in enumerate(resources):
+        worst = max(estimates, key=lambda b: b.chances[number].chance)
+        chance = worst.chances[number]
         name, unit = _WORDS[resource.kind]
         need = alone * resource.per_metre
         if need > resource.limit * (1 + 1e-9):
@@ -222,16 +226,30 @@ def _problems(
                     need=say_rounded(need),
                 )
             )
-        elif chance.exceeded and not worst.visits:
+        elif chance.exceeded and worst.visits:
+            found.append(
+                message(
+                    "{budget} of {limit} {unit} may not last for the visits that are forecast: {chance}% chance of"
+                    " running short where {accepted}% is accepted",
+                    budget=name,
+                    limit=say_rounded(resource.limit),
+                    unit=unit,
+                    chance=say_rounded(100 * chance.chance),
+                    accepted=say_rounded(100 * resource.failure_probability),
+                )
+            )
+        elif chance.exceeded:
             used = {"distance_m": worst.metres, "duration_s": worst.seconds}.get(resource.kind, worst.percent)
             found.append(
                 message(
-                    "{budget} of {limit} {unit} does not last for what must be done: it takes {need} {unit} on average,"
-                    " {chance}% chance of running short where {accepted}% is accepted",
+                    "{budget} of {limit} {unit} does not last for what must be done: it takes {need} {unit} on average"
+                    " and up to {high} {unit} nine times out of ten, {chance} % chance of running short where"
+                    " {accepted} % is accepted",
                     budget=name,
                     limit=say_rounded(resource.limit),
                     unit=unit,
                     need=say_rounded(used.mean),
+                    high=say_rounded(used.p90),
                     chance=say_rounded(100 * chance.chance),
                     accepted=say_rounded(100 * resource.failure_probability),
                 )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fieldhand.brief import brief_repr
 from fieldhand.errors import DriveFault
 from fieldhand.forecast.drawn import Drawn, Luck
 from fieldhand.forecast.limits import speed_of
@@ -29,7 +30,7 @@ MAX_PLACES = 120
 _FAULTS: tuple[Fault, ...] = ("action_failed", "drive_failed", "low_budget", "aborted")
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Exits:
     """What was found.
 
@@ -46,6 +47,8 @@ class Exits:
     worst: tuple[tuple[Fault, Walk], ...]
     looked_at: int
     places: int
+
+    __repr__ = brief_repr
 
 
 def exits(

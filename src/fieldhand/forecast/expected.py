@@ -75,18 +75,20 @@ def expected_visits(
         found = _one(walker, visits[0], rest, share, used, rng)
     else:
         ids = [] if before is None else list(before.outlook.chances)
-        ahead = [] if before is None else [ids[v - 1] for v in before.preview.vertices.tolist()]
+        ahead = [] if before is None else [ids[v - 1] for v in before.preview.orders[0].tolist()]
         number = {v.place.id: k for k, v in enumerate(visits, start=1)}
         warm = [number[i] for i in ahead if i in number]
         found = _several(walker, node, visits, rest, without + share, used, rng, warm)
     chances = np.zeros(len(visits))
     chances[found.vertices - 1] = found.visited.mean(axis=0)
     mean = float(found.visits.mean())
-    likely = sorted(range(len(visits)), key=lambda k: -chances[k])
+    # Of missions that go different ways one is shown: of the others' places as many as it lacks.
+    usual = set(found.orders[0].tolist())
+    likely = sorted(range(len(visits)), key=lambda k: (chances[k] > 0.0 and k + 1 not in usual, -chances[k]))
     chosen = set(likely[: round(mean)])
     return Expected(
         places=tuple(visits[v - 1].place for v in found.vertices.tolist() if v - 1 in chosen),
-        shed=tuple(visits[k].place for k in likely[round(mean) :]),
+        shed=tuple(visits[k].place for k in sorted(likely[round(mean) :], key=lambda k: -chances[k])),
         outlook=Outlook(
             visits=mean,
             chances={v.place.id: float(chance) for v, chance in zip(visits, chances, strict=True)},
@@ -125,7 +127,7 @@ def _several(
         most=node.at_most if isinstance(node, ForEach) else None,
     )
     state = State(vertex=0, left=left_before(resources, robot, walker.spent, rest))
-    return preview(policy_for(problem, 0, warm=warm), state, rng, used)
+    return preview(policy_for(problem, warm=warm), state, rng, used)
 
 
 def _one(walker: Walker, visit: Visit, rest: Rest, share: float, used: Floats, rng: np.random.Generator) -> Preview:
@@ -145,6 +147,8 @@ def _one(walker: Walker, visit: Visit, rest: Rest, share: float, used: Floats, r
         visited=goes[:, None],
         legs=np.where(goes, there * costs.draw(rng, len(used)), 0.0),
         last=np.where(goes, back, home) * costs.draw(rng, len(used)),
+        groups=np.zeros(len(used), dtype=np.int64),
+        orders=(np.ones(1, dtype=np.int64),),
     )
 
 

@@ -9,6 +9,7 @@ from itertools import groupby
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldhand.brief import brief_repr
 from fieldhand.forecast.drawn import Used
 from fieldhand.forecast.limits import Resource, ResourceKind, speed_of
 from fieldhand.forecast.steps import Decision, Walk
@@ -53,7 +54,7 @@ class Chance:
         return bool(self.chance > self.accepted + noise)
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class BranchEstimate:
     """One branch.
 
@@ -80,6 +81,8 @@ class BranchEstimate:
     shed: tuple[Place, ...]
     walk: Walk
     fault: Fault | None = None
+
+    __repr__ = brief_repr
 
     @property
     def short(self) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,21 +55,45 @@ def legs_between(
         DriveFault: There is no way between some of them.
     """
     places = [here, *(v.place for v in visits), *([] if rest.first is None else [rest.first])]
+    stands = tuple(p.xy if p.stand is None else p.stand for p in places)
+    kept = _KEPT.get(drives)
+    if kept is None or kept.stands != stands:
+        kept = _KEPT[drives] = _Kept(stands=stands)
     if len(places) > table and rest.first is not None and all(v.leaves is None for v in visits):
-        from fieldhand.orienteering.network import Network
-
-        roads = drives.roads(places)
-        if roads.straight:
-            return Legs(plane=np.ascontiguousarray(roads.at[: len(places)]))
-        network = Network(nodes=len(roads.at), ways=roads.ways, lengths=roads.lengths)
-        return Legs(labels=network.labels(range(len(places))))
-    lengths = between or (lambda some: np.asarray(drives.lengths(some), dtype=np.float64))
-    found = lengths(places)
+        if kept.legs is None:
+            kept.legs = _along_roads(places, drives)
+        return kept.legs
+    if kept.table is None:
+        kept.table = drives.lengths(places) if between is None else between(places)
+    found = np.array(kept.table, dtype=np.float64)
     for number, visit in enumerate(visits, start=1):
         if visit.leaves is not None:
+            lengths = between or drives.lengths
             found[number] = lengths([visit.leaves, *places])[0, 1:]
     if rest.first is None:
         padded = np.zeros((len(found) + 1, len(found) + 1))
         padded[:-1, :-1] = found
         found = padded
     return Legs(distances=found)
+
+
+@dataclass(kw_only=True)
+class _Kept:
+    """The distances that were last asked for over some drives: forecast and guard ask for the same."""
+
+    stands: tuple[tuple[float, float], ...]
+    legs: Legs | None = None
+    table: Floats | None = None
+
+
+_KEPT: WeakKeyDictionary[Drives, _Kept] = WeakKeyDictionary()
+
+
+def _along_roads(places: Sequence[Place], drives: Drives) -> Legs:
+    from fieldhand.orienteering.network import Network
+
+    roads = drives.roads(places)
+    if roads.straight:
+        return Legs(plane=np.ascontiguousarray(roads.at[: len(places)]))
+    network = Network(nodes=len(roads.at), ways=roads.ways, lengths=roads.lengths)
+    return Legs(labels=network.labels(range(len(places))))

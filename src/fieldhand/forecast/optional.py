@@ -24,6 +24,7 @@ Floats = NDArray[np.float64]
 GONE = 0.9
 #: How often an order is remade that was planned for much the same visits: a fifth of what one from nothing takes.
 _REMAKES = 8
+_SEED = 0
 #: A chance that a solver is asked to keep to lies between these.
 _LEAST, _MOST = 1e-6, 1.0 - 1e-6
 
@@ -77,12 +78,13 @@ def left_before(resources: Sequence[Resource], robot: RobotProfile, spent: Spent
     return tuple(r.metres_left(spent) - r.metres_of(rest.work, robot) for r in resources)
 
 
-def policy_for(problem: Problem, seed: int, *, price: float | None = None, warm: Sequence[int] = ()) -> Policy:
-    """What decides on board, and in the forecast: over all missions the most is collected by keeping within the limits.
+def policy_for(problem: Problem, *, price: float | None = None, warm: Sequence[int] = ()) -> Policy:
+    """Return what decides on board and in the forecast; it collects the most over all missions, failed ones counting 0.
+
+    Both search with the same seed: the order that was forecast is the one that the robot sets out with.
 
     Args:
         problem: Of :func:`visits_problem`.
-        seed: Of its search.
         price: Of a failure, where an earlier decision of the same run found it.
         warm: Vertices that were planned.
     """
@@ -90,4 +92,4 @@ def policy_for(problem: Problem, seed: int, *, price: float | None = None, warm:
     from fieldhand.orienteering.policy import Policy
 
     depth = Depth(remakes=_REMAKES) if warm else Depth()
-    return Policy(problem, seed, daring=0.0, price=price, warm=warm, depth=depth)
+    return Policy(problem, _SEED, daring=0.0, price=price, warm=warm, depth=depth)

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
+from fieldhand.brief import brief_repr
 from fieldhand.forecast.drawn import Used
 from fieldhand.site.context import Context
 from fieldhand.site.model import Place
@@ -59,7 +60,7 @@ class Outlook:
     chances: Mapping[str, float]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Step:
     """One thing that happens.
 
@@ -91,8 +92,10 @@ class Step:
     answer: bool | None = None
     reached: bool = True
 
+    __repr__ = brief_repr
 
-@dataclass(frozen=True, kw_only=True)
+
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Walk:
     """A Task along one branch.
 
@@ -110,6 +113,8 @@ class Walk:
     decisions: tuple[Decision, ...] = ()
     unread: tuple[tuple[str, str], ...] = ()
     used: Used | None = field(default=None, compare=False)
+
+    __repr__ = brief_repr
 
     @property
     def legs_m(self) -> tuple[float, ...]:

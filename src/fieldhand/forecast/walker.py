@@ -203,9 +203,8 @@ class Walker(Trail):
         if known is None:
             return (standing if node.at_most is None else standing[: node.at_most])[:MOST_TOLD] if most else ()
         visits, by_id = known.preview.visits, {p.id: p for p in standing}
-        made = known.preview.visited[int(visits.argmax() if most else visits.argmin())]
-        order = [known.ids[vertex - 1] for vertex in known.preview.vertices.tolist()]
-        return tuple(by_id[name] for name, makes in zip(order, made.tolist(), strict=True) if makes and name in by_id)
+        made = known.preview.stops(int(visits.argmax() if most else visits.argmin()))
+        return tuple(by_id[name] for vertex in made if (name := known.ids[vertex - 1]) in by_id)
 
     def _step_as_told(self, node: Optional) -> None:
         try:

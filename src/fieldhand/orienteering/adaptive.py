@@ -6,6 +6,7 @@ succeeds, and success itself counts ``bonus``, the price on a failure. A bonus b
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -17,7 +18,7 @@ from fieldhand.orienteering.ground import Ground
 from fieldhand.orienteering.kernels.grow import floors_of, grow
 from fieldhand.orienteering.kernels.legs import uniform
 from fieldhand.orienteering.kernels.value import WORK, backward, drive, forward
-from fieldhand.orienteering.tail import quantile_table
+from fieldhand.orienteering.tail import exceeding, quantile_table
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -28,6 +29,8 @@ LONG = 64
 _FIRST = (0.15, 0.4)
 #: Stops in an order from which on it is taken apart less often.
 _SHORT = 24
+#: Times the amount left over which the programme of missions with luck reaches at most.
+_WIDEST = 4
 #: How far out of reach, as legs cost on average, a vertex may be that luck may bring within it.
 _LUCK = 1.15
 
@@ -136,13 +139,24 @@ class Lookout:
         found.improve(rounds, WARM if len(stops) else HOT)
         return found.best
 
+    def is_safe(self, stops: Ints) -> bool:
+        """Return True if a fixed route keeps each limit with the chance that it accepts."""
+        ground, problem = self._ground, self._ground.problem
+        route = [self._here, *stops.tolist(), problem.end]
+        legs = np.array([problem.length(a, b) for a, b in itertools.pairwise(route)])
+        first, squares, cubes = (float((legs**k).sum() + ground.afterwards[k - 1]) for k in (1, 2, 3))
+        second, third = ground.cumulants
+        left = self._left - ground.service[:, [*route[1:-1], ground.size]].sum(axis=1)
+        accepted = [limit.failure_probability for limit in problem.limits]
+        return bool((exceeding(first, second * squares, third * cubes, left) <= np.array(accepted) * 1.01).all())
+
     def order(self, stops: Ints, bonus: float, insertions: int) -> Order:
         """An order after it has gained up to ``insertions`` stops."""
         ground, depth = self._ground, self._depth
         longest = min(max(len(stops), LONG), self._most)
         grown, figures = np.empty(longest + 2, np.int64), np.empty(3)
         count = grow(
-            stops, self._here, self.free, longest, insertions, ground.ways, ground.rewards,
+            stops, self._here, self.free, longest, insertions, ground.ways, ground.near, ground.rewards,
             self._service, self._budgets, self.ends(), bonus, depth.skip, ground.points, ground.weights,
             grown, figures,
         )  # fmt: skip
@@ -159,14 +173,24 @@ class Lookout:
         )  # fmt: skip
         return np.asarray(mass[1:-1].sum(axis=1))
 
-    def choices(self, stops: Ints, bonus: float) -> tuple[Ints, float, int]:
-        """What a mission that only skips stops of an order would do.
+    @property
+    def binding(self) -> int:
+        """The limit that the programme runs over."""
+        return self._binding
+
+    def choices(self, stops: Ints, bonus: float, most_left: float) -> tuple[Ints, float]:
+        """Return what a mission would do that only skips stops of an order.
+
+        Args:
+            stops, bonus: The order; what keeping to the limits counts.
+            most_left: What the mission with most left has of the binding limit.
 
         Returns:
             For each position (0 for here) and amount left the position that it drives to, ``len(stops) + 1`` for the
-            end; the step from an amount to the next, the first being 0; and the limit whose amounts these are.
+            end; and the step from an amount to the next, the first being 0.
         """
-        return self._programme(stops, bonus)[1], self._step, self._binding
+        size = max(self._depth.points, int(np.ceil(most_left / self._step))) + 1
+        return self._programme(stops, bonus, min(size, _WIDEST * self._depth.points))[1], self._step
 
     def foresight(self, order: Order, bonus: float) -> Foresight:
         """What the programme of an order says of the leg that is driven now."""
@@ -210,23 +234,28 @@ class Lookout:
     def ends(self) -> Floats:
         """By what is left at the end, the chance that the legs after it are within the limit."""
         if self._ends is None:
-            ground, size = self._ground, self._depth.points + 1
-            now, then, nothing, unused = np.ones(size), np.empty(size), np.zeros(size), np.empty(size)
-            for leg in reversed(ground.problem.after):
-                drive(nothing, now, unused, then, leg, 0.0, self._step, ground.points, ground.weights)
-                now, then = then, now
-            self._ends = now
+            self._ends = self._ends_up_to(self._depth.points + 1)
         return self._ends
 
-    def _programme(self, stops: Ints, bonus: float) -> tuple[Ints, Ints, Floats]:
+    def _ends_up_to(self, size: int) -> Floats:
+        ground = self._ground
+        now, then, nothing, unused = np.ones(size), np.empty(size), np.zeros(size), np.empty(size)
+        for leg in reversed(ground.problem.after):
+            drive(nothing, now, unused, then, leg, 0.0, self._step, ground.points, ground.weights)
+            now, then = then, now
+        return now
+
+    def _programme(self, stops: Ints, bonus: float, size: int | None = None) -> tuple[Ints, Ints, Floats]:
         """The route over stops; for each position on it and each amount left, what is driven to, and the success."""
-        ground, depth, size = self._ground, self._depth, self._depth.points + 1
+        ground, depth = self._ground, self._depth
+        ends = self.ends() if size is None else self._ends_up_to(size)
+        size = len(ends)
         route = np.array([self._here, *stops, ground.size], dtype=np.int64)
         worth, success, ahead = (np.empty((len(route), size)) for _ in range(3))
         choice, floors = np.empty((len(route), size), np.int64), np.empty(len(route))
         floors_of(route, self._service, self._budgets, floors)
         backward(
-            route, ground.ways, ground.rewards, self._service[0], self.ends(), floors, bonus, self._step,
+            route, ground.ways, ground.rewards, self._service[0], ends, floors, bonus, self._step,
             depth.skip, ground.points, ground.weights, worth, success, ahead, choice,
             np.empty((WORK, size)),
         )  # fmt: skip

@@ -39,11 +39,13 @@ class State:
         vertex: Where the robot is.
         left: What is left of each limit, in their order; may be negative.
         visited: Vertices that have been collected.
+        given_up: Vertices that may not be visited any more, though nothing was collected there.
     """
 
     vertex: int
     left: tuple[float, ...]
     visited: frozenset[int] = frozenset()
+    given_up: frozenset[int] = frozenset()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -139,10 +141,12 @@ class Policy:
         """The least that daring allows."""
         return self._least_price
 
-    def again(self, seed: int, price: float | None = None, warm: Sequence[int] = ()) -> Policy:
+    def again(
+        self, seed: int, price: float | None = None, warm: Sequence[int] = (), depth: Depth | None = None
+    ) -> Policy:
         """The policy for another mission through the same problem, at a price of a failure."""
         return Policy(
-            self._problem, seed, depth=self._depth, daring=self._daring, price=price, warm=warm or self._first,
+            self._problem, seed, depth=depth or self._depth, daring=self._daring, price=price, warm=warm or self._first,
             ground=self._ground,
         )  # fmt: skip
 
@@ -163,7 +167,7 @@ class Policy:
         self._check(state)
         self._last = None
         free = self._free.copy()
-        free[list(state.visited)] = False
+        free[[*state.visited, *state.given_up]] = False
         most = self._problem.most
         if most is not None:
             most = max(0, most - visits(self._problem, state.visited))
@@ -174,10 +178,13 @@ class Policy:
         if not len(lookout.free):
             return self._settle(state, lookout.order(lookout.free, 0.0, 0))
         certain = self._ground.cumulants[0] <= 0.0
+        accepted = min(limit.failure_probability for limit in self._problem.limits)
         if certain or len(lookout.free) > LONG:
-            route = lookout.route(0.5, self._warm, self._rounds(lookout))
+            # As likely to fail as is accepted, not as likely as not: a long last leg takes its risk all at once, when
+            # no stop is left that could be skipped.
+            route = lookout.route(accepted, self._warm, self._rounds(lookout))
             while seconds is not None and time.perf_counter() - began < seconds:
-                route = lookout.route(0.5, route.tolist(), 16 * self._depth.rounds)
+                route = lookout.route(accepted, route.tolist(), 16 * self._depth.rounds)
             # Of legs that are certain nothing is to be learnt on the way: the best route is the best policy.
             if certain or len(route) > LONG:
                 ahead = Order(stops=route, first=0, worth=self._reward(route.tolist()), success=1.0)
@@ -186,12 +193,20 @@ class Policy:
         collected = self._collected + self._reward(
             [*(state.visited - {self._problem.start, self._problem.end}), self._problem.end]
         )
+        new = False
         if self._price is None:
-            self._price = self._priced(lookout, collected)
+            new, self._price = True, self._priced(lookout, collected)
         elif not (self._begun or self._warm):
             self._plan(lookout.planned(self._price + collected, (), self._rounds(lookout)))
         self._begun = True
         order = lookout.best(self._price + collected, self._warm)
+        if new and order.first == len(order.stops):
+            safe = self._safe_route(lookout, accepted)
+            if safe is not None:
+                vertex = self._settle(state, safe)
+                # What comes after that leg is planned from nothing.
+                self._price, self._warm, self._begun = None, (), False
+                return vertex
         while seconds is not None and time.perf_counter() - began < seconds:
             order = lookout.bettered(order, self._price + collected)
         self._last = (lookout, order, self._price + collected)
@@ -218,7 +233,7 @@ class Policy:
 
     def _check(self, state: State) -> None:
         size, limits = self._problem.size, len(self._problem.limits)
-        for vertex in (state.vertex, *state.visited):
+        for vertex in (state.vertex, *state.visited, *state.given_up):
             if not 0 <= vertex < size:
                 raise ProblemError(f"the mission knows vertex {vertex}, which is none of 0 to {size - 1}")
         if len(state.left) != limits or not np.isfinite(state.left).all():
@@ -246,6 +261,19 @@ class Policy:
             order = lookout.remade(order, price + collected)
         self._plan(order)
         return price
+
+    def _safe_route(self, lookout: Lookout, accepted: float) -> Order | None:
+        """Return the route to set out on where no price leads to a visit; None where no visit is safe enough.
+
+        A long first leg and a long last one take most of the accepted chance before anything is collected. Then no
+        price between staying and risking too much may be found; it is, once the first leg is driven.
+        """
+        from fieldhand.orienteering.adaptive import Order
+
+        route = lookout.route(accepted, (), 100 * self._depth.rounds)
+        if not len(route) or not lookout.is_safe(route):
+            return None
+        return Order(stops=route, first=0, worth=self._reward(route.tolist()), success=1.0)
 
     def _plan(self, order: Order) -> None:
         """Keep the order that the mission begins with."""

@@ -1,6 +1,8 @@
-"""What a policy will come to, before it is driven: many missions at once that skip stops of the order it has planned.
+"""Simulate a policy before it is driven: many missions at once, replanned in groups of similar luck.
 
-On board the order is planned anew after every leg, so missions collect about as much as is said here, or more.
+On board the order is planned anew after every leg. Here missions that have about as much left share a plan: of a long
+order they drive a few stops and plan anew with what they have left by then; of a short one each mission skips what the
+programme says that it cannot afford.
 """
 
 from __future__ import annotations
@@ -11,15 +13,22 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldhand.orienteering.adaptive import LONG, Depth
 from fieldhand.orienteering.policy import Policy, State
 
 if TYPE_CHECKING:
     from fieldhand.orienteering.adaptive import Lookout, Order
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
-#: Stops at the end of a long order that may be skipped; those before are driven as planned.
-_LAST = 56
+#: Stops of an order that a group drives to before it plans anew; of one with no more than a few others it drives all.
+_STRIDE, _FEW = 8, 4
+#: So much is searched for a group as the robot would at all of these stops.
+_DEPTH = Depth(rounds=20 * _STRIDE, insertions=8, remakes=8)
+#: A group is divided where the standard deviation of what its missions have left is more than this part of its mean,
+#: down to this part of all missions.
+_SPREAD, _SMALLEST = 0.05, 1 / 8
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -27,21 +36,30 @@ class Preview:
     """Missions, one a row.
 
     Attributes:
-        vertices: Stops of the order, shape (k,).
+        vertices: Those that some mission visits, shape (k,): of the group in the middle in its order, then the others.
         visited: Whether each is visited, shape (missions, k).
         legs: What the legs to them cost in all, shape (missions,).
         last: What the leg from the last of them to the end costs, shape (missions,).
+        groups: Which of ``orders`` each mission drives, shape (missions,).
+        orders: Of each group the stops in the order in which they are driven to.
     """
 
-    vertices: NDArray[np.int64]
+    vertices: Ints
     visited: NDArray[np.bool_]
     legs: Floats
     last: Floats
+    groups: Ints
+    orders: tuple[Ints, ...]
 
     @property
     def visits(self) -> Floats:
         """How many each mission makes, shape (missions,)."""
         return np.asarray(self.visited.sum(axis=1), dtype=np.float64)
+
+    def stops(self, mission: int) -> tuple[int, ...]:
+        """Return the vertices that a mission visits, in its order."""
+        made = set(self.vertices[self.visited[mission]].tolist())
+        return tuple(v for v in self.orders[self.groups[mission]].tolist() if v in made)
 
 
 def preview(policy: Policy, state: State, rng: np.random.Generator, used: Floats) -> Preview:
@@ -53,23 +71,71 @@ def preview(policy: Policy, state: State, rng: np.random.Generator, used: Floats
         rng: For what the legs cost.
         used: By how much more than that each mission has used already, shape (missions,); negative where it is less.
     """
-    policy.next(state)
-    stops = np.array(policy.outlook.vertices[1:-1], dtype=np.int64)
-    fixed = 0 if policy.plan is not None else max(0, len(stops) - _LAST)
-    driven = _Missions(policy, state, used)
-    driven.visit(stops[:fixed], rng)
-    if fixed:
-        # What a mission that is neither lucky nor unlucky has left there, and plans there.
-        amounts = tuple(float(np.median(x)) for x in driven.left.T)
-        visited = frozenset({*state.visited, *stops[:fixed].tolist()})
-        policy = policy.again(int(rng.integers(2**31)), warm=stops[fixed:].tolist())
-        policy.next(State(vertex=int(stops[fixed - 1]), left=amounts, visited=visited))
-        stops = np.array(policy.outlook.vertices[1:-1], dtype=np.int64)
-    if policy.plan is None:
-        driven.visit(stops, rng)
-    else:
-        driven.skip(*policy.plan, rng)
-    return driven.made(rng)
+    missions = _Missions(policy, state, used)
+    fewest = max(1, int(len(used) * _SMALLEST))
+    waiting = [_Group(policy=policy, vertex=state.vertex, stops=(), members=np.arange(len(used)))]
+    while waiting:
+        group = waiting.pop()
+        left = missions.left[group.members]
+        amounts = np.median(left, axis=0)
+        binding = left[:, int(amounts.argmin())]
+        wide = float(binding.std()) > _SPREAD * float(amounts.min()) > 0.0
+        if wide and group.warm and len(group.members) >= 2 * fewest:
+            waiting += group.divided(binding, rng)
+            continue
+        collected, partly = missions.collected(group.members)
+        now = State(
+            vertex=group.vertex,
+            left=tuple(amounts.tolist()),
+            visited=state.visited | collected,
+            given_up=state.given_up | partly,
+        )
+        group.policy.next(now)
+        ahead = np.array(group.policy.outlook.vertices[1:-1], dtype=np.int64)
+        if group.policy.plan is not None:
+            waiting += missions.skip(group, *group.policy.plan, fewest, rng)
+        elif len(ahead) and missions.is_uncertain:
+            some = max(1, min(_STRIDE, len(ahead) - LONG))
+            missions.visit(group, ahead[:some], rng)
+            group.warm = tuple(ahead[some:].tolist())
+            waiting.append(group)
+        else:
+            missions.visit(group, ahead, rng)
+            missions.end(group.members, group.stops)
+    return missions.made(rng)
+
+
+@dataclass(kw_only=True)
+class _Group:
+    """Missions that have made the same visits and have about as much left.
+
+    Attributes:
+        policy: Plans for all of them.
+        vertex: Where they are.
+        stops: That they have visited.
+        members: Their numbers.
+        warm: Stops that they mean to visit; empty before their first plan.
+    """
+
+    policy: Policy
+    vertex: int
+    stops: tuple[int, ...]
+    members: Ints
+    warm: tuple[int, ...] = ()
+
+    def divided(self, left: Floats, rng: np.random.Generator) -> list[_Group]:
+        """Return those with less left and those with more, each with a plan of its own to come."""
+        order, half = np.argsort(left, kind="stable"), len(left) // 2
+        return [
+            _Group(
+                policy=self.policy.again(int(rng.integers(2**31)), self.policy.price, self.warm, _DEPTH),
+                vertex=self.vertex,
+                stops=self.stops,
+                members=np.sort(self.members[part]),
+                warm=self.warm,
+            )
+            for part in (order[:half], order[half:])
+        ]
 
 
 class _Missions:
@@ -80,55 +146,106 @@ class _Missions:
         self._at = np.full(count, state.vertex, dtype=np.int64)
         self.left = np.asarray(state.left)[None, :] - used[:, None]
         self._legs = np.zeros(count)
-        self._stops: list[NDArray[np.int64]] = []
-        self._visited: list[NDArray[np.bool_]] = []
+        self._visited = np.zeros((count, self._ground.size), dtype=bool)
+        self._ended: list[tuple[Ints, tuple[int, ...]]] = []
 
-    def visit(self, stops: NDArray[np.int64], rng: np.random.Generator) -> None:
-        """Every mission drives to every stop."""
-        everyone = np.ones(len(self._at), dtype=bool)
+    @property
+    def is_uncertain(self) -> bool:
+        """Return True if the cost of legs is random."""
+        return bool(self._ground.cumulants[0] > 0.0)
+
+    def visit(self, group: _Group, stops: Ints, rng: np.random.Generator) -> None:
+        """Drive every mission of a group to every stop."""
         for stop in stops.tolist():
-            self._go(everyone, int(stop), rng)
-        self._stops.append(stops)
-        self._visited.append(np.ones((len(self._at), len(stops)), dtype=bool))
+            self._go(group.members, int(stop), rng)
+            group.vertex = int(stop)
+        group.stops = (*group.stops, *stops.tolist())
 
-    def skip(self, lookout: Lookout, order: Order, bonus: float, rng: np.random.Generator) -> None:
-        """Each mission skips what it would, with what it has left."""
-        choice, step, limit = lookout.choices(order.stops, bonus)
-        visited = np.zeros((len(self._at), len(order.stops)), dtype=bool)
-        position, last = np.zeros(len(self._at), dtype=np.int64), len(order.stops) + 1
-        for i in range(last):
-            here = np.flatnonzero(position == i)
-            entry = np.clip(np.round(self.left[here, limit] / step), 0, choice.shape[1] - 1).astype(np.int64)
-            goes = np.where(self.left[here, limit] <= 0.0, last, choice[i, entry])
-            position[here] = goes
-            for j in np.unique(goes[goes < last]).tolist():
-                some = np.zeros(len(self._at), dtype=bool)
-                some[here[goes == j]] = True
-                self._go(some, int(order.stops[j - 1]), rng)
-                visited[some, j - 1] = True
-        self._stops.append(order.stops)
-        self._visited.append(visited)
+    def skip(
+        self, group: _Group, lookout: Lookout, order: Order, bonus: float, fewest: int, rng: np.random.Generator
+    ) -> list[_Group]:
+        """Drive each mission of a group over the next stops of an order that it does not skip with what it has left.
+
+        Returns:
+            Groups of ``fewest`` missions or more that have come to the same stop, to be planned anew. All others have
+            been driven to the end.
+        """
+        members, last = group.members, len(order.stops) + 1
+        choice, step = lookout.choices(order.stops, bonus, float(self.left[members, lookout.binding].max()))
+        position = np.zeros(len(members), dtype=np.int64)
+
+        def drive(going: NDArray[np.bool_], until: int) -> None:
+            for i in range(last):
+                here = np.flatnonzero(going & (position == i) & ((position < until) | (i == 0)))
+                left = self.left[members[here], lookout.binding]
+                entry = np.clip(np.round(left / step), 0, choice.shape[1] - 1).astype(np.int64)
+                goes = np.where(left <= 0.0, last, choice[i, entry])
+                position[here] = goes
+                for j in np.unique(goes[goes < last]).tolist():
+                    self._go(members[here[goes == j]], int(order.stops[j - 1]), rng)
+
+        anew = len(order.stops) > _STRIDE + _FEW and self.is_uncertain
+        drive(np.ones(len(members), dtype=bool), _STRIDE if anew else last)
+        numbers, counts = np.unique(position, return_counts=True)
+        together = [p for p, n in zip(numbers.tolist(), counts.tolist(), strict=True) if n >= fewest and p < last]
+        alone = ~np.isin(position, together)
+        drive(alone, last)
+        self.end(members[alone], (*group.stops, *order.stops.tolist()))
+        return [
+            _Group(
+                policy=group.policy.again(
+                    int(rng.integers(2**31)), group.policy.price, order.stops[p:].tolist(), _DEPTH
+                ),
+                vertex=int(order.stops[p - 1]),
+                stops=(*group.stops, *order.stops[:p].tolist()),
+                members=members[position == p],
+                warm=tuple(order.stops[p:].tolist()),
+            )
+            for p in together
+        ]
+
+    def end(self, members: Ints, stops: tuple[int, ...]) -> None:
+        """Let missions that have come along ``stops`` make no more visits."""
+        if len(members):
+            self._ended.append((members, stops))
+
+    def collected(self, members: Ints) -> tuple[frozenset[int], frozenset[int]]:
+        """Return the vertices that most of some missions have visited, and those that only some of them have."""
+        part = self._visited[members].mean(axis=0)
+        return tuple(frozenset(np.flatnonzero(x).tolist()) for x in (part >= 0.5, (part > 0.0) & (part < 0.5)))  # type: ignore[return-value]
 
     def made(self, rng: np.random.Generator) -> Preview:
-        """What has become of them, with the way to the end."""
+        """Return what has become of them, with the way to the end."""
         ground = self._ground
         last = self._lengths(ground.size, self._at) * ground.problem.model.draw(rng, len(self._at))
+        # The group in the middle comes first: its order is the one that is drawn.
+        visits = self._visited.sum(axis=1)
+        typical = np.median(visits)
+        ended = sorted(self._ended, key=lambda group: abs(float(np.median(visits[group[0]])) - typical))
+        groups = np.zeros(len(self._at), dtype=np.int64)
+        for number, (members, _) in enumerate(ended):
+            groups[members] = number
+        made = self._visited.sum(axis=0)
+        vertices = np.array(list(dict.fromkeys(v for _, stops in ended for v in stops if made[v])), dtype=np.int64)
         return Preview(
-            vertices=np.concatenate(self._stops),
-            visited=np.concatenate(self._visited, axis=1),
+            vertices=vertices,
+            visited=self._visited[:, vertices],
             legs=self._legs,
             last=last,
+            groups=groups,
+            orders=tuple(np.array(stops, dtype=np.int64) for _, stops in ended),
         )
 
-    def _go(self, some: NDArray[np.bool_], stop: int, rng: np.random.Generator) -> None:
+    def _go(self, some: Ints, stop: int, rng: np.random.Generator) -> None:
         ground = self._ground
-        cost = self._lengths(stop, self._at[some]) * ground.problem.model.draw(rng, int(some.sum()))
+        cost = self._lengths(stop, self._at[some]) * ground.problem.model.draw(rng, len(some))
         self._legs[some] += cost
         self.left[some] -= cost[:, None] + ground.service[:, stop]
         self._at[some] = stop
+        self._visited[some, stop] = True
 
-    def _lengths(self, to: int, vertices: NDArray[np.int64]) -> Floats:
-        """Of the legs from some vertices to a node; the way back may be another where there is a table."""
+    def _lengths(self, to: int, vertices: Ints) -> Floats:
+        """Return the lengths from some vertices to a node; the way back may be another where there is a table."""
         ground = self._ground
         if len(ground.ways.matrix):
             return np.asarray(ground.ways.matrix[vertices, to])

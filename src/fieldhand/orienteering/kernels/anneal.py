@@ -18,6 +18,8 @@ from fieldhand.orienteering.kernels.legs import Floats, Ints, Seeds, Ways, copy,
 
 #: How often a place for a stop is overlooked, so that the best one is not always taken.
 _BLINK = 0.02
+#: Of more free vertices only those beside the route are tried at the beginning of a search that goes on from a route.
+_FEW = 400
 
 
 @inner
@@ -141,6 +143,15 @@ def _best_place(
 
 
 @inner
+def _beside(v: int, after: Ints, near: Ints) -> bool:
+    """Return True if the route leads over one of the nearest vertices of v."""
+    for i in range(near.shape[1]):  # noqa: SIM110  compiled as it stands
+        if after[near[v, i]] >= 0:
+            return True
+    return False
+
+
+@inner
 def _take_out(
     seed: int, here: int, turn: int, allowed: NDArray[np.bool_], seen: Ints, moves: Ints, after: Ints, before: Ints,
     sums: Floats, used: Floats, ways: Ways, near: Ints, rewards: Floats, service: Floats, state: Seeds,
@@ -255,8 +266,9 @@ def anneal(
         seed = free[int(uniform(state) * len(free))]
         steps, count = 0, 0
         if turn == 0:
+            everywhere = sums[4] == 0.0 or len(free) <= _FEW
             for v in free:
-                if after[v] < 0:
+                if after[v] < 0 and (everywhere or _beside(v, after, near)):
                     out[count] = v
                     count += 1
         else:

@@ -12,6 +12,8 @@ from fieldhand.orienteering.kernels.value import WORK, backward, forward, gains
 #: Vertices that are tried for the first insertion, and for those after it.
 CANDIDATES = 24
 _AGAIN = 8
+#: Free vertices from which on a candidate is only looked at beside its nearest.
+_MANY = 400
 
 
 @inner
@@ -28,22 +30,43 @@ def floors_of(route: Ints, service: Floats, budgets: Floats, floors: Floats) -> 
             floors[i] = max(floors[i], floor)
 
 
+@inner
+def _detour(v: int, i: int, route: Ints, ways: Ways) -> float:
+    """Return what the way over v adds to the leg that leads to position i."""
+    p, q = route[i - 1], route[i]
+    return length(ways, p, v) + length(ways, v, q) - length(ways, p, q)
+
+
 @compiled
 def _promising(
-    route: Ints, free: Ints, inside: NDArray[np.bool_], ways: Ways, rewards: Floats, service: Floats
+    route: Ints, free: Ints, inside: NDArray[np.bool_], ways: Ways, near: Ints, rewards: Floats, service: Floats
 ) -> Ints:
     """The free vertices outside the route with most reward for the way that they add."""
     count = 0
     outside, score = np.empty(len(free), np.int64), np.empty(len(free))
+    # Where very many are free, only places beside the nearest vertices of each are looked at, and the route's ends.
+    position = np.full(len(inside), -1, np.int64)
+    if len(free) > _MANY:
+        for i in range(len(route)):
+            position[route[i]] = i
     for v in free:
         if inside[v]:
             continue
         least = np.inf
-        came = length(ways, route[0], v)
-        for i in range(1, len(route)):
-            goes = length(ways, route[i], v)
-            least = min(least, came + goes - length(ways, route[i - 1], route[i]))
-            came = goes
+        if len(free) > _MANY:
+            least = min(_detour(v, 1, route, ways), _detour(v, len(route) - 1, route, ways))
+            for k in range(near.shape[1]):
+                i = position[near[v, k]]
+                if i > 0:
+                    least = min(least, _detour(v, i, route, ways))
+                if 0 <= i < len(route) - 1:
+                    least = min(least, _detour(v, i + 1, route, ways))
+        else:
+            came = length(ways, route[0], v)
+            for i in range(1, len(route)):
+                goes = length(ways, route[i], v)
+                least = min(least, came + goes - length(ways, route[i - 1], route[i]))
+                came = goes
         outside[count] = v
         score[count] = -rewards[v] / (least + service[v] + 1e-300)
         count += 1
@@ -55,9 +78,9 @@ def _promising(
 
 @compiled
 def grow(
-    stops: Ints, here: int, free: Ints, longest: int, insertions: int, ways: Ways, rewards: Floats,
-    service: Floats, budgets: Floats, ends: Floats, bonus: float, skip: int, points: Floats, weights: Floats,
-    order: Ints, figures: Floats,
+    stops: Ints, here: int, free: Ints, longest: int, insertions: int, ways: Ways, near: Ints,
+    rewards: Floats, service: Floats, budgets: Floats, ends: Floats, bonus: float, skip: int, points: Floats,
+    weights: Floats, order: Ints, figures: Floats,
 ) -> int:  # fmt: skip
     """Insert the stops that gain most into an order, and say what it is worth then.
 
@@ -67,6 +90,7 @@ def grow(
         free: Vertices that may be inserted.
         longest: Stops that the order may have.
         insertions: How many may be inserted.
+        near: Nearest vertices of each.
         ways, rewards, service, budgets, ends, bonus, skip, points, weights: As for :func:`backward`; ``service``
             and ``budgets`` of every limit, the one with the least budget first.
         order: Overwritten: the order's stops.
@@ -93,7 +117,7 @@ def grow(
         inside[stops[i]] = True
     route[count + 1] = end
     outside = free if insertions > 0 else free[:0]
-    candidates = _promising(route[: count + 2], outside, inside, ways, rewards, service[0])
+    candidates = _promising(route[: count + 2], outside, inside, ways, near, rewards, service[0])
     gain, place = np.empty(len(candidates)), np.empty(len(candidates), np.int64)
     left = len(candidates)
     for trial in range(insertions + 1):

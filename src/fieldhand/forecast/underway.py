@@ -1,0 +1,58 @@
+"""Data between a robot that drives or works and the lookout that foresees whether it still comes home."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from fieldhand.forecast.limits import ResourceKind
+from fieldhand.forecast.state import Spent, Work
+
+#: ``turn_home``: going on would more likely than not exceed a limit, and turning round is safer. ``out_of_reach``: the
+#: battery does not last for the way home above its stop level.
+Alarm = Literal["none", "turn_home", "out_of_reach"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Underway:
+    """A robot between two decisions.
+
+    Attributes:
+        spent: Used since the mission began, the goal in hand included.
+        charge_percent: Battery left.
+        on_m: Metres left of the drive in hand; 0 without one.
+        work: Left of the capture in hand.
+        after_m: Metres home from where the drive in hand ends.
+        home_m: Metres home from here, at most.
+        returning: It is on its way home already.
+    """
+
+    spent: Spent
+    charge_percent: float
+    on_m: float
+    work: Work
+    after_m: float
+    home_m: float
+    returning: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class Foresight:
+    """A foreseen outcome.
+
+    Attributes:
+        limit: Of which limit, where there is an alarm.
+        left: Of it, in its unit; of ``reserve`` the charge above it (``out_of_reach``: above the stop level).
+        needed: Of it, on average, for the way home.
+        chance_short: Of exceeding it by going on.
+        reach_m: Metres that the charge above the stop level lasts for.
+        drain: How many times as fast as its model the battery empties.
+    """
+
+    alarm: Alarm = "none"
+    limit: ResourceKind = "reserve"
+    left: float = 0.0
+    needed: float = 0.0
+    chance_short: float = 0.0
+    reach_m: float = 0.0
+    drain: float = 1.0
