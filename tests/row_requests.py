@@ -741,7 +741,7 @@ PLANNED = [
         "Take a picture of the tree nearest the middle of the wet corner.",
         "picture @ Nearest(PointsIn(wet corner))",
     ),
-    ("husky", "Take CO2 readings at 3 random points in the wet corner.", "for PointsIn(wet corner, 3): [co2]"),
+    ("husky", "Take CO2 readings at 3 points in the wet corner.", "for PointsIn(wet corner, 3): [co2]"),
     (
         "husky",
         "Take pictures of the yellow trees in the order of their yield.",
@@ -1101,6 +1101,11 @@ ASKED = [
 ]
 
 REFUSED = [
+    (
+        "husky",
+        "Take CO2 readings at 3 random points in the wet corner.",
+        "'3 random points': points are spread evenly over a zone, not at random",
+    ),
     (
         "husky",
         "Photograph two trees that are 300 metres apart.",

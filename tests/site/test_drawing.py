@@ -12,7 +12,15 @@ from matplotlib.colors import to_rgb
 
 from fieldhand.errors import OutputError
 from fieldhand.site.describe import describe_driving
-from fieldhand.site.drawing import TREE_COLOUR, draw_site, save_site_picture, site_figure, site_picture, tree_size
+from fieldhand.site.drawing import (
+    TREE_COLOUR,
+    draw_site,
+    name_site,
+    save_site_picture,
+    site_figure,
+    site_picture,
+    tree_size,
+)
 from fieldhand.site.drawing.colours import NO_ROW, ROWS
 from fieldhand.site.drives import Drives
 from fieldhand.site.geojson import open_site, parse_site
@@ -64,6 +72,8 @@ def test_trees_markers_zones_and_scale_are_drawn_where_they_are():
     figure = site_figure(site)
     ax = figure.axes[0]
     draw_site(ax, site)
+    figure.draw_without_rendering()
+    name_site(ax, site)
     trees, *markers = [c.get_offsets() for c in ax.collections if len(c.get_offsets()) != 1 or c.get_zorder() == 8]
     assert np.allclose(trees, site.xy) or any(np.shape(m) == site.xy.shape and np.allclose(m, site.xy) for m in markers)
     words = {t.get_text() for t in ax.texts}

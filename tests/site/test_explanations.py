@@ -21,7 +21,14 @@ row_names = st.sampled_from(["", "1", "2", "-1", "B1"])
 leaves = st.sampled_from(
     [
         *(s.Trees(), s.TreeIs(tree="1"), s.Here(), s.Marker(name="start"), s.Bound(label="b"), s.First(), s.Last()),
-        *(s.PointsIn(zone="z"), s.PointsIn(zone="A", count=3), s.AlongRow(trees=2), s.Across(), s.RowOf()),
+        *(
+            s.GateIs(gate="g"),
+            s.PointsIn(zone="z"),
+            s.PointsIn(zone="A", count=3),
+            s.AlongRow(trees=2),
+            s.Across(),
+            s.RowOf(),
+        ),
     ]
 )
 
@@ -37,16 +44,31 @@ def _around(inner: st.SearchStrategy[s.Selector]) -> st.SearchStrategy[s.Selecto
         st.builds(s.EdgeMiddle, side=sides, count=counts, of=inner),
         st.builds(s.Middle, count=counts, of=inner),
         st.builds(s.Corners, which=st.lists(corner, min_size=1, max_size=4).map(tuple), of=inner),
-        st.builds(s.Nearest, to=inner, count=counts, adjacent=st.booleans(), fresh=st.booleans(), of=inner),
+        st.builds(
+            s.Nearest,
+            to=inner,
+            count=counts,
+            adjacent=st.booleans(),
+            fresh=st.booleans(),
+            side=st.sampled_from(get_args(s.AnySide)),
+            of=inner,
+        ),
         st.builds(s.Farthest, origin=inner, count=counts, of=inner),
         st.builds(s.Adjacent, near=inner, count=counts, of=inner),
         st.builds(s.Other, of=inner),
         st.builds(s.Excluding, places=inner, of=inner),
         st.builds(s.Where, attribute=st.just("n"), test=st.just("ge"), value=st.just(2.0), of=inner),
         st.builds(s.Top, attribute=st.just("n"), count=counts, of=inner),
-        st.builds(s.InZone, zone=st.sampled_from(["z", "A"]), outside=st.booleans(), of=inner),
+        st.builds(
+            s.InZone,
+            zone=st.sampled_from(["z", "A"]),
+            outside=st.booleans(),
+            margin_m=st.sampled_from([0.0, 5.0]),
+            of=inner,
+        ),
         st.builds(s.Within, distance_m=st.floats(1, 100), to=inner, of=inner),
         st.builds(s.Take, count=counts, of=inner),
+        st.builds(s.Random, count=counts, seed=st.integers(0, 3), of=inner),
         st.builds(s.InBlock, block=st.sampled_from(["A", "B", "z"]), of=inner),
         st.builds(s.Rows, first=row_names, last=row_names, every=counts, counted_from=counted_from, of=inner),
         st.builds(s.RowOf, origin=inner, over=st.integers(-1, 1), of=inner),

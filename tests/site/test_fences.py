@@ -79,3 +79,34 @@ def test_a_robot_passes_a_fence_only_at_a_gate_that_is_wide_enough(width, throug
     assert not any(way.intersects(zone.polygon) for zone in site.zones_of("keep_out"))
     crossing = way.intersection(shapely.LineString([(-100, site.gates[0].place.y), (100, site.gates[0].place.y)]))
     assert abs(crossing.centroid.x - site.gates[0].place.x) <= width / 2
+
+
+@pytest.mark.parametrize("barrier", ["boundary", "fence"])
+def test_a_robot_drives_to_a_gate_and_keeps_off_the_fence_beside_it(barrier):
+    """A gate lies on its fence: the robot stops at the gate, on ground where it has room."""
+    (gate,) = degrees((-60, 10) if barrier == "boundary" else (30, 0))
+    site = read(
+        *(point(*degrees((x, y))[0], row=x) for x in (-6, 0, 6) for y in (-20, -15, -10, 10, 15, 20)),
+        area(degrees((-60, -40), (60, -40), (60, 40), (-60, 40), (-60, -40)), kind="boundary"),
+        *([line((-60, 0), (60, 0), kind="fence")] if barrier == "fence" else []),
+        point(*gate, kind="gate", name="gate"),
+    )
+    drives, place = Drives(site, 0.35, 1.5), site.gates[0].place
+    assert drives.problem(place) == ""
+    drive = drives.between(site.trees[0].place, place)
+    end = shapely.Point(drive.points[-1])
+    assert end.distance(shapely.Point(place.xy)) < 1.0
+    (boundary,) = (z.polygon for z in site.zones_of("boundary"))
+    assert boundary.contains(end)
+    assert boundary.exterior.distance(end) >= 0.35 - 1e-6
+    assert all(z.polygon.distance(end) >= 0.35 - 1e-6 for z in site.zones_of("keep_out"))
+
+
+def test_a_gate_far_outside_the_boundary_cannot_be_driven_to():
+    (gate,) = degrees((-80, 10))
+    site = read(
+        *(point(*degrees((x, y))[0], row=x) for x in (-6, 0, 6) for y in (-20, -15, -10, 10, 15, 20)),
+        area(degrees((-60, -40), (60, -40), (60, 40), (-60, 40), (-60, -40)), kind="boundary"),
+        point(*gate, kind="gate", name="gate"),
+    )
+    assert Drives(site, 0.35, 1.5).problem(site.gates[0].place) == "outside the boundary"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import subprocess
 import sys
 from pathlib import Path
 
@@ -220,15 +221,15 @@ def test_without_the_extra_the_error_says_which_to_install(tmp_path, monkeypatch
         load_site(path)
 
 
-def test_what_gdal_was_told_is_undone_afterwards(tmp_path):
-    import pyogrio
-
-    name = "CPL_VSIL_CURL_ALLOWED_EXTENSIONS"
-    before = pyogrio.get_gdal_config_option(name)
+def test_gdal_never_reads_a_file_in_the_process_that_asks(tmp_path):
     path = tmp_path / "farm.kml"
     path.write_bytes(kml(placemark(LON, LAT)))
-    load_site(path)
-    assert pyogrio.get_gdal_config_option(name) == before
+    script = (
+        "import sys; from pathlib import Path; from fieldhand.site.geojson import load_site\n"
+        f"print(len(load_site(Path({str(path)!r})).trees), 'pyogrio' in sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["1", "False"]
 
 
 def test_content_counts_more_than_the_ending(tmp_path):

@@ -102,9 +102,10 @@ def test_properties_are_scalars_numbers_are_floats_and_booleans_stay():
     assert tree.properties["sick"] is True
 
 
-def test_text_that_cannot_be_printed_or_written_to_xml_is_replaced():
-    data = collection(point(LON, LAT, name="a\u0000b\ud800c"))
-    assert parse_site(data, name="x").trees[0].properties["name"] == "a b c"
+def test_text_that_cannot_be_printed_or_written_to_xml_is_refused():
+    for name in ("a\u0000b", "a\ud800c"):
+        with pytest.raises(SiteError, match=r"feature 1: its name holds the character U\+"):
+            parse_site(collection(point(LON, LAT, name=name)), name="x")
 
 
 @pytest.mark.parametrize("key", ["row", "row_id", "Row-Number", "ROW"])

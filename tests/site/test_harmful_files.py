@@ -12,7 +12,9 @@ import shapely
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from examples import examples
 from fieldhand.errors import SiteError
+from fieldhand.site.formats.confined import Allowance, allowance_for, read_confined
 from fieldhand.site.geojson import load_site
 from gisfiles import kml, write_layer, zipped
 from sites import collection, point, square
@@ -70,7 +72,9 @@ def test_archives_that_unpack_to_too_much_are_refused(tmp_path, monkeypatch):
     assert "2,001 files" in told(zipped(tmp_path / "many.zip", {f"{k}.txt": b"" for k in range(2001)}))
     monkeypatch.setattr(archive, "MAX_UNPACKED", 1000)
     noise = np.random.default_rng(1).bytes(900)
-    assert "unpacks to more than" in told(zipped(tmp_path / "big.zip", {"a.csv": noise, "b.csv": noise}))
+    big = zipped(tmp_path / "big.zip", {"a.csv": noise, "b.csv": noise}).read_bytes()
+    with pytest.raises(SiteError, match="unpacks to more than"):
+        archive.unpack(big, {".csv"}, tmp_path, "big.zip")
 
 
 def test_archives_that_hold_no_site_or_are_damaged_are_told(tmp_path):
@@ -172,7 +176,9 @@ def outcome(path: Path, *, lenient: bool) -> str:
         return fault.what
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=examples(15, thorough=300), deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 @given(data=st.data())
 def test_no_bytes_end_in_anything_but_a_site_or_one_clear_line(data, good, tmp_path):
     ending, whole = data.draw(st.sampled_from(good) | st.tuples(st.sampled_from(ENDINGS), st.binary(max_size=200)))
@@ -186,3 +192,26 @@ def test_no_bytes_end_in_anything_but_a_site_or_one_clear_line(data, good, tmp_p
         said = outcome(path, lenient=lenient)
         assert "\n" not in said
         assert str(tmp_path.parent) not in said
+
+
+def test_a_small_file_that_takes_much_memory_or_time_ends_in_one_clear_line(tmp_path):
+    """A packed KML with one placemark of a million corners, and many layers of it."""
+    ring = " ".join(f"{LON + k * 1e-9},{LAT}" for k in range(200_000))
+    body = f"<Placemark><LineString><coordinates>{ring}</coordinates></LineString></Placemark>" * 8
+    text = f'<kml xmlns="http://www.opengis.net/kml/2.2"><Document>{body}</Document></kml>'
+    data = zipped(tmp_path / "bomb.kmz", {"doc.kml": text.encode()}).read_bytes()
+    for allowed in (
+        Allowance(memory=300_000_000, result=10**9, cpu_s=60, wall_s=120),
+        Allowance(memory=3_000_000_000, result=1_000_000, cpu_s=60, wall_s=120),
+        Allowance(memory=3_000_000_000, result=10**9, cpu_s=1, wall_s=120),
+        Allowance(memory=3_000_000_000, result=10**9, cpu_s=60, wall_s=0.01),
+    ):
+        with pytest.raises(SiteError, match="cannot be read"):
+            read_confined("zip", {"bomb.kmz": data}, "bomb.kmz", lenient=False, allowed=allowed)
+
+
+def test_what_a_site_of_its_size_needs_is_allowed(tmp_path):
+    shapes = [shapely.Point(LON + k % 300 * 1e-5, LAT + k // 300 * 1e-5) for k in range(20_000)]
+    path = write_layer(tmp_path / "farm.gpkg", "trees", shapes, {"row": [k // 300 for k in range(20_000)]})
+    assert allowance_for(path.stat().st_size).memory <= 1_100_000_000
+    assert len(load_site(path).trees) == 20_000

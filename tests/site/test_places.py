@@ -6,17 +6,20 @@ Longer than other files: every selector stands once here, beside its brute force
 from __future__ import annotations
 
 import math
+from collections import Counter
 from dataclasses import replace
 
 import numpy as np
 import pytest
+import shapely
+import shapely.affinity
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.errors import PlaceError
 from fieldhand.site.context import Context
 from fieldhand.site.describe import describe
-from fieldhand.site.model import Site
+from fieldhand.site.model import Site, Zone
 from fieldhand.site.places import resolve, resolve_one
 from fieldhand.task.selectors import (
     Adjacent,
@@ -29,6 +32,7 @@ from fieldhand.task.selectors import (
     Extreme,
     Farthest,
     First,
+    GateIs,
     Half,
     Here,
     InZone,
@@ -38,6 +42,7 @@ from fieldhand.task.selectors import (
     Nearest,
     Other,
     Quarter,
+    Random,
     Selector,
     Take,
     Top,
@@ -47,9 +52,10 @@ from fieldhand.task.selectors import (
     Where,
     Within,
 )
-from sites import at_start, grid, orchard, place_at, planted, site_of, without_rows
+from sites import at_start, grid, orchard, place_at, planted, point, read, site_of, without_rows
 from sites import sites as inferred_sites
 
+LON, LAT = -120.42, 37.26
 SIDES = ("north", "east", "south", "west")
 TOWARDS = {"north": (0, 1), "east": (1, 0), "south": (0, -1), "west": (-1, 0)}
 TINY = 2e-3
@@ -88,6 +94,18 @@ def test_a_tree_is_found_by_its_id_alone():
     assert ids(TreeIs(tree="7"), site) == ["7"]
     with pytest.raises(PlaceError, match=r"no tree '21'.*20 trees are 1 to 20"):
         ids(TreeIs(tree="21"), site)
+
+
+def test_a_gate_is_found_by_its_name_and_a_name_used_twice_gets_a_number():
+    features = [point(LON, LAT), *(point(LON, LAT + k * 1e-4, kind="gate", name="North gate") for k in (1, 2))]
+    site = read(*features, point(LON, LAT + 3e-4, kind="gate"))
+    assert [g.place.id for g in site.gates] == ["North gate", "North gate 2", "gate 3"]
+    for said, found in (("North gate", 0), ("north_gate", 0), ("north gate 2", 1), ("gate 3", 2)):
+        assert resolve(GateIs(gate=said), site, at_start(site)) == (site.gates[found].place,)
+    with pytest.raises(PlaceError, match=r"no gate 'barn gate'.*its gates are North gate, North gate 2, gate 3"):
+        ids(GateIs(gate="barn gate"), site)
+    with pytest.raises(PlaceError, match=r"no gate 'gate'.*no gates"):
+        ids(GateIs(gate="gate"), orchard())
 
 
 def test_markers_are_themselves_and_missing_ones_fall_back_except_the_charger():
@@ -340,6 +358,75 @@ def test_next_to_prefers_the_same_row_among_neighbours_only():
     assert ids(Nearest(to=one, adjacent=True, count=3), site) == ["2", "3", "4"]
     apart = site_of([(0, 0), (0, 40), (4, 0)], row_names=["A", "A", "B"])
     assert ids(Nearest(to=one, adjacent=True), apart) == ["3"]
+
+
+@given(sites(min_size=2), st.sampled_from(["north", "east", "south", "west"]), st.data())
+def test_nearest_on_a_side_is_the_nearest_of_those_in_that_quarter_of_the_compass(site, side, data):
+    me = data.draw(st.sampled_from(site.trees)).place
+
+    def is_there(place):
+        east, north = place.x - me.x, place.y - me.y
+        out, aside = {"north": (north, east), "east": (east, north), "south": (-north, east), "west": (-east, north)}[
+            side
+        ]
+        return out > 0 and abs(aside) <= out and away(place, me) > 0.01
+
+    there = [t.place for t in site.trees if is_there(t.place)]
+    selector = Nearest(to=TreeIs(tree=me.id), side=side)
+    if not there:
+        with pytest.raises(PlaceError):
+            resolve_one(selector, site, at_start(site))
+        return
+    found = resolve_one(selector, site, at_start(site))
+    assert away(found, me) <= min(away(p, me) for p in there) + TINY
+    assert is_there(found)
+
+
+def test_the_neighbour_on_a_side_is_the_next_tree_there_and_none_beyond_a_road():
+    points = [(4.0 * k + (200.0 if k > 2 else 0.0), 2.0 * j) for k in range(5) for j in range(3)]
+    site = site_of(points, row_names=[str(k) for k in range(5) for _ in range(3)])
+    beside = {
+        side: Nearest(to=TreeIs(tree="5"), adjacent=True, side=side) for side in ("north", "east", "south", "west")
+    }
+    assert {side: ids(x, site) for side, x in beside.items()} == {
+        "north": ["6"],
+        "east": ["8"],
+        "south": ["4"],
+        "west": ["2"],
+    }
+    with pytest.raises(PlaceError, match=r"none.*next to tree 8, on its east side"):
+        ids(Nearest(to=TreeIs(tree="8"), adjacent=True, side="east"), site)
+    assert ids(Nearest(to=TreeIs(tree="8"), side="east"), site) == ["11"]
+
+
+@given(sites(min_size=3), st.data())
+def test_a_draw_depends_on_seed_and_ids_only(site, data):
+    count = data.draw(st.integers(1, len(site.trees)))
+    seed = data.draw(st.integers(0, 5))
+    drawn = ids(Random(count=count, seed=seed), site)
+    assert len(set(drawn)) == count
+    assert ids(Random(count=count, seed=seed), site, at_start(site, visited=drawn)) == drawn
+    kept = data.draw(st.sets(st.sampled_from([t.place.id for t in site.trees])).map(lambda more: {*more, *drawn}))
+    some = Union(parts=tuple(TreeIs(tree=t) for t in sorted(kept)))
+    assert set(ids(Random(count=count, seed=seed, of=some), site)) == set(drawn)
+
+
+def test_each_tree_is_drawn_as_often_as_any_other():
+    site = site_of([(4.0 * k, 0.0) for k in range(20)])
+    times = Counter(t for seed in range(2000) for t in ids(Random(count=5, seed=seed), site))
+    assert len(times) == 20
+    assert all(abs(n - 500) < 5 * (2000 * 0.25 * 0.75) ** 0.5 for n in times.values())
+
+
+def test_a_margin_takes_the_trees_near_a_zone_too():
+    site = site_of([(4.0 * k, 0.0) for k in range(20)])
+    pond = shapely.Polygon([(-2, -20), (9, -20), (9, -3), (-2, -3)])
+    east, north = site.xy[0] - (0.0, 0.0)
+    pond = shapely.affinity.translate(pond, east, north)
+    site = replace(site, zones=(Zone(name="pond", kind="keep_out", polygon=pond),))
+    assert ids(InZone(zone="pond", margin_m=3.0), site) == ["1", "2", "3"]
+    assert ids(InZone(zone="pond", margin_m=4.5), site) == ["1", "2", "3", "4"]
+    assert ids(InZone(zone="pond", outside=True, margin_m=60.0), site) == ["19", "20"]
 
 
 def test_a_tree_that_the_file_holds_twice_is_not_its_own_neighbour():

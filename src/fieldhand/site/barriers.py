@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain, count
 
 import shapely
 from shapely.geometry.base import BaseGeometry
 
 from fieldhand.site.features import BarrierFeature, PointFeature, gate_width_m
-from fieldhand.site.kinds import NAME_KEYS, text_of
+from fieldhand.site.kinds import NAME_KEYS, phrase, text_of
 from fieldhand.site.model import Gate, Place, Zone
 from fieldhand.site.projection import Projection
 
@@ -19,11 +20,14 @@ _GATE_REACH_M = 2.0
 
 
 def gates_of(points: Sequence[PointFeature], projection: Projection) -> tuple[Gate, ...]:
-    """The gates, by their names, else ``gate 1``, ``gate 2`` ..."""
+    """Return the gates by their names, else as ``gate 1``, ``gate 2`` ...; a name used before gets a number."""
     gates: list[Gate] = []
+    used: set[str] = set()
     for number, p in enumerate(points, start=1):
         (x, y), *_ = projection.metres([p.lat], [p.lon]).tolist()
         name = text_of(p.properties, NAME_KEYS)[:80] or f"gate {number}"
+        name = next(n for n in chain([name], (f"{name} {k}" for k in count(2))) if phrase(n) not in used)
+        used.add(phrase(name))
         place = Place(kind="point", id=name, x=x, y=y, lat=p.lat, lon=p.lon)
         gates.append(Gate(place=place, width_m=gate_width_m(p.properties)))
     return tuple(gates)

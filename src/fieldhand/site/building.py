@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from fieldhand.errors import SiteError
 from fieldhand.site.barriers import barrier_zones, gates_of
 from fieldhand.site.extent import middle_of, sound_extent
-from fieldhand.site.features import AreaFeature, Gathered, PointFeature, clean
-from fieldhand.site.formats.faults import Faults, numbered
+from fieldhand.site.features import AreaFeature, Gathered, PointFeature, readable
+from fieldhand.site.formats.faults import Faults, Unsound, numbered
 from fieldhand.site.kinds import row_of
 from fieldhand.site.model import Place, Site, Tree, Zone
 from fieldhand.site.projection import Projection
@@ -56,7 +56,7 @@ def build(gathered: Gathered, faults: Faults, *, name: str, sha256: str, notes: 
     if not trees:
         raise _no_trees(gathered, faults.source, left_out=True)
     return Site(
-        name=clean(name.strip())[:100],
+        name=_site_name(name, faults.source),
         trees=trees,
         markers=markers,
         zones=zones + fences,
@@ -281,6 +281,18 @@ def _notes(gathered: Gathered, faults: Faults) -> list[str]:
             f"{'have' if gathered.heights > 1 else 'has'} them)"
         )
     return notes
+
+
+def _site_name(name: str, at: str) -> str:
+    """Return what a site is called.
+
+    Raises:
+        SiteError: It holds a character that nobody sees.
+    """
+    try:
+        return readable(name.strip(), "name")[:100]
+    except Unsound as fault:
+        raise SiteError(fault.what, where=at, advice="correct the name in the file, or the name of the file") from None
 
 
 def _no_trees(gathered: Gathered, at: str, *, left_out: bool = False) -> SiteError:

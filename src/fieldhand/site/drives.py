@@ -265,17 +265,22 @@ class Drives:
         """Why a robot can never be at each of the places, wherever it comes from; remembered."""
         new = list({_key(p): p for p in places if _key(p) not in self._closed}.values())
         if new:
-            at = np.array([p.xy for p in new])
+            at = np.array([self._ground_of(p) for p in new])
             outside = np.full(len(new), bool(boundaries := self.site.zones_of("boundary")))
             for zone in boundaries:
                 outside &= ~shapely.intersects_xy(zone.polygon, at[:, 0], at[:, 1])
-            reasons = [message("outside the boundary") if out else "" for out in outside.tolist()]
+            reasons = [message("outside the boundary", context="log") if out else "" for out in outside.tolist()]
             for zone in reversed(self.site.zones_of("keep_out")):
                 for k in np.flatnonzero(shapely.contains_xy(zone.polygon, at[:, 0], at[:, 1])).tolist():
-                    reasons[k] = message("inside the keep-out '{zone}'", zone=zone.name)
+                    reasons[k] = message("inside the keep-out '{zone}'", context="log", zone=zone.name)
             for place, reason, able in zip(new, reasons, self._able_of(new), strict=True):
                 self._closed[_key(place)] = reason or ("" if able else self._no_stand(place))
         return [self._closed[_key(p)] for p in places]
+
+    def _ground_of(self, place: Place) -> XY:
+        """Return the point that has to be inside the boundary: the place, or at a gate, which lies on it, the stand."""
+        is_gate = any(gate.place == place for gate in self.site.gates)
+        return self._stands.of(place)[0].xy if is_gate else place.xy
 
     def _no_stand(self, place: Place) -> str:
         candidates = self._stands.of(place)
@@ -318,7 +323,7 @@ class Drives:
         for place, reason in zip(places, self._impossible(places), strict=True):
             if reason:
                 raise DriveFault(
-                    message("{place} is {reason}", place=_called(place), reason=reason),
+                    message("{place} is {reason}", context="log", place=_called(place), reason=reason),
                     where=self.site.name,
                     advice=message("choose another place, or correct the site"),
                 )
@@ -326,11 +331,12 @@ class Drives:
     def _no_way(self, a: Place, b: Place) -> DriveFault:
         way = message(
             "there is no way from {start} to {goal} for a robot {width} m wide",
+            context="log",
             start=_called(a),
             goal=_called(b),
             width=say_number(2 * self.clearance_m),
         )
-        why = next((message("{place} is {reason}", place=_called(p), reason=reason) for p in (b, a)
+        why = next((message("{place} is {reason}", context="log", place=_called(p), reason=reason) for p in (b, a)
                     if (reason := self._cut_off((p,))[0])), "")  # fmt: skip
         return DriveFault(
             message("{what}: {why}", what=way, why=why) if why else way,

@@ -14,6 +14,7 @@ from fieldhand.site.formats.records import Records, UnusablePart
 from fieldhand.site.kinds import PointKind, area_kind, barrier_name, is_derived, number_text, point_kind, text_of
 from fieldhand.site.model import ZoneKind
 from fieldhand.task.selectors import Value
+from fieldhand.visible import find_hidden
 
 _LONGEST_KEY = 100
 _LONGEST_ID = 64
@@ -97,10 +98,29 @@ def gather(records: Records, faults: Faults) -> Gathered:
 
 
 def clean(text: str) -> str:
-    """Text that can be printed and written to XML: line breaks, control characters and lone surrogates replaced."""
+    """Return text for a message: line breaks, control characters and lone surrogates replaced by spaces."""
     if text.isprintable():
         return text
     return "".join(c if c.isprintable() else " " for c in text)
+
+
+def readable(text: str, what: str) -> str:
+    """Return text of a feature on one line.
+
+    Args:
+        text: As it stands in the file; line ends and tabs become spaces.
+        what: What to call it in a message.
+
+    Raises:
+        Unsound: It holds a character that nobody sees.
+    """
+    if text.isprintable() and text.isascii():
+        return text
+    flat = re.sub(r"[\t\r\n]+", " ", text)
+    hidden = find_hidden(flat)
+    if hidden is not None:
+        _fail(f"its {what} holds the character {hidden.name}, which nobody can see", "take it out of the file")
+    return flat
 
 
 def gate_width_m(properties: Mapping[str, Value]) -> float:
@@ -213,7 +233,7 @@ class _Reader:
 
     def _lines(self, lines: list[Any], raw: Mapping[str, Any]) -> None:
         texts = {k: v for k, v in raw.items() if isinstance(v, str)}
-        name = clean(barrier_name(texts))
+        name = readable(barrier_name(texts), "name")
         if not name:
             self._into.lines += not is_derived(texts)
             return
@@ -229,14 +249,14 @@ class _Reader:
         for name, value in raw.items():
             key = keys.get(name)
             if key is None:
-                key = keys[name] = clean(name)[:_LONGEST_KEY]
+                key = keys[name] = readable(name, f"property {_shown(name)}")[:_LONGEST_KEY]
             kind = type(value)
             if (kind is float and value - value == 0.0) or (kind is int and -_SAFE < value < _SAFE):
                 kept[key] = float(value)
             elif kind is str:
                 known = texts.get(value)
                 if known is None:
-                    known = clean(value)
+                    known = readable(value, key)
                     if len(texts) < 10_000:
                         texts[value] = known
                 kept[key] = known
@@ -313,6 +333,7 @@ def _listed(value: Any) -> list[Any]:
 def _id_text(value: Any) -> str:
     """The id as text; empty where there is none that can be shown and typed."""
     if isinstance(value, str):
+        readable(value, "id")
         return value.strip() if value.isprintable() and len(value) <= _LONGEST_ID else ""
     if isinstance(value, bool) or not isinstance(value, int | float):
         return ""

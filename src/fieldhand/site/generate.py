@@ -5,7 +5,6 @@ The built-in orchard is one of them (``scripts/make_demo_orchard.py`` writes it)
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.site.projection import Projection
+from fieldhand.visible import json_text
 
 _DEMO_SEED = 1872
 #: Seven decimals of a degree are 1 cm.
@@ -109,8 +109,8 @@ def generate_orchard(
 def to_text(collection: dict[str, Any]) -> str:
     """GeoJSON with a line for each feature: compact, and differences show tree by tree."""
     head = {k: v for k, v in collection.items() if k != "features"}
-    lines = ",\n".join(json.dumps(f, separators=(", ", ": "), ensure_ascii=False) for f in collection["features"])
-    return f'{json.dumps(head, ensure_ascii=False)[:-1]}, "features": [\n{lines}\n]}}\n'
+    lines = ",\n".join(json_text(f, separators=(", ", ": ")) for f in collection["features"])
+    return f'{json_text(head)[:-1]}, "features": [\n{lines}\n]}}\n'
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from importlib import resources
 from pathlib import Path
 
 from fieldhand.site.building import build
-from fieldhand.site.features import clean, gather
+from fieldhand.site.features import gather
 from fieldhand.site.formats.faults import Faults
 from fieldhand.site.formats.files import SiteFiles, read_files, records_of
 from fieldhand.site.formats.geojson import geojson_records
@@ -105,7 +105,7 @@ def parse_site(data: bytes, *, name: str, source: str = "", lenient: bool = Fals
 def _site(records: Records, *, name: str, source: str, sha256: str, lenient: bool) -> Site:
     faults = Faults(source, records.unit, lenient=lenient)
     gathered = gather(records, faults)
-    own = clean(records.name.strip())
+    own = records.name.strip()
     return build(gathered, faults, name=own or name, sha256=sha256, notes=records.notes)
 
 

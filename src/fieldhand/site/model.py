@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from shapely.geometry import Polygon
 
+from fieldhand.brief import brief_repr
 from fieldhand.site.planting import Planting
 from fieldhand.site.projection import Projection
 from fieldhand.task.selectors import Value
@@ -94,7 +95,7 @@ class Gate:
     width_m: float
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Site:
     """A site, immutable.
 
@@ -115,6 +116,8 @@ class Site:
     source: str = ""
     notes: tuple[str, ...] = ()
     gates: tuple[Gate, ...] = ()
+
+    __repr__ = brief_repr
 
     def __post_init__(self) -> None:
         if not isinstance(self.markers, MappingProxyType):

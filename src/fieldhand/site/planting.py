@@ -13,6 +13,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldhand.brief import brief_repr
+
 Known = Literal["file", "inferred"]
 Indices = NDArray[np.intp]
 
@@ -41,7 +43,7 @@ class Row:
     confidence: float
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class Block:
     """Rows that belong together.
 
@@ -62,13 +64,15 @@ class Block:
     known: Known
     confidence: float
 
+    __repr__ = brief_repr
+
     @property
     def runs_east_west(self) -> bool:
         """Whether its rows run rather east-west than north-south."""
         return 45.0 < self.bearing_deg < 135.0
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class Planting:
     """The blocks of a site.
 
@@ -81,6 +85,8 @@ class Planting:
     blocks: tuple[Block, ...]
     tree_count: int
     why: str = ""
+
+    __repr__ = brief_repr
 
     @cached_property
     def rows(self) -> tuple[Row, ...]:

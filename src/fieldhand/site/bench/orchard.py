@@ -115,6 +115,7 @@ def _surroundings(xy: Points, pond: Polygon) -> list[dict[str, Any]]:
             _point(np.array(path.interpolate(part, normalized=True).coords[0]), {"kind": name})
             for name, part in markers.items()
         ),
+        _point(np.array(fence.exterior.interpolate(0.7, normalized=True).coords[0]), {"kind": "gate", "name": "gate"}),
     ]
 
 

@@ -3,8 +3,9 @@
 from fieldhand.site.describe.aisles import AisleSummary, aisle_table
 from fieldhand.site.describe.driving import DrivingSummary, Unreachable, describe_driving
 from fieldhand.site.describe.figures import AttributeSummary, SiteSummary, ZoneSummary, describe
-from fieldhand.site.describe.lines import report_lines, report_record, summary_lines
+from fieldhand.site.describe.lines import report_lines, report_record
 from fieldhand.site.describe.rows import BlockSummary, RowSummary, row_table
+from fieldhand.site.describe.summary import summary_lines
 
 __all__ = [
     "AisleSummary",

@@ -1,4 +1,4 @@
-"""What is understood of a site, in words: all of it for people, a few bounded lines for a planner."""
+"""Describe a site in words for people."""
 
 from __future__ import annotations
 
@@ -30,8 +30,6 @@ from fieldhand.site.places.faults import listed
 _KINDS: dict[ZoneKind, str] = {"boundary": "boundary", "keep_out": "keep-out", "zone": "zone"}
 #: More rows than this are not listed unless they are asked for.
 _MOST_ROWS = 30
-#: Blocks that a planner is told of.
-_FEW_BLOCKS = 6
 
 
 def report_lines(site: Site, driving: DrivingSummary | None = None, *, all_rows: bool = False) -> list[str]:
@@ -55,16 +53,6 @@ def report_record(site: Site, driving: DrivingSummary | None = None) -> dict[str
     if driving is not None:
         record["driving"] = asdict(driving)
     return record
-
-
-def summary_lines(site: Site) -> list[str]:
-    """The site in a few lines of bounded length.
-
-    A site of 100,000 trees, 10,000 distinct values or names of a megabyte says no more lines, and no longer ones, than
-    a small site. A language model's prompt holds these lines and nothing else of the site.
-    """
-    s = describe(site)
-    return [*_site_lines(s), *_planting_lines(s, _FEW_BLOCKS), *_place_lines(s)]
 
 
 def _site_lines(s: SiteSummary) -> list[str]:
@@ -125,7 +113,7 @@ def _row_words(row: RowSummary) -> str:
 
 def _place_lines(s: SiteSummary) -> list[str]:
     """Markers, gates, zones, attributes, and what the reader noted."""
-    lines = [f"Markers: {'; '.join(_marker_words(m) for m in s.markers) or 'none'}."]
+    lines = [f"Markers: {'; '.join(marker_words(m) for m in s.markers) or 'none'}."]
     if s.gates:
         lines.append(f"Gates: {', '.join(f'{name!r} {width:.1f} m wide' for name, width in s.gates)}.")
     lines.extend(
@@ -144,7 +132,7 @@ def _place_lines(s: SiteSummary) -> list[str]:
 
 def _attribute_words(attribute: AttributeSummary, trees: int) -> str:
     if attribute.minimum is not None and attribute.maximum is not None and attribute.distinct > MOST_VALUES:
-        values = f"numbers from {_figure(attribute.minimum)} to {_figure(attribute.maximum)}"
+        values = f"numbers from {figure_words(attribute.minimum)} to {figure_words(attribute.maximum)}"
     else:
         values = ", ".join(attribute.values)
         if attribute.distinct > len(attribute.values):
@@ -153,8 +141,8 @@ def _attribute_words(attribute: AttributeSummary, trees: int) -> str:
     return f"{attribute.name}{some}: {values}."
 
 
-def _figure(number: float) -> str:
-    """Four digits are enough to say how large a number is; whole numbers are told in full."""
+def figure_words(number: float) -> str:
+    """Return a number in four digits, which are enough to say how large it is; a whole number in full."""
     return number_text(number) if number == int(number) and abs(number) < 1e9 else f"{number:.4g}"
 
 
@@ -162,7 +150,8 @@ def _area_words(square_metres: float) -> str:
     return f"{square_metres / 10_000:.2f} ha" if square_metres >= 1000.0 else f"{square_metres:.0f} m2"
 
 
-def _marker_words(marker: tuple[str, float, float]) -> str:
+def marker_words(marker: tuple[str, float, float]) -> str:
+    """Return a marker with where it is from the middle of the trees."""
     name, x, y = marker
     sides = [
         f"{abs(y):.0f} m {'north' if y > 0 else 'south'}" if abs(y) >= 0.5 else "",

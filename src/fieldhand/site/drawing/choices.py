@@ -13,6 +13,7 @@ import numpy as np
 from fieldhand.site.choices import choice_marks
 from fieldhand.site.drawing import colours
 from fieldhand.site.drawing.ground import draw_dots, draw_site, site_figure, tree_size
+from fieldhand.site.drawing.names import name_site
 from fieldhand.site.drawing.saving import save_figure
 from fieldhand.site.model import Place, Site
 
@@ -52,6 +53,9 @@ def choices_picture(site: Site, question: str, choices: Sequence[str], places: S
     draw_site(ax, site)
     _mark(ax, site, places)
     _write(figure, question, choices, places)
+    figure.draw_without_rendering()  # so that the words have taken their room
+    figure.set_layout_engine("none")
+    name_site(ax, site)
     return figure
 
 

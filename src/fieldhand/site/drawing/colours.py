@@ -9,7 +9,11 @@ ROWS = ("#0072b2", "#e69f00", "#117a65", "#d55e00")
 ROW_INKS = ("#005f96", "#946500", "#0e6453", "#a54800")
 #: Of the choices of a question, on green trees.
 CHOICES = ("#005f96", "#a54800", "#6a3d9a", "#2f2f2f")
+#: Of the names of rows whose dots have no colour of their own.
+ROW_INK = "#4d6650"
 NO_ROW = "#a6a6a6"
+#: Around a block.
+BLOCK_EDGE = "#8fa08d"
 FAINT_ROW = "#9db79a"
 
 INK = "#2f2f2f"

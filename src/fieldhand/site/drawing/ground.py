@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.site.drawing import colours
+from fieldhand.site.drawing.blocks import draw_blocks
 from fieldhand.site.model import Place, Site, Zone
-from fieldhand.site.places.faults import short
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,6 +21,8 @@ TREE_COLOUR = colours.TREE
 XY = tuple[float, float]
 
 _MOST_ZONE_LABELS = 20
+#: Points: the least diameter of a disc; which part of the way to the next one it takes.
+_LEAST_DISC, _PART = 3.5, 0.9
 #: From as many trees on, a drawing program would be slow with each tree as an object of its own.
 MANY = 5_000
 
@@ -40,7 +42,7 @@ def site_figure(site: Site) -> Figure:
 
 
 def draw_site(ax: Axes, site: Site) -> None:
-    """The ground for something else to lie on; axes in metres, equal, without frame.
+    """Draw the ground for something else to lie on, without names; axes in metres, equal, without frame.
 
     Args:
         ax: Drawn on; what is added later in local metres lies on top from ``zorder`` 10 on.
@@ -51,21 +53,35 @@ def draw_site(ax: Axes, site: Site) -> None:
     ax.set_xlim(west, east)
     ax.set_ylim(south, north)
     ax.set_axis_off()
+    draw_ground(ax, site)
+    draw_scale_and_north(ax)
+
+
+def draw_ground(ax: Axes, site: Site) -> None:
+    """Draw zones, blocks, rows, trees, gates and markers in quiet colours, without names."""
     draw_zones(ax, site)
-    for zone in named_zones(site):
-        _label(ax, short(zone.name, 24), open_spots(site, zone)[0], zone_ink(zone))
+    draw_blocks(ax, site)
     _draw_rows(ax, site)
     draw_dots(ax, site.xy, tree_size(ax, site), colours.TREE)
     draw_gates(ax, site)
-    for place in draw_markers(ax, site):
-        _, colour, words = marker_look(place.id)
-        _label(ax, words, place.xy, colour, offset=(0, -11), zorder=9)
-    draw_scale_and_north(ax)
+    draw_markers(ax, site)
 
 
 def tree_size(ax: Axes, site: Site) -> float:
     """Area of a tree's dot in square points: about a third of the spacing wide, but never too small to see."""
     return float(np.clip((0.36 * site.spacing_m * points_a_metre(ax)) ** 2, 1.5, 130.0))
+
+
+def disc_diameter(ax: Axes, xy: NDArray[np.float64], most: float) -> float:
+    """Return the diameter of discs at some places in points: smaller where they stand close on the map."""
+    from scipy.spatial import cKDTree
+
+    places = np.unique(xy, axis=0)
+    if len(places) < 2:
+        return most
+    away, _ = cKDTree(places).query(places, k=[2])
+    apart = float(np.median(away)) * points_a_metre(ax)
+    return float(np.clip(_PART * apart, min(_LEAST_DISC, most), most))
 
 
 def points_a_metre(ax: Axes) -> float:
@@ -152,6 +168,19 @@ def marker_look(name: str) -> tuple[str, str, str]:
     return colours.MARKERS.get(name, ("o", colours.INK, name))
 
 
+def draw_scale(ax: Axes) -> None:
+    """A scale bar at the lower left, on white."""
+    (west, east), (south, north) = ax.get_xlim(), ax.get_ylim()
+    length = _round_length((east - west) / 4)
+    height = north - south
+    x, y = west + 0.03 * (east - west), south + 0.02 * height
+    ax.plot([x, x + length], [y, y], color=colours.INK, linewidth=2.5, solid_capstyle="butt", zorder=19)
+    ax.text(
+        *(x + length / 2, y + 0.015 * height, f"{length:g} m"), ha="center", va="bottom", fontsize=8, color=colours.INK,
+        zorder=19, bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 2.0},
+    )  # fmt: skip
+
+
 def draw_scale_and_north(ax: Axes) -> None:
     """A scale bar at the lower left and a north arrow at the lower right."""
     (west, east), (south, north) = ax.get_xlim(), ax.get_ylim()
@@ -223,24 +252,6 @@ def _patch(ax: Axes, zone: Zone, **style: object) -> None:
     rings = [zone.polygon.exterior, *zone.polygon.interiors]
     outline = Outline.make_compound_path(*(Outline(np.asarray(r.coords)[:, :2], closed=True) for r in rings))
     ax.add_patch(PathPatch(outline, **style))
-
-
-def _label(ax: Axes, text: str, xy: XY, colour: str, offset: XY = (0, 0), zorder: float = 7) -> None:
-    from matplotlib.patheffects import withStroke
-
-    ax.annotate(
-        text.replace("$", r"\$"),
-        xy,
-        xytext=offset,
-        textcoords="offset points",
-        ha="center",
-        va="center",
-        fontsize=8,
-        fontweight="bold",
-        color=colour,
-        path_effects=[withStroke(linewidth=2.5, foreground="white")],
-        zorder=zorder,
-    )
 
 
 def _round_length(metres: float) -> float:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+
+from fieldhand.visible import visible
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,7 +19,7 @@ if TYPE_CHECKING:
 XY = tuple[float, float]
 Box = tuple[float, float, float, float]
 
-_GAP = 1.5
+_GAP, _STEP = 1.5, 6.0
 
 
 class Labels:
@@ -39,7 +42,10 @@ class Labels:
         self._points_a_pixel = 72.0 / figure.dpi
         self._trees = cKDTree(np.asarray(ax.transData.transform(dots)) * self._points_a_pixel)
         self._radius = dot_radius
+        #: Where the middle of the last name stands.
+        self.last: XY = (0.0, 0.0)
         self._taken = np.empty((0, 4))
+        self._sizes: dict[tuple[str, float, bool], XY] = {}
         (west, east), (south, north) = ax.get_xlim(), ax.get_ylim()
         self._frame = (*self.at((west, south)), *self.at((east, north)))
 
@@ -48,15 +54,31 @@ class Labels:
         x, y = self._ax.transData.transform(xy)
         return (float(x) * self._points_a_pixel, float(y) * self._points_a_pixel)
 
+    def metres(self, spot: XY) -> XY:
+        """Return the place in metres that is drawn at a spot."""
+        x, y = self._ax.transData.inverted().transform(np.array(spot) / self._points_a_pixel)
+        return (float(x), float(y))
+
+    def avoid(self, ways: Iterable[Sequence[XY]]) -> None:
+        """Let names stand on lines through places in metres, as on trees, only where no other spot is free."""
+        from scipy.spatial import cKDTree
+
+        points = [point for way in ways for point in _along([self.at(xy) for xy in way])]
+        if points:
+            self._trees = cKDTree(np.vstack([self._trees.data, np.array(points)]))
+
     def size(self, text: str, font: float, *, bold: bool = False) -> XY:
         """Width and height of a text on one line."""
         from matplotlib.font_manager import FontProperties
 
+        if (known := self._sizes.get((text, font, bold))) is not None:
+            return known
         weight = "bold" if bold else "normal"
         width, _, _ = self._renderer.get_text_width_height_descent(  # type: ignore[no-untyped-call]
-            text.replace("$", r"\$"), FontProperties(size=font, weight=weight), False
+            text, FontProperties(size=font, weight=weight), False
         )
-        return (float(width) * self._points_a_pixel, 1.05 * font)
+        size = self._sizes[text, font, bold] = (float(width) * self._points_a_pixel, 1.05 * font)
+        return size
 
     def keep_free(self, at: XY, half: float) -> None:
         """Let no name stand where a symbol is drawn."""
@@ -97,12 +119,14 @@ class Labels:
         Returns:
             Whether there was room.
         """
+        text = visible(text)
         size = self.size(text, font, bold=bold)
         for trees_too in (False, True) if over_trees else (False,):
             for spot in spots:
                 boxes = _boxes(spot, size, turn_deg)
                 if all(self._free(box, trees_too) for box in boxes):
                     self._take(boxes)
+                    self.last = spot
                     self._write(text, spot, font, colour, bold, turn_deg, zorder, gid)
                     return True
         return False
@@ -136,9 +160,9 @@ class Labels:
     ) -> None:
         from matplotlib.patheffects import withStroke
 
-        x, y = self._ax.transData.inverted().transform(np.array(spot) / self._points_a_pixel)
         self._ax.text(
-            *(x, y, text.replace("$", r"\$")),
+            *(*self.metres(spot), text),
+            parse_math=False,
             ha="center",
             va="center",
             rotation=turn_deg,
@@ -150,6 +174,13 @@ class Labels:
             zorder=zorder,
             gid=gid,
         )
+
+
+def _along(corners: Sequence[XY]) -> Iterator[XY]:
+    """Points along a line, so close that no name has room between them."""
+    for (x0, y0), (x1, y1) in itertools.pairwise(corners):
+        count = min(int(math.hypot(x1 - x0, y1 - y0) / _STEP) + 1, 400)
+        yield from ((x0 + (x1 - x0) * k / count, y0 + (y1 - y0) * k / count) for k in range(count))
 
 
 def _boxes(spot: XY, size: XY, turn_deg: float) -> list[Box]:

@@ -10,21 +10,16 @@ import numpy as np
 
 from fieldhand.site.describe.driving import DrivingSummary
 from fieldhand.site.drawing import colours
+from fieldhand.site.drawing.blocks import draw_blocks
 from fieldhand.site.drawing.ground import (
-    XY,
     bounds_of,
     draw_gates,
     draw_markers,
     draw_scale_and_north,
     draw_zones,
-    marker_look,
-    named_zones,
-    open_spots,
-    tree_size,
-    zone_ink,
 )
-from fieldhand.site.drawing.labels import Labels
-from fieldhand.site.drawing.rows import LONGEST_NAME, draw_rows, name_blocks, name_rows, name_trees
+from fieldhand.site.drawing.names import labels_on, name_ground, name_markers
+from fieldhand.site.drawing.rows import LONGEST_NAME, draw_rows, name_trees
 from fieldhand.site.drawing.saving import save_figure
 from fieldhand.site.drawing.ways import draw_closed, draw_unreachable, draw_ways
 from fieldhand.site.driving.network import Network
@@ -40,8 +35,6 @@ _HEIGHT_IN, _LARGE_HEIGHT_IN, _LEAST_WIDTH_IN, _HEAD_IN, _FOOT_IN, _MARGIN_IN = 
 _LARGE = 20_000
 #: Inches that an entry of the legend takes.
 _ENTRY_IN = 1.2
-#: Parts of the map (west, south, east, north) that the scale bar and the north arrow take.
-_SCALE_PART, _NORTH_PART = (0.0, 0.0, 0.31, 0.065), (0.9, 0.0, 1.0, 0.105)
 #: Points beyond the ends of the rows for their names: a letter's width, and the most for all of them.
 _LETTER, _MOST_FOR_NAMES = 5.6, 90.0
 
@@ -76,6 +69,7 @@ def site_picture(site: Site, network: Network | None = None, driving: DrivingSum
     draw_zones(ax, site)
     if network is not None:
         draw_ways(ax, network, driving.width_m if driving is not None else 1.0)
+    draw_blocks(ax, site)
     draw_rows(ax, site)
     if driving is not None:
         draw_closed(ax, site, driving.closed)
@@ -122,38 +116,10 @@ def _room_for_names(site: Site, metre: float) -> float:
 
 def _write_names(ax: Axes, site: Site) -> None:
     """What matters most is named first, and keeps its place."""
-    labels = Labels(ax, site.xy, math.sqrt(tree_size(ax, site)) / 2)
-    labels.keep_part_free(*_SCALE_PART)
-    labels.keep_part_free(*_NORTH_PART)
-    for place in (*site.markers.values(), *(g.place for g in site.gates)):
-        labels.keep_free(labels.at(place.xy), 6.0)
-    for name, place in site.markers.items():
-        _, colour, words = marker_look(name)
-        labels.put(
-            words, _around(labels.at(place.xy), labels.size(words, 8, bold=True)),
-            font=8, colour=colour, bold=True, over_trees=True, zorder=9,
-        )  # fmt: skip
-    for zone in named_zones(site):
-        labels.put(
-            short(zone.name, 24), [labels.at(spot) for spot in open_spots(site, zone)],
-            font=8, colour=zone_ink(zone), bold=True, over_trees=True, gid="zone",
-        )  # fmt: skip
-    for gate in site.gates:
-        words = short(gate.place.id, 24)
-        labels.put(
-            words, _around(labels.at(gate.place.xy), labels.size(words, 7)),
-            font=7, colour=colours.GATE, over_trees=True, zorder=9, gid="gate",
-        )  # fmt: skip
-    name_blocks(labels, site)
-    name_rows(ax, labels, site)
+    labels = labels_on(ax, site)
+    name_markers(labels, site)
+    name_ground(ax, labels, site, row_ink=None)
     name_trees(ax, labels, site)
-
-
-def _around(at: XY, size: XY) -> list[XY]:
-    """Below, above, right and left of a symbol."""
-    (x, y), (width, height) = at, size
-    over, beside = 7.5 + height / 2, 8.0 + width / 2
-    return [(x, y - over), (x, y + over), (x + beside, y), (x - beside, y)]
 
 
 def _write_head(figure: Figure, site: Site) -> None:

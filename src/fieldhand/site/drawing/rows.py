@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 
 _STEPS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 LONGEST_NAME = 16
-_GAP = 3.0
+#: Points from the last tree of a row to its name, and more of them where something else is there.
+_GAP, _FARTHER = 3.0, (0.0, 7.0, 13.0)
 #: More trees than this are not named; nor are trees so near to each other that no name has room, in points.
 _MOST_IDS, _LEAST_ROOM = 400, 9.0
 
@@ -53,30 +54,12 @@ def draw_rows(ax: Axes, site: Site) -> None:
     draw_dots(ax, site.xy, size, palette[colour_of_row[site.planting.row_of]])
 
 
-def name_blocks(labels: Labels, site: Site) -> None:
-    """The name of each block beside it, where there are several."""
-    blocks = site.planting.blocks
-    if len(blocks) < 2:
-        return
-    font = 9.0
-    for block in blocks:
-        text = block_words(block)
-        corners = _corners(labels, site, block)
-        middle = corners.mean(axis=0)
-        spots: list[XY] = []
-        width, height = labels.size(text, font, bold=True)
-        for beyond in (24.0, 38.0, 12.0):
-            for a, b in ((2, 3), (0, 1), (0, 2), (1, 3)):  # beyond the far ends, the usual ends, and at the sides
-                side = (corners[a] + corners[b]) / 2
-                out = (side - middle) / max(float(np.hypot(*(side - middle))), 1e-9)
-                away = beyond + abs(out[0]) * width / 2 + abs(out[1]) * height / 2
-                spots.append((float(side[0] + out[0] * away), float(side[1] + out[1] * away)))
-        spots.append((float(middle[0]), float(middle[1])))
-        labels.put(text, spots, font=font, colour=colours.INK, bold=True, over_trees=True, gid="block")
+def name_rows(ax: Axes, labels: Labels, site: Site, *, ink: str | None = None) -> None:
+    """Names at both ends of the rows: of all, or where they stand too close of every second, fifth, tenth ...
 
-
-def name_rows(ax: Axes, labels: Labels, site: Site) -> None:
-    """Names at both ends of the rows: of all, or where they stand too close of every second, fifth, tenth ..."""
+    Args:
+        ink: Their colour; None for that of each row's dots.
+    """
     for block in site.planting.blocks:
         apart = (block.row_spacing_m if block.row_spacing_m == block.row_spacing_m else 10.0) * points_a_metre(ax)
         font = float(np.clip(0.8 * apart, 5.5, 8.0))
@@ -91,22 +74,58 @@ def name_rows(ax: Axes, labels: Labels, site: Site) -> None:
         turn_deg = 90.0 - (90.0 - math.degrees(turn)) % 180.0 if along else 0.0
         for k in _worth_naming(block, step):
             for end in (0, -1):
-                spot = _beyond(ax, labels, site, block.rows[k], end, turn, sizes[k], along)
+                spots = _beyond(ax, labels, site, block.rows[k], end, turn, sizes[k], along)
                 labels.put(
-                    names[k], [spot], font=font, turn_deg=turn_deg, gid="row",
-                    colour=colours.ROW_INKS[(block.rows[k].number - 1) % len(colours.ROWS)], bold=True,
+                    names[k], spots, font=font, turn_deg=turn_deg, gid="row",
+                    colour=ink or colours.ROW_INKS[(block.rows[k].number - 1) % len(colours.ROWS)], bold=True,
                 )  # fmt: skip
 
 
+def name_rows_within(ax: Axes, labels: Labels, site: Site) -> None:
+    """Write names at both ends of what the axes show of each row; of every second, fifth ... where they crowd."""
+    font, near, inside = 8.0, 1.5 * site.spacing_m, _shown(ax, site)
+    for block in site.planting.blocks:
+        there = [(row, row.trees[inside[row.trees]]) for row in block.rows if inside[row.trees].any()]
+        apart = (block.row_spacing_m if block.row_spacing_m == block.row_spacing_m else near) * points_a_metre(ax)
+        width = max((labels.size(short(row.name, LONGEST_NAME), font, bold=True)[0] for row, _ in there), default=0.0)
+        step = next((s for s in _STEPS if s * apart >= max(width, font) + 3.0), _STEPS[-1])
+        for row, trees in there:
+            if step > 1 and row.number % step:
+                continue
+            text = short(row.name, LONGEST_NAME)
+            size = labels.size(text, font, bold=True)
+            for end in (0, -1):
+                at = labels.at((float(site.xy[trees[end]][0]), float(site.xy[trees[end]][1])))
+                out = _out(site, row, end)
+                beyond = _GAP + 2.0 + abs(out[0]) * size[0] / 2 + abs(out[1]) * size[1] / 2
+                spots = [(at[0] + out[0] * away, at[1] + out[1] * away) for away in (beyond, 0.0, -12.0, -24.0)]
+                labels.put(text, spots, font=font, colour=colours.ROW_INK, bold=True, over_trees=True, gid="row")
+
+
+def _out(site: Site, row: Row, end: int) -> XY:
+    """Return the direction in which a row ends, of length 1."""
+    way = (site.xy[row.trees[0]] - site.xy[row.trees[-1]]) * (1.0 if end == 0 else -1.0)
+    length = float(np.hypot(*way))
+    return (float(way[0]) / length, float(way[1]) / length) if length else (0.0, 1.0)
+
+
+def _shown(ax: Axes, site: Site) -> NDArray[np.bool_]:
+    """Return for each tree whether the axes show it, shape (n,)."""
+    (west, east), (south, north) = ax.get_xlim(), ax.get_ylim()
+    x, y = site.xy[:, 0], site.xy[:, 1]
+    return np.asarray((west < x) & (x < east) & (south < y) & (y < north), dtype=np.bool_)
+
+
 def name_trees(ax: Axes, labels: Labels, site: Site) -> None:
-    """The ids of trees beside them, where there are few and each has room."""
+    """The ids of trees beside them, where few are shown and each has room."""
     room = site.spacing_m * points_a_metre(ax)
-    if len(site.trees) > _MOST_IDS or room < _LEAST_ROOM:
+    shown = _shown(ax, site)
+    if int(shown.sum()) > _MOST_IDS or room < _LEAST_ROOM:
         return
     font = float(np.clip(0.3 * room, 4.5, 7.0))
     radius = math.sqrt(tree_size(ax, site)) / 2
     planting = site.planting
-    for tree in site.trees:
+    for tree in (site.trees[k] for k in np.flatnonzero(shown)):
         text = short(tree.place.id, 12)
         width, height = labels.size(text, font)
         x, y = labels.at(tree.place.xy)
@@ -119,11 +138,6 @@ def name_trees(ax: Axes, labels: Labels, site: Site) -> None:
         labels.put(text, spots, font=font, colour=colours.QUIET_INK, zorder=6, gid="tree")
 
 
-def block_words(block: Block) -> str:
-    """A block by its name, with the word where the name alone does not say what it is."""
-    return short(block.name, 24) if len(block.name) > 3 and not block.name.isdigit() else f"block {block.name}"
-
-
 def _worth_naming(block: Block, step: int) -> list[int]:
     """Positions of the rows to be named, the more important first."""
     last = len(block.rows) - 1
@@ -131,8 +145,8 @@ def _worth_naming(block: Block, step: int) -> list[int]:
     return list(dict.fromkeys([0, *round_ones, last]))
 
 
-def _beyond(ax: Axes, labels: Labels, site: Site, row: Row, end: int, turn: float, size: XY, along: bool) -> XY:
-    """Just beyond the last tree of a row, on its line."""
+def _beyond(ax: Axes, labels: Labels, site: Site, row: Row, end: int, turn: float, size: XY, along: bool) -> list[XY]:
+    """Spots just beyond the last tree of a row, on its line, the nearest first."""
     last = site.xy[row.trees[end]]
     way = site.xy[row.trees[0]] - site.xy[row.trees[-1]]
     if len(row.trees) < 2 or not way.any():
@@ -143,12 +157,5 @@ def _beyond(ax: Axes, labels: Labels, site: Site, row: Row, end: int, turn: floa
     radius = math.sqrt(tree_size(ax, site)) / 2
     reach = width / 2 if along else abs(out[0]) * width / 2 + abs(out[1]) * height / 2
     x, y = labels.at((float(last[0]), float(last[1])))
-    away = radius + _GAP + reach
-    return (x + float(out[0]) * away, y + float(out[1]) * away)
-
-
-def _corners(labels: Labels, site: Site, block: Block) -> NDArray[np.float64]:
-    """The ends of the first and of the last row as they are drawn: usual end of both, then other end of both."""
-    first, last = block.rows[0].trees, block.rows[-1].trees
-    trees = (first[0], last[0], first[-1], last[-1])
-    return np.array([labels.at((float(site.xy[t][0]), float(site.xy[t][1]))) for t in trees])
+    aways = (radius + _GAP + reach + more for more in _FARTHER)
+    return [(x + float(out[0]) * away, y + float(out[1]) * away) for away in aways]

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldhand.errors import OutputError
+from fieldhand.visible import visible
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -27,11 +28,21 @@ def save_figure(figure: Figure, path: Path, *, what: str = "picture") -> None:
     require_picture(path)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        make_text_visible(figure)
         figure.savefig(path, dpi=150)
     except OSError as fault:
         raise OutputError(
             f"the {what} cannot be written ({fault.strerror or fault})", where=str(path), advice="choose another place"
         ) from None
+
+
+def make_text_visible(figure: Figure) -> None:
+    """Replace hidden characters in every text of a figure by their code points."""
+    from matplotlib.text import Text
+
+    for text in figure.findobj(Text):
+        if isinstance(text, Text):
+            text.set_text(visible(text.get_text(), lines=True))
 
 
 def require_picture(path: Path) -> None:

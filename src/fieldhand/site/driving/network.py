@@ -14,6 +14,7 @@ from scipy.sparse.csgraph import minimum_spanning_tree
 from shapely.geometry import LineString
 from shapely.geometry.base import BaseGeometry
 
+from fieldhand.language import message
 from fieldhand.site.driving.aisles import Aisle
 from fieldhand.site.driving.bodies import Body
 from fieldhand.site.driving.graph import Indices, Points
@@ -79,7 +80,11 @@ def aisle_name(site: Site, aisle: Aisle) -> str:
     """ "aisle between rows 3 and 4", with the block where there are several."""
     rows = [site.planting.rows[line.rows[0]] for line in (aisle.below, aisle.above)]
     names = [row.name for row in sorted(rows, key=lambda row: row.number)]
-    return f"aisle between rows {names[0]} and {names[1]}{_of_block(site, aisle.body)}"
+    rows_said = message("aisle between rows {one} and {two}", context="log", one=names[0], two=names[1])
+    blocks = site.planting.blocks
+    if len(blocks) <= 1:
+        return rows_said
+    return message("{known} of block {id}", context="log", known=rows_said, id=blocks[aisle.body.block].name)
 
 
 def _of_block(site: Site, body: Body) -> str:

@@ -10,13 +10,14 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
+from shapely.ops import nearest_points
 
 from fieldhand.site.driving.aisles import Aisle
 from fieldhand.site.driving.bodies import tree_lines
 from fieldhand.site.driving.graph import Indices, Points
 from fieldhand.site.driving.ground import XY
 from fieldhand.site.driving.layout import Layout
-from fieldhand.site.model import Place, Site
+from fieldhand.site.model import Gate, Place, Site
 
 #: Stands beside one row on one side, or in one aisle, have the same: (body, line, line) of the aisle, the second line
 #: -1 or one past the last on the outer side of an outer row.
@@ -27,6 +28,9 @@ _ALONG = 3
 
 #: A stand that is not clear of what stands about is looked for at so many points nearer to the tree.
 _NEARER = 6
+
+#: A gate that is so many clearances beyond half its width away from open ground is not at this ground.
+_FROM_GATE = 2.0
 
 #: Directions from which a tree in no row may be approached.
 _DIRECTIONS = 16
@@ -67,6 +71,7 @@ class Stands:
     def of(self, place: Place) -> tuple[Candidate, ...]:
         """One candidate for either side of a tree in a row; the place's own position for all else.
 
+        A gate lies on a fence, which the robot keeps away from: it stands on the open ground nearest to the gate.
         Where no tree of the site stands in a row there are no aisles, and a tree's own position is its stand. A tree in
         no row on a site that has rows is approached from its most open side.
         """
@@ -81,9 +86,23 @@ class Stands:
         for row in np.unique(rows[rows >= 0]).tolist():
             self._find(new[rows == row], *self._line_of[row])
         return [
-            (Candidate(p.stand or p.xy),) if tree is None else self._found[tree]
-            for p, tree in zip(places, trees, strict=True)
+            (self._candidate(p),) if tree is None else self._found[tree] for p, tree in zip(places, trees, strict=True)
         ]
+
+    def _candidate(self, place: Place) -> Candidate:
+        """Return the stand of a place that is no tree in the open: its own, its position, or the ground at a gate."""
+        gate = self._gates.get(place.xy)
+        if place.stand is not None or gate is None or self._layout.soft.is_empty:
+            return Candidate(place.stand or place.xy)
+        at = shapely.Point(place.xy)
+        beside, _ = nearest_points(self._layout.soft, at)
+        near = beside.distance(at) <= gate.width_m / 2.0 + _FROM_GATE * self._clearance_m
+        return Candidate((beside.x, beside.y) if near else place.xy)
+
+    @cached_property
+    def _gates(self) -> dict[XY, Gate]:
+        """The gates of the site by their position."""
+        return {gate.place.xy: gate for gate in self._site.gates}
 
     def _open_tree(self, place: Place) -> int | None:
         """The position of a tree whose stand is to be chosen; None for all else."""

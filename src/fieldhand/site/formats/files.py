@@ -9,6 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Literal
 
+from fieldhand.brief import brief_repr
 from fieldhand.errors import SiteError
 from fieldhand.files import FileFault, read_file
 from fieldhand.site.features import clean
@@ -40,7 +41,7 @@ _MAGIC: dict[bytes, Format] = {
 SHAPEFILE_PARTS = (".shp", ".shx", ".dbf", ".prj", ".cpg")
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class SiteFiles:
     """The files of a site as they were read: whoever has them can read the very same site again.
 
@@ -51,6 +52,8 @@ class SiteFiles:
 
     parts: Mapping[str, bytes]
     source: str
+
+    __repr__ = brief_repr
 
     @property
     def name(self) -> str:
@@ -94,6 +97,15 @@ def records_of(files: SiteFiles, *, lenient: bool = False) -> Records:
     from fieldhand.site.formats.gis import gis_records
 
     return gis_records(form, files.parts, at, lenient=lenient)
+
+
+def is_plain(files: SiteFiles) -> bool:
+    """Return True for a format that is read here: GeoJSON or a table. Others take GDAL, or are unpacked first.
+
+    Raises:
+        SiteError: They have no format that can be read.
+    """
+    return format_of(files.name, files.parts[files.name], files.source) in ("geojson", "table")
 
 
 def read_bytes(path: Path, at: str) -> bytes:

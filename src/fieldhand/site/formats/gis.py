@@ -1,7 +1,8 @@
 """Shapefile, GeoPackage, KML and KMZ to records, with GDAL (pyogrio, the extra ``gis``).
 
-GDAL is a large program that obeys what it finds in a file. So it gets only copies in a folder of their own, in the
-formats that we mean, after a look at what is in them, and no network.
+GDAL is a large program that obeys what it finds in a file. So it runs in a process of its own with little memory and
+time (:mod:`fieldhand.site.formats.confined`), and gets only copies in a folder of their own, in the formats that we
+mean, after a look at what is in them, and no network.
 """
 
 from __future__ import annotations
@@ -12,12 +13,14 @@ import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 from fieldhand.errors import SiteError
 from fieldhand.site.features import clean
 from fieldhand.site.formats.archive import unpack
+from fieldhand.site.formats.confined import read_confined
 from fieldhand.site.formats.files import SHAPEFILE_PARTS, Format
 from fieldhand.site.formats.geojson import geojson_records
 from fieldhand.site.formats.guards import check_geopackage, check_kml
@@ -30,6 +33,12 @@ MAX_FEATURES = 1_000_000
 _WGS84 = "EPSG:4326"
 #: No file over the network, whatever a file says; and a Shapefile whose index was lost is read all the same.
 _SETTINGS = {"CPL_VSIL_CURL_ALLOWED_EXTENSIONS": "{none}", "GDAL_HTTP_TIMEOUT": 1, "SHAPE_RESTORE_SHX": True}
+#: What GDAL may take a file for.
+_DRIVERS = {
+    ".shp": frozenset({"ESRI Shapefile"}),
+    ".gpkg": frozenset({"GPKG"}),
+    ".kml": frozenset({"KML", "LIBKML"}),
+}
 _MAIN = (".shp", ".gpkg", ".kml", ".geojson", ".json", ".csv")
 #: What GDAL adds to each KML placemark; ids are made by the program that wrote it and say nothing to people.
 _KML_OWN = (
@@ -48,8 +57,15 @@ def gis_records(form: Format, held: Mapping[str, bytes], at: str, *, lenient: bo
         lenient: For a GeoJSON file that was packed.
 
     Raises:
-        SiteError: The extra is not installed, or the file cannot be read.
+        SiteError: The extra is not installed, or the file cannot be read with what a file of its size may take.
     """
+    if form != "zip":
+        _require_extra(at)
+    return read_confined(form, held, at, lenient=lenient)
+
+
+def read_here(form: Format, held: Mapping[str, bytes], at: str, *, lenient: bool = False) -> Records:
+    """Return what :func:`gis_records` does, read in this very process: for files of one's own, and for its process."""
     with tempfile.TemporaryDirectory(prefix="fieldhand-") as made:
         folder = Path(made)
         if form == "zip":
@@ -122,30 +138,38 @@ def _layers_of(gdal: Any, path: Path, gathering: _Gathering, at: str) -> list[st
     if views:
         gathering.notes.append(f"views were left out, only tables are read: {', '.join(sorted(views))[:100]}")
     try:
-        return [str(name) for name, _ in gdal.list_layers(path) if name not in views]
+        names = [str(name) for name, _ in gdal.list_layers(path) if name not in views]
+        drivers = {str(gdal.read_info(path, layer=name)["driver"]) for name in names[:1]}
     except Exception as fault:  # noqa: BLE001  # GDAL's errors are of many classes
         raise _unreadable(fault, at) from None
+    if not drivers <= _DRIVERS[path.suffix.lower()]:
+        raise SiteError(f"the file is one of {clean(min(drivers))[:40]}", where=at, advice="export it again")
+    return names
 
 
-@contextmanager
-def _gdal(at: str) -> Iterator[Any]:
-    """pyogrio, for as long with the network off."""
+def _require_extra(at: str) -> None:
     try:
-        import pyogrio
-    except ImportError:
+        installed = find_spec("pyogrio") is not None
+    except ValueError:
+        installed = False
+    if not installed:
         raise SiteError(
             "Shapefile, GeoPackage, KML and KMZ need the extra 'gis'",
             where=at,
             advice="install it: pip install 'fieldhand[gis]'; or export the site as GeoJSON (WGS 84)",
-        ) from None
-    before = {name: pyogrio.get_gdal_config_option(name) for name in _SETTINGS}
+        )
+
+
+@contextmanager
+def _gdal(at: str) -> Iterator[Any]:
+    """pyogrio without network, and without warnings: they are of fields that we do not need, mostly."""
+    _require_extra(at)
+    import pyogrio
+
     pyogrio.set_gdal_config_options(_SETTINGS)
-    try:
-        with warnings.catch_warnings():  # of fields that we do not need, mostly
-            warnings.simplefilter("ignore")
-            yield pyogrio
-    finally:
-        pyogrio.set_gdal_config_options(before)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        yield pyogrio
 
 
 def _read_layer(gdal: Any, path: Path, layer: str, title: str, gathering: _Gathering, at: str) -> None:

@@ -35,6 +35,18 @@ def no_such_tree(site: Site, tree: str) -> PlaceError:
     )
 
 
+def no_such_gate(site: Site, gate: str) -> PlaceError:
+    """There is no gate of that name."""
+    names = [g.place.id for g in site.gates]
+    has = message("its gates are {names}", names=listed(names)) if names else message("it has no gates")
+    near = _alike(gate, names)
+    return PlaceError(
+        message("there is no gate '{name}'", name=short(gate)),
+        where=site.name,
+        advice=joined(" ", (near, has)) if near else has,
+    )
+
+
 def no_such_zone(site: Site, zone: str) -> PlaceError:
     """There is no zone of that name, nor a block."""
     return _no_such_area(site, "zone", zone)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from fieldhand.site.places.spots import Spots
+from fieldhand.task.selectors import Side
 
 Floats = NDArray[np.float64]
 
@@ -53,6 +54,38 @@ def next_to(spots: Spots, to: Spots, count: int) -> Spots:
     tier = np.where(away <= _BAND * away.min() + 1e-9, other_row, 2)
     order = np.lexsort((spots.file_order, np.round(away, 4), tier))
     return spots.keep(order[:count])
+
+
+def on_side(spots: Spots, to: Spots, side: Side, *, next_to: bool) -> Spots:
+    """Return those in the quarter of the compass around a side, seen from ``to``; the nearest of several counts.
+
+    Args:
+        next_to: Also keep only neighbours: those no farther away than half as far again as the rows or the trees along
+            them stand apart there.
+    """
+    if not len(spots):
+        return spots
+    nearest = np.atleast_1d(_index(to).query(spots.xy)[1])
+    step = spots.xy - to.xy[nearest]
+    outward = {"north": step[:, 1], "east": step[:, 0], "south": -step[:, 1], "west": -step[:, 0]}[side]
+    sideways = np.abs(step[:, 0] if side in ("north", "south") else step[:, 1])
+    kept = (outward > 0) & (sideways <= outward)
+    if next_to:
+        reach = np.array([_BAND * _apart_at(to, k) for k in range(len(to))])
+        kept &= np.hypot(*step.T) <= reach[nearest] + 1e-9
+    return spots.keep(kept)
+
+
+def _apart_at(to: Spots, k: int) -> float:
+    """Return how far apart neighbours stand at a place: rows and the trees along them, whichever is more."""
+    site = to.site
+    planting = site.planting
+    tree = int(to.index[k])
+    row = int(planting.row_of[tree]) if tree >= 0 and planting.blocks else -1
+    if row < 0:
+        return float(site.spacing_m)
+    block = planting.blocks[planting.rows[row].block]
+    return max(block.tree_spacing_m, 0.0 if np.isnan(block.row_spacing_m) else block.row_spacing_m)
 
 
 def within(spots: Spots, to: Spots, distance_m: float) -> Spots:

@@ -16,6 +16,7 @@ from fieldhand.task.selectors import (
     Ordered,
     Other,
     Quarter,
+    Random,
     RowOf,
     Rows,
     Selector,
@@ -37,7 +38,7 @@ def bare_ground(selector: Selector, *, picks_too: bool = True) -> Selector:
             mission so far.
     """
     match selector:
-        case Other() | Excluding() | Take() | Ordered():
+        case Other() | Excluding() | Take() | Random() | Ordered():
             return bare_ground(selector.of, picks_too=picks_too)
         case Where() | Top() | Rows() | RowOf() | InRow() | EveryNth() | Successive() if picks_too:
             return bare_ground(selector.of, picks_too=picks_too)

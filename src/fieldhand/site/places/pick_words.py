@@ -94,10 +94,11 @@ def _distinction(selector: s.Middle | s.EdgeMiddle | s.Nearest | s.Farthest | s.
                 northern=SIDES[side],
                 of_trees=of_ground(of, saying),
             )
-        case s.Nearest(to=to, adjacent=adjacent, fresh=fresh):
+        case s.Nearest(to=to, adjacent=adjacent, fresh=fresh, side=side):
             place = it(to, saying)
             near = message("next to {place}", place=place) if adjacent else message("nearest to {place}", place=place)
-            return message("{near} and not visited yet", near=near) if fresh else near
+            there = near if side == "any" else _on_side(near, side)
+            return message("{near} and not visited yet", near=there) if fresh else there
         case s.Farthest(origin=origin):
             return spot(origin, saying)
         case s.Top(attribute=attribute, lowest=lowest):
@@ -107,6 +108,19 @@ def _distinction(selector: s.Middle | s.EdgeMiddle | s.Nearest | s.Farthest | s.
                 if lowest
                 else message("with the highest {name}", name=name)
             )
+
+
+def _on_side(near: str, side: s.Side) -> str:
+    """Return "next to tree 4, on its east side"."""
+    match side:
+        case "north":
+            return message("{near}, on its north side", near=near)
+        case "east":
+            return message("{near}, on its east side", near=near)
+        case "south":
+            return message("{near}, on its south side", near=near)
+        case "west":
+            return message("{near}, on its west side", near=near)
 
 
 def spot(selector: s.Selector, saying: Saying) -> str:

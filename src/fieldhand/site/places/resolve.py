@@ -13,9 +13,18 @@ from fieldhand.language import message
 from fieldhand.site.context import Context
 from fieldhand.site.kinds import phrase
 from fieldhand.site.model import Place, Site
-from fieldhand.site.places import attributes, byrow, extent, hand, neighbours, ordering, points
+from fieldhand.site.places import attributes, byrow, draw, extent, hand, neighbours, ordering, points
 from fieldhand.site.places.apart import apart
-from fieldhand.site.places.faults import listed, no_such_block, no_such_tree, no_such_zone, nothing, short, too_few
+from fieldhand.site.places.faults import (
+    listed,
+    no_such_block,
+    no_such_gate,
+    no_such_tree,
+    no_such_zone,
+    nothing,
+    short,
+    too_few,
+)
 from fieldhand.site.places.nesting import bare_ground
 from fieldhand.site.places.pick_words import the_highest, the_middle_of_edge, the_most, the_nearest_to_marker
 from fieldhand.site.places.spots import Spots, joined
@@ -23,11 +32,11 @@ from fieldhand.site.places.tell import Tell, rank, tell_passed_over
 from fieldhand.site.places.words import say_selector
 from fieldhand.task import selectors as s
 
-_Source = s.Trees | s.TreeIs | s.Marker | s.Here | s.Bound | s.Union
+_Source = s.Trees | s.TreeIs | s.Marker | s.GateIs | s.Here | s.Bound | s.Union
 _Region = s.Half | s.Quarter | s.Edge | s.AmongExtreme | s.InZone | s.InBlock | s.Within
 _Kept = s.Where | s.Other | s.Excluding | s.Rows | s.RowOf | s.InRow | s.EveryNth
 _Ranked = s.Extreme | s.Middle | s.EdgeMiddle | s.Nearest | s.Farthest | s.Top
-_Chained = s.Adjacent | s.Take | s.Successive
+_Chained = s.Adjacent | s.Take | s.Random | s.Successive
 
 _EXTENT_RULE = "halves and quarters go by the middle lines of the extent along true north"
 
@@ -106,7 +115,7 @@ class Resolution:
 
     def _resolved(self, selector: s.Selector, tell: Tell) -> Spots:
         match selector:
-            case s.Trees() | s.TreeIs() | s.Marker() | s.Here() | s.Bound() | s.Union():
+            case s.Trees() | s.TreeIs() | s.Marker() | s.GateIs() | s.Here() | s.Bound() | s.Union():
                 return self._source(selector)
             case s.AlongRow(origin=origin):
                 return hand.along_row(self.one(origin), selector, tell)
@@ -125,7 +134,7 @@ class Resolution:
                 return self._named(selector, of, tell)
             case s.Extreme() | s.Middle() | s.EdgeMiddle() | s.Nearest() | s.Farthest() | s.Top():
                 return self._ranked(selector, of, tell)
-            case s.Adjacent() | s.Take() | s.Successive():
+            case s.Adjacent() | s.Take() | s.Random() | s.Successive():
                 return self._chained(selector, of, tell)
             case s.Ordered():
                 return ordering.ordered(of, selector, np.array(self.context.here.xy), tell)
@@ -149,6 +158,8 @@ class Resolution:
                 return Spots.of(self.site, [self.site.by_id[tree].place])
             case s.Marker(name=name):
                 return Spots.of(self.site, [self._marker(name)])
+            case s.GateIs(gate=name):
+                return Spots.of(self.site, [self._gate(name)])
             case s.Here():
                 return Spots.of(self.site, [self.context.here])
             case s.Bound(label=label):
@@ -239,7 +250,7 @@ class Resolution:
             case s.EdgeMiddle(side=side):
                 away = extent.from_edge_middle(candidates, side, self._ground(selector.of, of))
                 return rank(candidates, away, count, tell, the_middle_of_edge(side))
-            case s.Nearest(adjacent=True):
+            case s.Nearest(adjacent=True, side="any"):
                 tell.rule = "of the nearest ones those in the same row come first"
                 return neighbours.next_to(candidates, to, count)
             case s.Nearest() | s.Farthest():
@@ -257,8 +268,11 @@ class Resolution:
             case s.Nearest(to=origin) | s.Farthest(origin=origin):
                 to = self.spots(origin)
                 left = neighbours.apart_from(of, to).once(selector.count if selector.count > 1 else len(of))
-                fresh = isinstance(selector, s.Nearest) and selector.fresh
-                return (left.without(self._visited()) if fresh else left), to
+                if isinstance(selector, s.Nearest):
+                    left = left.without(self._visited()) if selector.fresh else left
+                    if selector.side != "any":
+                        left = neighbours.on_side(left, to, selector.side, next_to=selector.adjacent)
+                return left, to
             case s.EdgeMiddle(side=side):
                 return extent.edge(of, side, self._ground(selector.of, of)), of
             case s.Top():
@@ -267,10 +281,10 @@ class Resolution:
                 return of, of
 
     def _chained(self, selector: _Chained, of: Spots, tell: Tell) -> Spots:
-        """Several, each of which hangs on the ones before."""
-        near = of if isinstance(selector, s.Take) else self.spots(selector.near)
+        """Several, each of which hangs on the ones before, or on the draw."""
+        near = of if isinstance(selector, s.Take | s.Random) else self.spots(selector.near)
         count = selector.count
-        if isinstance(selector, s.Take):
+        if isinstance(selector, s.Take | s.Random):
             of = self._outside_keep_outs(of, tell).once(count)
         if count < 1 or len(of) < count:
             raise too_few(self.site, selector, count, len(of))
@@ -278,6 +292,8 @@ class Resolution:
             case s.Take():
                 tell.rule = "from the place in hand to the nearest, from there to the next nearest"
                 return neighbours.short_drive(of, np.array(self.context.here.xy), count)
+            case s.Random(seed=seed):
+                return draw.drawn(of, count, seed, tell)
             case s.Adjacent():
                 tell.rule = "each is a neighbour of one before it, in the same row first"
                 found = neighbours.side_by_side(of, near, count)
@@ -308,12 +324,28 @@ class Resolution:
             )
         return self.site.start if name == "start" else self.site.home("return_to_end", self.context.here)
 
+    def _gate(self, name: str) -> Place:
+        """Return the gate of that name, whatever its case, hyphens and underscores."""
+        alike = [g.place for g in self.site.gates if phrase(g.place.id) == phrase(name)]
+        exact = [place for place in alike if place.id == name]
+        if not alike:
+            raise no_such_gate(self.site, name)
+        return (exact or alike)[0]
+
     def _in_zone(self, selector: s.InZone, of: Spots, tell: Tell) -> Spots:
         """By the zones of that name; where there are none, by the block of that name."""
-        inside = self._inside(selector.zone, of)
+        if not (math.isfinite(selector.margin_m) and selector.margin_m >= 0):
+            raise PlaceError(f"no tree is {selector.margin_m:g} m from a zone", advice="give a margin of 0 m or more")
+        inside = self._inside(selector.zone, of, selector.margin_m)
         if inside is None:
             if byrow.find_block(self.site, selector.zone) is None:
                 raise no_such_zone(self.site, selector.zone)
+            if selector.margin_m:
+                raise PlaceError(
+                    f"distances are not measured from the block {short(selector.zone)!r}",
+                    where=self.site.name,
+                    advice="name a zone, a tree or a marker to measure from",
+                )
             tell.rule = "that is a block of the site"
             inside = byrow.in_block(of, s.InBlock(block=selector.zone))
         return of.without(inside) if selector.outside else inside
@@ -328,8 +360,8 @@ class Resolution:
         tell.rule = "that is a zone of the site"
         return inside
 
-    def _inside(self, name: str, of: Spots) -> Spots | None:
-        """Those inside the zones of that name; None where there are none."""
+    def _inside(self, name: str, of: Spots, margin_m: float = 0.0) -> Spots | None:
+        """Return those inside the zones of that name or so near to one; None where there are none."""
         zones = [z for z in self.site.zones if phrase(z.name) == phrase(name)]
         exact = [z for z in zones if z.name == name]
         if not zones:
@@ -337,7 +369,10 @@ class Resolution:
         inside = np.zeros(len(of), dtype=bool)
         for zone in exact or zones:
             shapely.prepare(zone.polygon)
-            inside |= shapely.intersects_xy(zone.polygon, of.xy[:, 0], of.xy[:, 1])
+            if margin_m:
+                inside |= shapely.dwithin(zone.polygon, shapely.points(of.xy), margin_m)
+            else:
+                inside |= shapely.intersects_xy(zone.polygon, of.xy[:, 0], of.xy[:, 1])
         return of.keep(inside)
 
     def _visited(self) -> Spots:

@@ -51,6 +51,11 @@ def say_marker(name: str) -> str:
     return message("the {name} marker", name=say_name(name))
 
 
+def say_gate(gate: str) -> str:
+    """Return a gate in words: "the gate", or "the gate “north gate”" where it has a name of its own."""
+    return message("the gate") if say_name(gate).lower() == "gate" else message("the gate “{gate}”", gate=gate)
+
+
 def say_zone(zone: str) -> str:
     """A zone by its name: "the zone “wet corner”"."""
     return message("the zone “{zone}”", zone=zone)

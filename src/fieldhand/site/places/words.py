@@ -18,7 +18,18 @@ from fieldhand.site.places.noun import Phrase
 from fieldhand.site.places.pick_words import foremost, nth, picked, superlative
 from fieldhand.site.places.row_phrases import adjacent, apart, by_number, free_points, from_hand, successive
 from fieldhand.site.places.row_words import say_block, say_order, say_row_of, say_rows
-from fieldhand.site.places.saying import Names, Saying, it, many, of_ground, one, say_marker, say_tree, say_zone
+from fieldhand.site.places.saying import (
+    Names,
+    Saying,
+    it,
+    many,
+    of_ground,
+    one,
+    say_gate,
+    say_marker,
+    say_tree,
+    say_zone,
+)
 from fieldhand.task import selectors as s
 from fieldhand.task.words import CORNERS, SIDES, listed, say_number
 
@@ -45,6 +56,8 @@ def _new_phrase(selector: s.Selector, saying: Saying) -> Phrase:
             return one(say_tree(tree))
         case s.Marker(name=name):
             return one(say_marker(name))
+        case s.GateIs(gate=name):
+            return one(say_gate(name))
         case s.Here():
             return one(message("the place reached before"))
         case s.Bound(label=label):
@@ -76,6 +89,8 @@ def _new_phrase(selector: s.Selector, saying: Saying) -> Phrase:
             return adjacent(selector, saying)
         case s.Take():
             return _taken(selector, saying)
+        case s.Random():
+            return _drawn(selector, saying)
         case s.InBlock(block=block, of=of):
             return saying.phrase(of).of_block(say_block(block))
         case s.Rows(of=of):
@@ -138,6 +153,11 @@ def _filtered(selector: s.Where | s.InZone | s.Within | s.Other | s.Excluding, s
             if isinstance(selector.value, str) and selector.test == "eq" and _ADJECTIVAL.search(selector.attribute):
                 return base.keeping(before=selector.value)
             return base.keeping(after=say_whose(selector.attribute, selector.test, selector.value))
+        case s.InZone(zone=zone, outside=outside, margin_m=margin) if margin:
+            near = {"distance": say_number(margin), "place": say_zone(zone)}
+            if outside:
+                return base.keeping(after=message("more than {distance} m from {place}", **near))
+            return base.keeping(after=message("within {distance} m of {place}", **near))
         case s.InZone(zone=zone, outside=outside):
             if outside:
                 return base.keeping(after=message("outside {zone}", zone=say_zone(zone)))
@@ -159,6 +179,14 @@ def _taken(selector: s.Take, saying: Saying) -> Phrase:
             return one(message("another tree, the nearest one not visited yet"))
         return inner if inner.single else one(message("the nearest of {trees}", trees=inner.group()))
     return many(message("the {count} nearest of {trees}", count=selector.count, trees=inner.group()))
+
+
+def _drawn(selector: s.Random, saying: Saying) -> Phrase:
+    group, seed = saying.phrase(selector.of).group(), selector.seed
+    if selector.count == 1:
+        return one(message("one of {trees}, drawn at random (seed {seed})", trees=group, seed=seed))
+    said = message("{count} of {trees}, drawn at random (seed {seed})", count=selector.count, trees=group, seed=seed)
+    return many(said)
 
 
 def _together(parts: tuple[s.Selector, ...], saying: Saying) -> Phrase:

@@ -1,0 +1,157 @@
+"""Files that only GDAL or an unpacker can read, read in a process of their own with little memory and time.
+
+A file of 200 kB can make a reader take gigabytes, or never end; and a reader that is written in C can be made to do
+anything by a file that knows its faults. So it runs beside this process (:mod:`fieldhand.site.formats.gis_process`):
+
+    files ──▶ folder ──▶ process with limits ──▶ JSON, bounded ──▶ records
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from fieldhand.errors import SiteError
+from fieldhand.site.formats.records import Records, UnusablePart
+
+RESULT, ASKED = "result.json", "asked.json"
+#: What the process needs of the environment; of GDAL, of proxies and of tokens it sees nothing.
+_PASSED = ("PATH", "PYTHONPATH", "LD_LIBRARY_PATH", "LANG", "LC_ALL", "SYSTEMROOT", "PROJ_DATA", "PROJ_LIB")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Allowance:
+    """Bounds on reading files of so many bytes.
+
+    Attributes:
+        memory: Bytes of address space.
+        result: Bytes of the records as JSON.
+        cpu_s, wall_s: Seconds of the processor, and of the clock: other programs may be busy.
+    """
+
+    memory: int
+    result: int
+    cpu_s: int
+    wall_s: float
+
+
+def allowance_for(size: int) -> Allowance:
+    """Return what files of so many bytes may take: a measured site of 100,000 trees needs a third of it."""
+    return Allowance(
+        memory=min(1_000_000_000 + 20 * size, 3_000_000_000),
+        result=min(16_000_000 + 20 * size, 300_000_000),
+        cpu_s=20 + size // 1_000_000,
+        wall_s=120.0 + size / 250_000,
+    )
+
+
+def read_confined(
+    form: str, held: Mapping[str, bytes], at: str, *, lenient: bool, allowed: Allowance | None = None
+) -> Records:
+    """Return the records of files, read in a process of its own.
+
+    Args:
+        form, held, at, lenient: As :func:`fieldhand.site.formats.gis.gis_records`.
+        allowed: What it may take; by default by the size of the files.
+
+    Raises:
+        SiteError: The files cannot be read, or not with what it may take.
+    """
+    allowed = allowed or allowance_for(sum(map(len, held.values())))
+    with tempfile.TemporaryDirectory(prefix="fieldhand-") as made:
+        folder = Path(made)
+        for number, data in enumerate(held.values()):
+            (folder / str(number)).write_bytes(data)
+        asked = {
+            "form": form,
+            "names": list(held),
+            "at": at,
+            "lenient": lenient,
+            "memory": allowed.memory,
+            "result": allowed.result,
+            "cpu_s": allowed.cpu_s,
+        }
+        (folder / ASKED).write_text(json.dumps(asked))
+        environment = {name: os.environ[name] for name in _PASSED if name in os.environ}
+        environment |= {"TMPDIR": made, "HOME": made, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+        command = [sys.executable, "-m", "fieldhand.site.formats.gis_process", made]
+        try:
+            done = subprocess.run(  # noqa: S603
+                command,
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                timeout=allowed.wall_s,
+                check=False,
+            ).returncode
+        except subprocess.TimeoutExpired:
+            raise _too_much(allowed, at) from None
+        except OSError as error:
+            raise SiteError(
+                f"the reader of such files cannot be started ({error.strerror or error})",
+                where=at,
+                advice="export the site as GeoJSON (WGS 84)",
+            ) from None
+        return _records(folder / RESULT, done, allowed, at)
+
+
+def as_json(records: Records) -> str:
+    """Return records as one text."""
+    features = [
+        {"unusable": [f.what, f.advice, dict(f.properties)]} if isinstance(f, UnusablePart) else {"feature": f}
+        for f in records.features
+    ]
+    return json.dumps(
+        {
+            "features": features,
+            "numbers": None if records.numbers is None else list(records.numbers),
+            "unit": records.unit,
+            "name": records.name,
+            "notes": list(records.notes),
+        },
+        default=_plain,
+    )
+
+
+def _plain(value: Any) -> Any:
+    """Return what JSON has for a value of a field; nothing for bytes, which no site needs."""
+    if isinstance(value, bytes):
+        return None
+    return value.tolist() if hasattr(value, "tolist") else str(value)
+
+
+def _records(result: Path, status: int, allowed: Allowance, at: str) -> Records:
+    try:
+        size = result.stat().st_size if status == 0 else -1
+        if not 0 <= size <= allowed.result:
+            raise _too_much(allowed, at)
+        found = json.loads(result.read_bytes())
+        if "error" in found:
+            what, where, advice = found["error"]
+            raise SiteError(what, where=where, advice=advice)
+        return Records(
+            features=[UnusablePart(*f["unusable"]) if "unusable" in f else f["feature"] for f in found["features"]],
+            numbers=found["numbers"],
+            unit=found["unit"],
+            name=found["name"],
+            notes=tuple(found["notes"]),
+        )
+    except (OSError, ValueError, TypeError, KeyError, RecursionError):
+        raise _too_much(allowed, at) from None
+
+
+def _too_much(allowed: Allowance, at: str) -> SiteError:
+    return SiteError(
+        f"the file cannot be read with what a file of its size may take"
+        f" ({allowed.memory / 1e9:.1f} GB of memory, {allowed.cpu_s} s), or broke its reader",
+        where=at,
+        advice="do not trust this file; export the site as GeoJSON (WGS 84)",
+    )

@@ -1,0 +1,49 @@
+"""The process in which GDAL reads a file (:mod:`fieldhand.site.formats.confined` starts it)."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+from fieldhand.errors import SiteError
+from fieldhand.site.formats.confined import ASKED, RESULT, as_json
+
+
+def main(folder: Path) -> int:
+    """Read the files of a folder and write the records, or what is wrong with the files, beside them."""
+    asked = json.loads((folder / ASKED).read_text())
+    _limit(memory=asked["memory"], cpu_s=asked["cpu_s"], result=max(asked["result"], 250_000_000))
+    from fieldhand.site.formats.gis import read_here
+
+    held = {name: (folder / str(number)).read_bytes() for number, name in enumerate(asked["names"])}
+    try:
+        text = as_json(read_here(asked["form"], held, asked["at"], lenient=asked["lenient"]))
+    except SiteError as error:
+        text = json.dumps({"error": [error.what, error.where, error.advice]})
+    except (MemoryError, RecursionError):
+        return 1
+    (folder / RESULT).write_text(text)
+    return 0
+
+
+def _limit(*, memory: int, cpu_s: int, result: int) -> None:
+    """Take away what a reader of files does not need."""
+    try:
+        import resource
+    except ImportError:  # no such limits on this system; that of the clock remains
+        return
+    for kind, most in (
+        (resource.RLIMIT_AS, memory),
+        (resource.RLIMIT_CPU, cpu_s),
+        (resource.RLIMIT_FSIZE, result),
+        (resource.RLIMIT_CORE, 0),
+        (resource.RLIMIT_NOFILE, 256),
+    ):
+        _, hard = resource.getrlimit(kind)
+        bounded = most if hard == resource.RLIM_INFINITY else min(most, hard)
+        resource.setrlimit(kind, (bounded, bounded))
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(Path(sys.argv[1])))
