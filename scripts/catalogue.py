@@ -68,6 +68,8 @@ def _of_data() -> Iterator[Entry]:
         for action in robot.actions:
             yield _entry(say_action(action.name, 2))
             yield _entry(say_captures(action.name, 2))
+            if action.words:
+                yield Entry(template=action.words[0], context="capture", said=())
             for parameter in action.parameters:
                 yield _entry(say_name(parameter.name))
         for quantity in robot.quantities:
@@ -86,6 +88,9 @@ def _of_data() -> Iterator[Entry]:
         yield Entry(template=colour, context="value", said=())
     for fault in ("action_failed", "drive_failed", "low_budget", "aborted"):
         yield Entry(template=fault, context="fault", said=())
+    yield Entry(template="power cut", context="log", said=())
+    for role in ("start", "end"):
+        yield Entry(template=role, context="role", said=())
     for way in ("return to end", "return to start", "stay"):
         yield Entry(template=way, context="way", said=())
 

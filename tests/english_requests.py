@@ -991,6 +991,16 @@ PLANNED = [
     ),
 ]
 
+#: Words of a planned request that nothing comes from, which a person has to confirm.
+WARNED = {
+    "CO2 readings at the corners: first the south-west corner, then the north-west, then the north-east and the south-east last.": "nothing in the plan comes from 'corners', 'corner', 'last'",
+    "Take a thermal picture of any 4 trees in the south-east quarter. If one of them is too hot, meaning over 40 degrees C, take an air temperature reading at that tree too.": "nothing in the plan comes from 'hot'",
+    "For the irrigation report, photograph tree 3.": "nothing in the plan comes from 'irrigation report'",
+    "We had a leak last week. Take a picture of tree 4.": "nothing in the plan comes from 'leak last week'",
+    "Could you take thermal photos of four trees along the western edge, so we can check for water stress?": "nothing in the plan comes from 'water stress'",
+    "Please collect leaves from any 6 Carmel trees for the lab, one sample per tree.": "nothing in the plan comes from 'lab', 'per'",
+}
+
 ASKED = [
     (
         "amiga",

@@ -226,7 +226,7 @@ def _trees(_: Path) -> list[bytes]:
 
 def _key_seeds(folder: Path) -> list[bytes]:
     TrustStore(folder / "seed").trust(g.key().public, name="Ada", at=g.NOW)
-    kept = next((folder / "seed" / "trusted").glob("*.json")).read_bytes()
+    kept = next((folder / "seed" / "trusted").glob("*-*.json")).read_bytes()
     own = [SigningKeys(folder / "seed").make(*words)[1] for words in (("Ada",), ("Bo", "wrong"))]
     return [f"> {g.key().public.line()}\n".encode(), kept, *(path.with_suffix(".key").read_bytes() for path in own)]
 

@@ -7,7 +7,7 @@ of each fact: is what the request states in the plan, and does what the plan hol
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import accumulate
+from itertools import accumulate, takewhile
 
 from fieldhand.errors import PlaceError
 from fieldhand.facts import words as w
@@ -16,13 +16,18 @@ from fieldhand.facts.limits import limits
 from fieldhand.facts.mismatch import Mismatch
 from fieldhand.facts.places import named_places
 from fieldhand.facts.planned import Captures, Number, Planned, planned
+from fieldhand.facts.selected import places
 from fieldhand.facts.stated import Stated, hints, stated
 from fieldhand.facts.thresholds import thresholds
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
+from fieldhand.task.plan import selector_of
+from fieldhand.task.selectors import Selector, is_relative
 from fieldhand.task.words import listed, say_name
 
+#: Steps that are counted together.
+_MOST_STEPS = 40
 #: Numbers that count nothing, and those that count no captures.
 _NAMES = frozenset({"id", "row", "name", "length", "time", "percent", "temperature", "unit", "attribute"})
 _PLACES = _NAMES | {"trees", "corners", "rows", "ordinal"}
@@ -75,10 +80,10 @@ def _counts(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
         n = int(amount.values[0]) if float(amount.values[0]).is_integer() else 0
         if amount.kind not in ("captures", "trees", "corners") or n < 2 or said.negated(amount.index):
             continue
-        if amount.compared or n in _explained(plan, amount) or _as_large(plan, n, site):
+        if amount.compared or n in _explained(plan, amount) or n in _sizes(plan, site):
             continue
         yield Mismatch(
-            kind="count", message=f"the request says '{_phrase(said, amount)}', and nothing in the plan is {n}"
+            kind="count", message=f"the request says '{_phrase(said, amount)}', and no steps of the plan come to {n}"
         )
     for number in plan.numbers:
         if number.kind != "count" or int(number.value) in _allowed(said, number) or _by_itself(said, number.what):
@@ -125,21 +130,27 @@ def _sums(acts: list[Captures]) -> set[int]:
     return found
 
 
-def _as_large(plan: Planned, n: int, site: Site) -> bool:
-    """Whether a selector comes out at so many places wherever the robot is ("all 18 yellow trees")."""
+def _sizes(plan: Planned, site: Site) -> set[int]:
+    """Return at how many places each selector comes out ("all 18 yellow trees"), and steps that follow each other."""
+    found = {n for _, selector in plan.selectors if (n := _size(selector, site)) is not None}
+    steps = [_size(top, site) for node in plan.nodes if (top := selector_of(node)) is not None]
+    for start in range(min(len(steps), _MOST_STEPS)):
+        known = takewhile(lambda n: n is not None, steps[start : start + _MOST_STEPS])
+        found.update(accumulate(n for n in known if n is not None))
+    return found
+
+
+def _size(selector: Selector, site: Site) -> int | None:
+    """Return at how many places a selector comes out wherever the robot is; None where that is open."""
     from fieldhand.site.context import Context
     from fieldhand.site.places import resolve
-    from fieldhand.task.selectors import is_relative
 
-    for _, selector in plan.selectors:
-        if is_relative(selector):
-            continue
-        try:
-            if len(resolve(selector, site, Context(here=site.start))) == n:
-                return True
-        except PlaceError:
-            continue
-    return False
+    if is_relative(selector):
+        return places(selector).exact
+    try:
+        return len(resolve(selector, site, Context(here=site.start)))
+    except PlaceError:
+        return None
 
 
 def _allowed(said: Stated, number: Number) -> set[int]:

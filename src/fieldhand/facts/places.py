@@ -14,7 +14,9 @@ from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 from fieldhand.task import selectors as s
 from fieldhand.task.build import FAULTED_EXITS
+from fieldhand.task.selectors import Side
 
+_SIDES: tuple[Side, ...] = ("north", "east", "south", "west")
 _CHARGER = frozenset({"charger", "dock"})
 #: Selectors that stand for a side without naming it: rows and trees in them count from one.
 _UNNAMED = (s.Rows, s.InRow, s.RowOf, s.AlongRow, s.Across, s.EveryNth, s.Successive, s.Nth)
@@ -34,7 +36,8 @@ def named_places(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
     """Contradictions in what places are called."""
     yield from _trees(said, plan)
     yield from _rows(said, plan, site)
-    yield from _areas(said, plan)
+    yield from _areas(said, plan, site)
+    yield from _gates(said, plan, site)
     yield from _sides(said, plan)
     yield from _attributes(said, plan)
     yield from _ends(said, plan, site)
@@ -119,12 +122,15 @@ def _holds(row: s.Rows, amount: Amount) -> bool:
     return first < 0 or last < 0 or min(first, last) <= amount.values[0] <= max(first, last)
 
 
-def _areas(said: Stated, plan: Planned) -> Iterator[Mismatch]:
+def _areas(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
     """Each zone or block that is called by its name is in the plan; a zone of the plan is called by some word of it."""
-    held = {" ".join(t.text for t in _tokens(name)) for _, name in plan.areas}
+    pointed = _pointed(plan)
+    held = {_said(name) for _, name in plan.areas}
     rows = {t for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) for t in (x.first.lower(), x.last.lower())}
     for name in sorted(said.zones - held - rows):
-        if not any(name in other for other in held):
+        if name in w.COMPASS and w.COMPASS[name] <= pointed:
+            continue  # a block called "North" is not what "from the north" or "the northernmost" means
+        if not any(name in other for other in held) and not _stands_in(plan, name, site):
             yield Mismatch(kind="place", message=f"the request names '{name}', and the plan does not")
     for node, name in plan.areas:
         words = {t.text for t in _tokens(name)}
@@ -133,6 +139,52 @@ def _areas(said: Stated, plan: Planned) -> Iterator[Mismatch]:
         yield Mismatch(kind="place", message=f"the plan names {name[:40]!r}, and the request does not", node=node)
     if said.words & _CHARGER and "charger" not in plan.markers and not said.words & {"recharge", "recharging"}:
         yield Mismatch(kind="place", message="the request names the charger, and the plan does not")
+
+
+def _pointed(plan: Planned) -> set[Side]:
+    """Return the sides of the compass that a plan holds anywhere: places there, counts from there, ways and orders."""
+    held: set[str] = set(plan.sides)
+    for _, selector in plan.selectors:
+        held |= {str(getattr(selector, name, "")) for name in ("counted_from", "side", "towards")}
+        corners = (*getattr(selector, "which", ()), getattr(selector, "quarter", ""))
+        held |= {side for side in _SIDES if any(side[0] in corner for corner in corners)}
+        held |= {side for side in _SIDES if side in str(getattr(selector, "by", ""))}
+    return {side for side in _SIDES if side in held}
+
+
+def _stands_in(plan: Planned, name: str, site: Site) -> bool:
+    """Return True if a tree that the plan names by its id stands in the zone or block of that name."""
+    from fieldhand.errors import PlaceError
+    from fieldhand.site.context import Context
+    from fieldhand.site.places import resolve
+
+    named = {tree for _, tree in plan.trees if tree in site.by_id}
+    if not named:
+        return False
+    called = [x for x in (*(z.name for z in site.zones), *(b.name for b in site.planting.blocks)) if _said(x) == name]
+    for zone in called:
+        try:
+            inside = resolve(s.InZone(zone=zone), site, Context(here=site.start))
+        except PlaceError:
+            continue
+        if named & {place.id for place in inside}:
+            return True
+    return False
+
+
+def _gates(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
+    """Each gate that is called by its name is in the plan, and no other."""
+    held = {_said(x.gate): node for node, x in plan.having(s.GateIs) if isinstance(x, s.GateIs)}
+    for name in dict.fromkeys(_said(gate.place.id) for gate in site.gates):
+        if f" {name} " in f" {said.text} " and not held and name not in said.zones:
+            yield Mismatch(kind="place", message=f"the request names '{name}', and the plan does not")
+    for name, node in held.items():
+        if not said.unknown and not set(name.split()) & said.words:
+            yield Mismatch(kind="place", message=f"the plan names {name[:40]!r}, and the request does not", node=node)
+
+
+def _said(name: str) -> str:
+    return " ".join(t.text for t in _tokens(name))
 
 
 def _tokens(name: str) -> tuple[w.Token, ...]:
@@ -154,7 +206,7 @@ def _sides(said: Stated, plan: Planned) -> Iterator[Mismatch]:
             yield Mismatch(kind="side", message=f"the request says '{side}', and no place of the plan is there")
     if said.unknown or said.words & w.VAGUE_SIDES or _OTHER_PART.search(said.text):
         return
-    around = len(plan.sides) == 4 and not said.sides  # each quarter, or the edge all around
+    around = len(plan.sides) == 4 and not spoken  # each quarter, or the edge all around
     ends = frozenset() if said.sides else plan.ends_driven
     for side, node in plan.sides.items():
         if side not in said.sides and not around and side not in ends:

@@ -115,7 +115,13 @@ class Planned:
     def sides(self) -> dict[Side, str]:
         """Sides of the compass that selectors name, each with a node; all four corners together name none."""
         found: dict[Side, str] = {}
+        visited: dict[Selector, set[str]] = {}
+        for _, x in self.selectors:
+            if isinstance(x, s.Corners):
+                visited.setdefault(x.of, set()).update(x.which)
         for node, x in self.selectors:
+            if isinstance(x, s.Corners) and len(visited[x.of]) == 4:
+                continue  # one after the other they are all four, whose sides nobody has to say
             for side in sides(x):
                 found.setdefault(side, node)
         return found

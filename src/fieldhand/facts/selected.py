@@ -45,7 +45,7 @@ def places(selector: Selector) -> Range:
             return Range(low=total if apart and total is not None else 1, high=total)
         case s.Spaced(count=count) | s.Apart(count=count) | s.PointsIn(count=count) if count:
             return Range(low=count, high=count)
-        case s.Extreme() | s.Middle() | s.EdgeMiddle() | s.Nearest() | s.Farthest() | s.Top() | s.Take():
+        case s.Extreme() | s.Middle() | s.EdgeMiddle() | s.Nearest() | s.Farthest() | s.Top() | s.Take() | s.Random():
             return Range(low=selector.count, high=selector.count)
         case s.Adjacent() | s.Successive():
             return Range(low=selector.count, high=selector.count)

@@ -126,7 +126,7 @@ PLAIN = words_in("""
     finished end ends ending start starts starting begin beginning complete continue proceed carry repeat repeating
     process procedure thing steps step mission robot send tree trees vine vines plant plants orchard farm field
     block blocks site plot grove vineyard row rows corner corners edge edges side sides half halves quarter quarters
-    part section area region zone middle centre center end ends boundary spot place point location position marker
+    part section area region zone middle centre center end ends boundary spot place point location position marker gate
     home base starting charger charging station dock possible battery charge energy power budget reserve left
     remaining remain remains keep keeping use uses using used spend time allows allow permits permit minutes minute
     seconds second hours hour metres metre meters meter feet percent degrees degree celsius fahrenheit most least

@@ -14,12 +14,13 @@ from shapely.geometry import box
 from fieldhand import mission
 from fieldhand.errors import ModelError, NotApprovedError
 from fieldhand.facts import mismatches
-from fieldhand.planning.llm.prompt import LONGEST_LINE, MOST_DATA, MOST_OF_SITE, opening, repair
+from fieldhand.planning.llm.prompt import LONGEST_LINE, MOST_DATA, opening, repair
 from fieldhand.planning.planner import Clarify, Planned, Refused
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site, Zone
 from fieldhand.task.codec import decode, encode
+from fieldhand.visible import visible
 from scripted_chat import ScriptedChat, planner_of, task_document
 from site_grids import grid
 
@@ -75,7 +76,8 @@ def fences(text: str) -> dict[str, list[str]]:
 
 @pytest.mark.parametrize("order", ORDERS, ids=range(len(ORDERS)))
 def test_an_order_in_a_file_stays_inside_its_fence(order: str) -> None:
-    text = opening(REQUEST, hostile_site(order), hostile_robot(order))[1].text
+    # What is hidden in a site, its reader refuses.
+    text = opening(REQUEST, hostile_site(visible(order, lines=True)), hostile_robot(order))[1].text
     inside = fences(text)
     assert set(inside) == {"robot", "site"}
     for lines in inside.values():
@@ -83,7 +85,7 @@ def test_an_order_in_a_file_stays_inside_its_fence(order: str) -> None:
         # A line is cut before it is escaped; an escaped sign is at most five characters.
         assert all(len(line) <= 5 * (LONGEST_LINE + 3) for line in lines)
     assert not INVISIBLE.search(text)
-    assert len(text) <= MOST_DATA + MOST_OF_SITE + 600
+    assert len(text) <= 2 * MOST_DATA + 600
     assert text.count(REQUEST) == 1
 
 

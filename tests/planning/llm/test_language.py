@@ -12,9 +12,10 @@ import pytest
 from fieldhand.errors import ModelError
 from fieldhand.planning.llm import language
 from fieldhand.planning.llm.language import DERIVED, describe_language
+from fieldhand.planning.llm.prompt import instructions
 from fieldhand.task import plan
 from fieldhand.task.capabilities import Capabilities
-from fieldhand.task.codec_shapes import element_name, shape_of
+from fieldhand.task.codec_shapes import all_shapes, element_name, shape_of
 from fieldhand.task.conditions import Condition
 from fieldhand.task.plan import Node
 from fieldhand.task.schema import schema_xsd
@@ -65,3 +66,23 @@ def paragraphs() -> dict[str, tuple[str, str]]:
         if form.startswith("<") and meaning.startswith("  "):
             found[re.split(r"[\s>/]", form[1:])[0]] = (form, meaning.strip())
     return found
+
+
+def test_what_stands_for_a_selector_that_is_left_out_is_shown() -> None:
+    forms = {name: form for name, (form, _) in paragraphs().items()}
+    for name in ("spaced", "successive"):
+        assert "[<near>S (<here/>)</near>]" in forms[name]
+    for name in ("along-row", "across"):
+        assert "[S = origin (<here/>)]" in forms[name]
+    assert forms["half"].endswith(">[S]")
+
+
+def test_every_element_and_attribute_that_the_rules_and_examples_write_is_of_the_language() -> None:
+    shapes = {shape.element: {a.name for a in shape.attributes} for shape in all_shapes().values()}
+    text = instructions()
+    for name, inside in re.findall(r"<([a-z][a-z-]*)((?: [a-z-]+=\"[^\"<>]*\")*) ?/?>", text):
+        if name in shapes:
+            written = set(re.findall(r"([a-z-]+)=", inside)) - {"words", "xmlns"}
+            assert written <= shapes[name], (name, written - shapes[name])
+    alone = set(re.findall(r"[ (]([a-z]+(?:-[a-z]+)*)=\"", text.partition("# The plan language")[0]))
+    assert alone - {"words", "xmlns"} <= set().union(*shapes.values())

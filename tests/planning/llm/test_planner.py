@@ -10,13 +10,13 @@ import pytest
 
 from fieldhand.approval.account import unaccounted
 from fieldhand.errors import ModelError, OutputError, RequestError
+from fieldhand.planning.homeward import faulted_exits
 from fieldhand.planning.llm.planner import LONGEST_REQUEST, LlmPlanner
 from fieldhand.planning.llm.replay import replay
 from fieldhand.planning.llm.scripted import ScriptedAnswer, ScriptedEndpoint
 from fieldhand.planning.llm.transcript import read_transcript
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Refused
 from fieldhand.robot.loader import load_robot
-from fieldhand.task.build import FAULTED_EXITS
 from fieldhand.task.codec import decode, encode
 from fieldhand.task.plan import Act, walk
 from fieldhand.task.selectors import Corners
@@ -64,7 +64,7 @@ def test_a_good_answer_becomes_a_whole_task(wrap: str) -> None:
     assert task.composition.plan.id == "n1"
     assert task.composition.plan.said == ()
     assert getattr(task.composition.plan, "select", None) == Corners()
-    assert (task.composition.nominal, task.composition.faulted) == ("return_to_start", FAULTED_EXITS)
+    assert (task.composition.nominal, task.composition.faulted) == ("return_to_start", faulted_exits("return_to_start"))
     assert [b.limit for b in task.constraints.budgets] == [50.0]
     assert {(r.kind, r.sha256) for r in task.resources} == {("site", SITE.sha256), ("robot", HUSKY.sha256)}
     assert decode(encode(task)) == task
@@ -241,3 +241,20 @@ def test_repairs_can_be_switched_off() -> None:
         with pytest.raises(ModelError, match="none of 1 answers"):
             LlmPlanner(settings).plan(REQUEST, SITE, HUSKY)
         assert len(endpoint.requests) == 1
+
+
+def test_a_word_that_is_said_twice_is_found_where_no_other_quote_stands() -> None:
+    request = "Check CO2 at tree 4; if it is above 450 ppm, check the trees next to it."
+    answer = """<task><task-composition><plan><sequence>
+      <act reading="a" words="check co2 at tree 4"><read_co2/><at><tree-is tree="4"/></at></act>
+      <if words="if it is above 450 ppm">
+        <condition><compare reading="a" test="gt"><co2 value="450" unit="ppm"/></compare></condition>
+        <then><for-each words="the trees next to it">
+          <select><nearest count="2" adjacent="true"><to><tree-is tree="4"/></to></nearest></select>
+          <body><act words="check"><read_co2/></act></body>
+        </for-each></then>
+      </if>
+    </sequence></plan></task-composition></task>"""
+    planned = ask(answer, request=request)
+    assert isinstance(planned, Planned)
+    assert unaccounted(planned.task) == ()

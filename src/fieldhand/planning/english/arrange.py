@@ -72,14 +72,12 @@ class Arranged:
         filler: Where words stand that mean nothing to a plan.
         reasons: What is said as a reason.
         remarks: What is said besides.
-        notes: How words were read that are not known as they are written, as sentences.
     """
 
     sentences: tuple[Sentence, ...]
     filler: tuple[Span, ...] = ()
     reasons: tuple[str, ...] = ()
     remarks: tuple[str, ...] = ()
-    notes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

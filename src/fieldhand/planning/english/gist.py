@@ -83,6 +83,8 @@ def gist(terms: Sequence[Term], glue: frozenset[str]) -> list[Term] | None:
         return None
     if any(a.kind == "EACH" and b.kind in ("OTHER", "ORD") for a, b in pairwise(flat)):
         return None  # "every other corner"
+    if any(t.kind == "PLOT" and t.plural for t in flat):
+        return None  # "the corners of both blocks"
     noun = next((t for t in nouns if t.kind == "NOUN"), nouns[0])
     numbers = [t for t, after in pairwise([*flat, flat[-1]]) if t.kind == "NUM" and after.kind not in _AREAS]
     scene = _Scene(terms=flat, noun=noun, kinds=frozenset(t.kind for t in flat), numbers=numbers)

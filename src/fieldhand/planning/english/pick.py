@@ -163,7 +163,12 @@ def _by_nearness(bag: Bag, of: s.Selector, group: Group, plural: bool) -> Found 
         beside = group.beside
         if not beside and is_spot(near) and not bag.has("ORD"):
             return _ranked(bag, of, plural, lambda n, base: s.Adjacent(near=near, count=n, of=base))
-        return _ranked(bag, of, plural, lambda n, base: s.Nearest(to=near, count=n, adjacent=beside, of=base))
+        side = group.side
+        if side != "any" and (plural or (bag.count or 1) > 1):
+            raise bag.fault("one tree is next to it on that side", "say 'the tree next to it on the east'")
+        return _ranked(
+            bag, of, plural, lambda n, base: s.Nearest(to=near, count=n, adjacent=beside, side=side, of=base)
+        )
     if bag.take("NEAREST") is not None:
         return _ranked(bag, of, plural, lambda n, base: s.Nearest(to=near, count=n, of=base))
     if bag.has("NEARBY") and bag.words("NEARBY")[0].text.lower().startswith("neighb") and (bag.count or 0) > 1:
@@ -189,6 +194,8 @@ def _points(bag: Bag, group: Group) -> Found | None:
     points = all(t.text.lower() not in ("one", "ones") for t in bag.words("PLACE"))
     if not (points and isinstance(zone, s.InZone) and zone.of == s.Trees() and not zone.outside):
         return None
+    if bag.has("RANDOM"):
+        raise bag.fault("points are spread evenly over a zone, not at random", "say 'at 3 points', or '3 random trees'")
     if not bag.only("PLACE", "OTHER") or group.anchor is not None or group.kept(zone) != zone:
         return None
     bag.take("OTHER")
@@ -267,6 +274,8 @@ def _some_of(bag: Bag, of: s.Selector, *, plural: bool, site: Site, single: bool
         raise how_many(bag.phrase, ("2", "4"), asked=f"'{text}': how many of them?", of_all=True)
     if bag.article == "some" and plural and count is None:
         raise how_many(bag.phrase, ("2", "4"), of_all=True)
+    if (drawn := bag.take("RANDOM")) is not None:
+        return _drawn(bag, of, int(drawn.value or 0), plural=plural)
     bare = of == s.Trees()
     if bare and bag.definite and count is None and not bag.each:
         if not plural:
@@ -280,6 +289,16 @@ def _some_of(bag: Bag, of: s.Selector, *, plural: bool, site: Site, single: bool
         return Found(selector=of, many=True)
     number = count or 1
     return Found(selector=s.Take(count=number, of=of), many=number > 1, counted=number)
+
+
+def _drawn(bag: Bag, of: s.Selector, seed: int, *, plural: bool) -> Found:
+    """Return some of a group, drawn at random."""
+    if bag.each:
+        raise bag.fault("all of them, or some at random?", "say how many: '10 trees at random'")
+    if plural and bag.count is None:
+        raise how_many(bag.phrase, ("5", "10"), of_all=True)
+    number = bag.count or 1
+    return Found(selector=s.Random(count=number, seed=seed, of=of), many=number > 1, counted=number)
 
 
 def _every(bag: Bag, of: s.Selector, plural: bool, site: Site) -> Found:

@@ -27,6 +27,7 @@ from fieldhand.planning.english.joining import (
     without_appositions,
     without_both,
 )
+from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.english.pick import picked
 from fieldhand.planning.english.rows import rows_meant, some_block, speaks_of_rows, unnamed_block
 from fieldhand.planning.english.sets import Group
@@ -37,6 +38,22 @@ from fieldhand.task import selectors as s
 
 #: Words that make a phrase behind "with" or "of" a description rather than a place ("with yellow leaves").
 _DESCRIBING = ("ATTR", "ATTRVAL", "SUPER")
+#: What "on the east" begins with where it is said of a tree.
+_OF_ANCHOR = frozenset(
+    {
+        "on",
+        "to",
+        "at",
+        "towards",
+        "toward",
+        "over on",
+        "across on",
+        "located on",
+        "situated on",
+        "standing on",
+        "growing on",
+    }
+)
 _SPREAD_ADVICE = "free points are spread over a zone: 'at 5 points spread over the wet corner'"
 _SEVERAL = frozenset({"them", "they", "both", "each", "every", "all", "these", "those"})
 _ANCHORED = ("NEAREST", "FARTHEST", "FAR", "STEP", "OPPOSITE")
@@ -93,6 +110,7 @@ def find(places: Places, site: Site) -> Found:
     found = from_each_other(found)
     if any(f.object_only or f.optional or f.at_most for f in found):
         raise unclear(places.terms, "these cannot be said together", "say each in a sentence of its own")
+    found = [_after(f, found[k - 1] if k else None, places) for k, f in enumerate(found)]
     if any(f.here for f in found):
         found = [replace(f, selector=s.Here()) if f.here else f for f in found]
     rows = all(f.rows for f in found)
@@ -107,6 +125,21 @@ def find(places: Places, site: Site) -> Found:
         one_by_one=tuple(one for f in found for one in f.one_by_one) if all(f.one_by_one for f in found) else (),
         assumed=tuple(sentence for f in found for sentence in f.assumed),
     )
+
+
+def _after(found: Found, before: Found | None, places: Places) -> Found:
+    """Return what was found with "it" as the place named right before, which the robot need not have reached by then.
+
+    Raises:
+        Unclear: Several places were named before.
+    """
+    far_or_near = [part for part in s.walk(found.selector) if isinstance(part, s.Nearest | s.Farthest)]
+    of_it = [part for part in far_or_near if s.Here() in s.parts(part)]
+    if before is None or not of_it:
+        return found
+    if before.many or before.here or s.is_relative(before.selector):
+        raise unclear(places.terms, "it is not clear next to what", "say it in a sentence of its own")
+    return replace(found, selector=swapped(found.selector, s.Here(), before.selector))
 
 
 def _chains(places: Places) -> list[tuple[Chain, tuple[Chain, ...]]]:
@@ -182,10 +215,12 @@ def _read(part: _Part, excepted: tuple[s.Selector, ...], site: Site) -> Found:
         bag.finish()
         these = bag.each or (word is not None and are_several(word))
         return Found(selector=s.Here(), here=True, these=these)
-    group = Group()
+    group = Group(side=_side_of_anchor(part))
     size: int | None = None
     successive = False
     for relation, inner in part.described:
+        if _is_side_of_anchor(part, relation, inner):
+            continue
         if bag.has("ROW") and relation.kind in ("OF", "WITH") and _is_size(inner):
             size = inner.bag.count
             continue
@@ -210,6 +245,49 @@ def _read(part: _Part, excepted: tuple[s.Selector, ...], site: Site) -> Found:
     if not phrase.nominals:
         return quantity_alone(bag, group, phrase, [relation for relation, _ in part.described])
     return picked(bag, group, site)
+
+
+def _is_side_of_anchor(part: _Part, relation: Term, inner: _Part) -> bool:
+    """Return True for "on the east" behind "next to it": a side of that place rather than of the site.
+
+    Raises:
+        Unclear: It can be read both ways.
+    """
+    at = next(k for k, (r, _) in enumerate(part.described) if r is relation)
+    before = [r.kind for r, _ in part.described[:at]]
+    beside = any(r.kind == "NEXTTO" for r, _ in part.described)
+    bag = inner.bag
+    near = any(r.kind == "NEAR" and are_named for r, are_named in _named_anchors(part))
+    if relation.kind not in ("AT", "INSIDE") or not (beside or near) or inner.described or bag.count or bag.each:
+        return False
+    if near and relation.text.lower() not in _OF_ANCHOR:
+        return False  # "the 3 trees nearest to tree 4 in the northern half"
+    sides = bag.words("DIR")
+    if len(sides) != 1 or not bag.only("DIR", "SIDE"):
+        return False
+    if relation.text.lower() not in _OF_ANCHOR or "NEXTTO" not in before:
+        raise unclear(
+            (relation, *inner.phrase.terms),
+            "on that side of the tree, or in that half of the site?",
+            "say 'next to it on the east', or 'in the eastern half'",
+        )
+    if len(sides[0].value) == 2:
+        raise unclear((relation, *inner.phrase.terms), "a neighbour is on one of four sides", "say 'on the east'")
+    return True
+
+
+def _named_anchors(part: _Part) -> tuple[tuple[Term, bool], ...]:
+    """Return each relation of a phrase, and if it is to a tree that is named, or to "it"."""
+    return tuple((r, bool(inner.bag.ids) or inner.bag.has("IT")) for r, inner in part.described)
+
+
+def _side_of_anchor(part: _Part) -> s.AnySide:
+    """Return the side of its anchor that a phrase speaks of."""
+    found = [inner for relation, inner in part.described if _is_side_of_anchor(part, relation, inner)]
+    if len(found) > 1:
+        raise unclear(part.phrase.terms, "two sides at once", "say one of them")
+    side: s.AnySide = found[0].bag.words("DIR")[0].value if found else "any"
+    return side
 
 
 def _in_a_row(bag: Bag, inner: _Part) -> bool:

@@ -8,12 +8,13 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from fieldhand.errors import PlaceError, TaskError
+from fieldhand.planning.english.averages import check_averages
 from fieldhand.planning.english.draft import Halt, node_of
 from fieldhand.planning.english.faults import Unclear
-from fieldhand.planning.english.homeward import exit_of, stays_if_home_is_far
 from fieldhand.planning.english.limits import Limit
 from fieldhand.planning.english.told import Told
 from fieldhand.planning.foreseen import foreseeable
+from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_exit
 from fieldhand.planning.planner import Outcome, Planned, Reason, Refused
 from fieldhand.robot.capabilities import measures_of
 from fieldhand.robot.model import RobotProfile
@@ -21,18 +22,21 @@ from fieldhand.site.context import Context
 from fieldhand.site.model import Site
 from fieldhand.site.places import resolve
 from fieldhand.task import plan as p
-from fieldhand.task.build import FAULTED_EXITS, make_task
-from fieldhand.task.frames import Budget, BudgetKind, Constraints, FaultedExit, Resource, Then
+from fieldhand.task.build import make_task
+from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource
 
 NAME = "english"
 KINDS: dict[str, BudgetKind] = {"metres": "distance_m", "seconds": "duration_s", "percent": "energy_percent"}
 
 
-def planned(request: str, read_as: str, told: Told, site: Site, robot: RobotProfile) -> Outcome:
+def planned(
+    request: str, read_as: str, told: Told, site: Site, robot: RobotProfile, *, warnings: tuple[str, ...] = ()
+) -> Outcome:
     """The Task of what a request says.
 
     Args:
         read_as: The request with the words of its answers; empty if there were none.
+        warnings: What has to be confirmed before the Task is approved, as sentences.
 
     Raises:
         Unclear: A limit that cannot be kept.
@@ -42,7 +46,8 @@ def planned(request: str, read_as: str, told: Told, site: Site, robot: RobotProf
             what="the request asks for nothing to be done", advice="say what to take or measure, and at which trees"
         )
         return Refused(reasons=(reason,), planner=NAME)
-    nominal, assumptions = exit_of(told, site)
+    check_averages(told.root, request, robot)
+    nominal = usual_exit(site) if told.nominal is None else told.nominal
     plan = node_of(told.root)
     if isinstance(plan, p.Sequence):
         plan = replace(plan, said=tuple(told.joints))
@@ -60,23 +65,17 @@ def planned(request: str, read_as: str, told: Told, site: Site, robot: RobotProf
         nominal=nominal,
         nominal_said=tuple(told.nominal_said),
         no_part=tuple((start, end) for start, end in told.no_part if re.search(r"\w", request[start:end])),
-        faulted=_faulted(nominal),
+        faulted=faulted_exits(nominal),
         read_as=read_as,
-        assumptions=tuple(dict.fromkeys([*told.assumptions, *assumptions])),
+        assumptions=tuple(dict.fromkeys(told.assumptions)),
+        warnings=warnings,
     )
     problems = tuple(_impossible(task.composition.plan, site))
     if problems:
         return Refused(reasons=problems, planner=NAME)
     if told.nominal is None:
-        task = stays_if_home_is_far(task, site, robot)
+        task = with_assumed_exit(task, site, robot)
     return Planned(task=task, planner=NAME)
-
-
-def _faulted(nominal: Then) -> tuple[FaultedExit, ...]:
-    """What every mission does about faults; one that is to return to the start goes there when little is left, too."""
-    if nominal != "return_to_start":
-        return FAULTED_EXITS
-    return tuple(replace(e, then=nominal) if e.fault == "low_budget" else e for e in FAULTED_EXITS)
 
 
 def _constraints(limits: Iterable[Limit]) -> Constraints:

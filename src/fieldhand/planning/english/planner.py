@@ -11,10 +11,11 @@ from fieldhand.planning.english.planned import NAME
 from fieldhand.planning.english.reading import reading_of, refused
 from fieldhand.planning.english.rewording import Worded
 from fieldhand.planning.english.tokens import Word, words_of
+from fieldhand.planning.english.unheld import unheld
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Reason
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
-from fieldhand.task.codec_text import unwritable_character
+from fieldhand.task.codec_text import hidden_character
 
 #: A request longer than this is no request. Nothing but reading it takes time, and that grows with its length.
 LONGEST_REQUEST = 8_000
@@ -38,6 +39,8 @@ class EnglishPlanner:
         def read(worded: Worded, taken: tuple[Answer, ...]) -> Outcome:
             said = words_of(worded.text)
             _check_length(said)
+            if reasons := unheld(said):
+                return refused(worded, reasons)
             return reading_of(request, worded, said, taken, site, robot).outcome()
 
         _check_text(request)
@@ -75,11 +78,9 @@ def _check_text(request: str) -> None:
             f"the request has {len(request):,} characters, at most {LONGEST_REQUEST:,} are read",
             advice="say it shorter, or split it into missions",
         )
-    odd = unwritable_character(request)
+    odd = hidden_character(request, lines=True)
     if odd is not None:
-        raise RequestError(
-            f"the request holds the character {odd!r}, which no document can hold", advice="leave it out"
-        )
+        raise RequestError(f"the request holds the character {odd}, which nobody can see", advice="leave it out")
 
 
 def _check_length(words: Sequence[Word]) -> None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import count
 
 from fieldhand.facts import mismatches
 from fieldhand.language import message
@@ -99,7 +100,7 @@ class Reading:
             return refused(self.worded, unknown), None
         arranged = arrange(asked)
         filler = (*arranged.filler, *aside, *_turned(self.said, self.words))
-        arranged = replace(arranged, filler=filler, remarks=tuple(remarks), notes=self.notes)
+        arranged = replace(arranged, filler=filler, remarks=tuple(remarks))
         _all_accounted(self.words, arranged)
         told = _told(arranged, text, self.robot, self._site)
         outcome = self._planned(told)
@@ -113,7 +114,8 @@ class Reading:
     def _planned(self, told: Told) -> Outcome:
         told.assumptions += [str(answer) for answer in self.taken]
         as_typed(told, self.worded)
-        return planned(self.request, self.worded.text if self.taken else "", told, self._site, self.robot)
+        read_as = self.worded.text if self.taken else ""
+        return planned(self.request, read_as, told, self._site, self.robot, warnings=self.notes)
 
     def _in_other_words(self, made: list[Term] | None) -> tuple[Planned, Told] | None:
         """The plan of what a request comes to; None if that is no plan, or not what the request says."""
@@ -122,7 +124,7 @@ class Reading:
         spans = [t.span for t in made]
         rest = tuple((w.start, w.end) for w in self.said if not any(a <= w.start and w.end <= b for a, b in spans))
         try:
-            arranged = replace(arrange(Asked(terms=tuple(made), filler=rest)), notes=self.notes)
+            arranged = arrange(Asked(terms=tuple(made), filler=rest))
             told = _told(arranged, self.worded.text, self.robot, self._site)
             meant = message("The request is read as '{meant}'.", context="assumption", meant=said_in_order(made))
             told.assumptions.append(meant)
@@ -154,9 +156,16 @@ def reading_of(
         lexicon=lexicon,
         said=tuple(said),
         words=tuple(words),
-        terms=tuple(lexicon.terms(words)),
+        terms=tuple(_with_seeds(lexicon.terms(words))),
         notes=tuple(notes),
     )
+
+
+def _with_seeds(terms: Sequence[Term]) -> Iterator[Term]:
+    """Yield the terms, each draw at random with a seed of its own, so that two draws of a request are independent."""
+    draws = count()
+    for term in terms:
+        yield replace(term, value=next(draws)) if term.kind == "RANDOM" else term
 
 
 def _of_the_robot(word: Word, robot: RobotProfile) -> Word:
@@ -229,7 +238,6 @@ def _told(arranged: Arranged, request: str, robot: RobotProfile, site: Site) -> 
         discourse.told.assumptions.append(
             message("'{said}' is taken as a remark: nothing is done about it.", context="assumption", said=remark)
         )
-    discourse.told.assumptions.extend(arranged.notes)
     return discourse.told
 
 

@@ -20,6 +20,8 @@ _AGAIN = re.compile(
     r"\b(again|another|second|more|twice|times|repeat\w*|confirm\w*|double|further|additional|extra|other|both|third"
     r"|fourth|next)\b"
 )
+#: How words begin that only say of what.
+_OF = re.compile(r"(?:of|in|from|at|on|along)?")
 #: Where the robot sets out from is a place to be, with nothing to do there.
 _BEGINS = re.compile(r"\b(from|start\w*|begin\w*|set\w* (?:off|out)|leav\w*|via)\b")
 
@@ -43,6 +45,9 @@ def check_sense(root: d.Block, request: str) -> None:
             idle = captures and _leads_nowhere(step) and _is_elsewhere(after)
             if idle and not _BEGINS.search(_text(_said(step), request).lower()):
                 raise Question(f"'{_text(_said(step), request)}': what is to be done there?")
+            if _is_of_all(step, after) and _OF.fullmatch(_between(step, after, request)):
+                what = "as many of all trees, or of these?"
+                raise _unclear(_said(after), request, what, "say 'as many vines of row 3 as you can'")
             if _is_mixed(step):
                 raise _unclear(_said(step), request, "which places are meant is not clear", "name them all")
             if _is_far_for_nothing(step, after):
@@ -77,6 +82,22 @@ def _is_elsewhere(step: d.Step | None) -> bool:
 
 def _is_near(place: s.Selector) -> bool:
     return any(isinstance(part, s.Here | s.Take | s.Other | s.RowOf | s.Nearest) for part in s.walk(place))
+
+
+def _is_of_all(step: d.Step, after: d.Step | None) -> bool:
+    """Return True for as many as fit of all trees, followed by the same at a place ("... as you can | of row 3")."""
+    if not isinstance(step, d.Loop) or not step.optional or step.select != s.Trees():
+        return False
+    taken = {inner.action for inner in step.body.steps if isinstance(inner, d.Capture)}
+    if isinstance(after, d.Loop):
+        return any(isinstance(inner, d.Capture) and inner.action in taken for inner in after.body.steps)
+    return isinstance(after, d.Capture) and after.action in taken
+
+
+def _between(step: d.Step, after: d.Step | None, request: str) -> str:
+    """Return what stands between the words of two steps."""
+    end, begin = max(e for _, e in _said(step)), min((b for b, _ in _said(after)), default=0)
+    return request[end:begin].strip().lower()
 
 
 def _is_mixed(step: d.Step) -> bool:

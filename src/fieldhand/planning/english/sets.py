@@ -24,6 +24,7 @@ class Group:
         area: The trees that they leave.
         anchor: The place that nearness is measured from.
         beside: "Next to" rather than "near".
+        side: On which side of the anchor.
         region: The descriptions name an area.
         single: The descriptions name one place.
         rows: The rows or blocks that they name; None if they name none.
@@ -38,6 +39,7 @@ class Group:
     area: s.Selector = field(default_factory=s.Trees)
     anchor: s.Selector | None = None
     beside: bool = False
+    side: s.AnySide = "any"
     region: bool = False
     single: bool = False
     rows: s.Selector | None = None

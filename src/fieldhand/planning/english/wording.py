@@ -18,6 +18,7 @@ from typing import Any
 from fieldhand.planning.english.runon import with_stops
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.english.triggers import Triggers, may_match, triggers
+from fieldhand.task.weightless import is_weightless
 
 _KEPT = re.compile(r"\$(\d)")
 
@@ -99,6 +100,8 @@ def _applied(pattern: re.Pattern[str], said: str, words: list[Word]) -> list[Wor
         if begin not in first_at or end not in last_at or end <= begin or first_at[begin] < done:
             continue
         first, last = first_at[begin], last_at[end]
+        if _swallows(pattern, said, match, words[first : last + 1]):
+            continue
         made += words[done:first]
         made += _put(said, match, words, first, last, first_at, last_at)
         done = last + 1
@@ -121,6 +124,7 @@ def _put(
     end = words[last].end
     made: list[Word] = []
     place, put = words[first].start, 0
+    paraphrases = any(_KEPT.fullmatch(piece) is None for piece in said.split())
     for piece in said.split():
         kept = _KEPT.fullmatch(piece)
         if kept is None:
@@ -140,12 +144,42 @@ def _put(
             continue
         group_words = words[first_at[begin] : last_at[stop_at] + 1]
         _end_at(made, put, max(place, group_words[0].start))
+        if paraphrases and not put:
+            group_words[0] = replace(group_words[0], start=min(place, group_words[0].start))
         made += group_words
         place, put = max(place, group_words[-1].end), 0
-    if not put and place < end:
+    if made and paraphrases and not put:
+        made[-1] = replace(made[-1], end=max(end, made[-1].end))
+    elif not put and place < end:
         # What is left says nothing to a plan; it is said all the same.
         made.append(Word(kind="silent", text="", norm="", start=place, end=end))
     return made
+
+
+def _swallows(pattern: re.Pattern[str], said: str, match: re.Match[str], words: Sequence[Word]) -> bool:
+    """Return True if a turn of phrase would take a word into itself that it does not name, and that means something.
+
+    A rule may pass over some words of any kind. What it leaves out altogether shows among the words without a part;
+    what it puts other words in place of would not show.
+    """
+    if not said:
+        return False
+    kept = " ".join(match.group(int(k)) or "" for k in _KEPT.findall(said)).split()
+    for word in words:
+        if word.norm in kept:
+            kept.remove(word.norm)
+        elif word.kind == "word" and not is_weightless(word.norm) and not _names(pattern.pattern, word.norm):
+            return True
+    return False
+
+
+@cache
+def _names(pattern: str, word: str) -> bool:
+    """Return True if a rule names a word, whole or with a prefix or an ending of its own."""
+    plain = re.sub(r"\\[a-z]|\(\?<?[=!:]", " ", pattern)
+    both = (re.sub(r"\[([a-z])([a-z])\]", rf"\{k}", plain) for k in (1, 2))
+    letters = {piece for text in both for piece in re.split(r"[^a-z']+", text) if piece}
+    return word in letters or any(word.startswith(p) and word.removeprefix(p) in {"", *letters} for p in letters)
 
 
 def _end_at(made: list[Word], put: int, end: int) -> None:

@@ -54,7 +54,7 @@ _EACH = f"""\
 _AGAIN = f"""\
 <task xmlns="{NAMESPACE}">
   <command>
-    <assumptions><assumption>"Another tree" is the nearest one not visited by then.</assumption></assumptions>
+    <assumptions><assumption>"Another tree": the nearest not visited by then.</assumption></assumptions>
   </command>
   <task-composition>
     <plan>
@@ -81,14 +81,11 @@ _AGAIN = f"""\
 </task>"""
 
 _QUESTION = """\
-<question>The trees have four corners: at which one shall I take the picture?
-  <choice>north-west corner</choice><choice>north-east corner</choice>
-  <choice>south-east corner</choice><choice>south-west corner</choice>
+<question>At which of the four corners?
+  <choice>north-west</choice><choice>north-east</choice><choice>south-east</choice><choice>south-west</choice>
 </question>"""
 
-_REFUSAL = (
-    "<refusal>This robot cannot prune: it takes pictures, reads soil moisture and nitrate, samples leaves.</refusal>"
-)
+_REFUSAL = "<refusal>This robot cannot prune.</refusal>"
 
 #: Requests, each with the answer wanted.
 EXAMPLES: tuple[tuple[str, str], ...] = (

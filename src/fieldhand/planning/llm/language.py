@@ -25,7 +25,7 @@ from fieldhand.task.selectors import Selector
 LETTERS = {"node": "N", "condition": "C", "selector": "S"}
 
 #: Attributes that only the program writes.
-DERIVED = frozenset({"id", "said", "at-said", "reserve-said", "nominal-said", "no-part"})
+DERIVED = frozenset({"id", "said", "at-said", "reserve-said", "nominal-said", "no-part", "seed"})
 
 _KINDS = {"text": "name", "integer": "int", "number": "number", "flag": "true", "value": "value"}
 
@@ -61,6 +61,7 @@ def _paragraph(shape: Shape) -> str:
 
 
 def _form(shape: Shape) -> str:
+    """Return the opening of an element with what stands inside it; its end, which the reader knows, takes room."""
     attributes = [_attribute(a) for a in shape.attributes if a.name not in DERIVED]
     inside = []
     if shape.head and shape.head.of == "action":
@@ -69,7 +70,7 @@ def _form(shape: Shape) -> str:
         inside.append(f"<{' '.join(['QUANTITY', *map(_attribute, shape.head.attributes)])}/>")
     inside += [_child(child) for child in shape.children]
     opening = " ".join([shape.element, *attributes])
-    return f"<{opening}>{' '.join(inside)}</{shape.element}>" if inside else f"<{opening}/>"
+    return f"<{opening}>{' '.join(inside)}" if inside else f"<{opening}/>"
 
 
 def _attribute(attribute: Attribute) -> str:
@@ -90,10 +91,19 @@ def _attribute(attribute: Attribute) -> str:
 
 def _child(child: Child) -> str:
     letter = LETTERS.get(FAMILIES.get(child.options, ""), "")
+    letter = f"{letter}{_unless_given(child)}"
     part = letter or "".join(f"<{element_name(option)}/>" for option in child.options)
     many = f"{part}..." if child.kind == "many" else part
     whole = many if child.direct else f"<{child.name}>{many}</{child.name}>"
     return whole if child.default is MISSING else f"[{whole}]"
+
+
+def _unless_given(child: Child) -> str:
+    """Return what stands for a selector that is left out, where that is not every tree, and which one it is."""
+    if child.name == "of" or child.default is MISSING or not isinstance(child.default, get_args(Selector)):
+        return ""
+    name = f" = {child.name}" if child.direct else ""
+    return f"{name} (<{element_name(type(child.default))}/>)"
 
 
 def _meaning(shape: Shape) -> str:

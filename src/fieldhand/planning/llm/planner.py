@@ -12,6 +12,7 @@ from datetime import datetime
 from pathlib import Path
 
 from fieldhand.errors import ModelError, RequestError
+from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_exit
 from fieldhand.planning.llm.answer import QuestionAnswer, RefusalAnswer, TaskAnswer, Unusable, read_answer
 from fieldhand.planning.llm.chat import Chat, Message, Reply
 from fieldhand.planning.llm.coordinates import coordinates
@@ -26,9 +27,9 @@ from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Reason
 from fieldhand.robot.capabilities import capabilities_of, measures_of
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
-from fieldhand.task.build import FAULTED_EXITS, make_task
+from fieldhand.task.build import make_task
 from fieldhand.task.codec import Draft
-from fieldhand.task.codec_text import unwritable_character
+from fieldhand.task.codec_text import hidden_character
 from fieldhand.task.frames import Resource
 
 #: A longer request is a file given by mistake; a model would be paid to read it.
@@ -178,15 +179,18 @@ def _check(request: str) -> None:
             f"the request has {len(request)} characters, more than {LONGEST_REQUEST}",
             advice="say it in fewer words, or in several requests",
         )
-    odd = unwritable_character(request)
+    odd = hidden_character(request, lines=True)
     if odd is not None:
-        what = f"the request holds the character {odd!r}, which no document can hold"
+        what = f"the request holds the character {odd}, which nobody can see"
         raise RequestError(what, advice="leave it out")
 
 
 def _planned(
     draft: Draft, request: str, site: Site, robot: RobotProfile, name: str, answers: tuple[Answer, ...]
 ) -> Planned:
+    usual = usual_exit(site)
+    asked = bool(draft.nominal_said) or draft.nominal not in ("return_to_end", usual)
+    nominal = draft.nominal if asked else usual
     task = make_task(
         request=request,
         plan=draft.plan,
@@ -196,12 +200,12 @@ def _planned(
             Resource(kind="site", name=site.name, sha256=site.sha256),
         ),
         constraints=draft.constraints,
-        nominal=draft.nominal,
-        faulted=draft.faulted or FAULTED_EXITS,
+        nominal=nominal,
+        faulted=draft.faulted or faulted_exits(nominal),
         assumptions=(*map(str, answers), *(visible_line(said, LONGEST_ASSUMPTION) for said in draft.assumptions)),
         nominal_said=draft.nominal_said,
         no_part=draft.no_part,
         read_as="\n".join([f"{request}.", *(f"{answer.answer}." for answer in answers)]) if answers else "",
         warnings=tuple(visible_line(said, LONGEST_ASSUMPTION) for said in draft.warnings),
     )
-    return Planned(task=task, planner=name)
+    return Planned(task=task if asked else with_assumed_exit(task, site, robot), planner=name)

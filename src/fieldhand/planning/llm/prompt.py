@@ -19,6 +19,7 @@ from fieldhand.planning.llm.examples import EXAMPLES
 from fieldhand.planning.llm.examples import ROBOT as EXAMPLE_ROBOT
 from fieldhand.planning.llm.language import describe_language
 from fieldhand.planning.llm.plain import visible_line
+from fieldhand.planning.llm.tokens import tokens
 from fieldhand.planning.planner import Answer
 from fieldhand.robot.model import Action, Parameter, Quantity, RobotProfile
 from fieldhand.site.model import Site
@@ -27,12 +28,14 @@ from fieldhand.task.conditions import Condition
 from fieldhand.task.plan import Node
 from fieldhand.task.selectors import Selector
 
-#: Most characters of the summary of a robot, of the summary of a site, and of one line of either.
+#: Most characters of the summary of a robot or of a site, and of one line of either.
 MOST_DATA = 4_000
-MOST_OF_SITE = 950
 LONGEST_LINE = 400
+#: Most tokens of the first two messages, without the request; a site gets what the rest leaves of them, within bounds.
+MOST_TOKENS = 5_960
+SITE_TOKENS = (250, 800)
 #: Words that are shown for one action or quantity.
-SAID_WORDS = 6
+SAID_WORDS = 5
 
 
 @cache
@@ -54,13 +57,11 @@ def opening(request: str, site: Site, robot: RobotProfile) -> tuple[Message, Mes
     """The first two messages of the conversation about a request."""
     from fieldhand.site.describe import summary_lines
 
-    asked = "\n\n".join(
-        [
-            fenced("robot", robot_lines(robot)),
-            fenced("site", summary_lines(site), MOST_OF_SITE),
-            f"The operator's request, word for word:\n{request}",
-        ]
-    )
+    machine = fenced("robot", robot_lines(robot))
+    least, most = SITE_TOKENS
+    room = min(most, max(least, MOST_TOKENS - tokens(instructions()) - tokens(machine)))
+    orchard = fenced("site", summary_lines(site, lambda lines: tokens(fenced("site", lines)) <= room))
+    asked = "\n\n".join([machine, orchard, f"The operator's request, word for word:\n{request}"])
     return Message(role="system", text=instructions()), Message(role="user", text=asked)
 
 

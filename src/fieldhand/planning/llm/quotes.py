@@ -1,7 +1,8 @@
 """The words of the request that a draft quotes, found again as ranges of characters: a model cannot count those.
 
-A quote is found whatever its case and white space. Words that stand there several times are taken in their order: each
-quote of them means the next place, and the last one again when they are used up.
+A quote is found whatever its case and white space. Words that stand there several times mean the first place that no
+other quote covers, and the last one when all are covered: of "check CO2 ... check the vines", "check" beside "check
+CO2" is the second.
 """
 
 from __future__ import annotations
@@ -26,35 +27,44 @@ def place_quotes(root: _Element, request: str) -> list[tuple[str, str]]:
     Returns:
         Where and what, for each quote that is not in the request.
     """
-    used: dict[str, int] = {}
-    wrong: list[tuple[str, str]] = []
+    quotes: list[tuple[_Element, str, list[Span]]] = []
     for element in root.iter("*"):
-        name = str(element.tag).rpartition("}")[2]
         for attribute in ("said", "at-said", *QUOTED.values()):
             element.attrib.pop(attribute, "")
         quoted = str(element.attrib.pop(QUOTES, ""))
-        found: list[Span] = []
-        for quote in filter(None, (part.strip() for part in quoted.split(_BETWEEN))):
-            span = _find(quote, request, used)
-            if span is None:
-                where = f"line {line_of(element)} <{name}>"
-                wrong.append((where, f"the request does not say {quote!r}: quote its words as they stand there"))
-            else:
-                found.append(span)
-        if found:
-            element.set(QUOTED.get(name, "said"), " ".join(f"{start}-{end}" for start, end in found))
+        found = ((quote, _places(quote, request)) for quote in map(str.strip, quoted.split(_BETWEEN)) if quote)
+        quotes += [(element, quote, places) for quote, places in found]
+    wrong = [
+        (
+            f"line {line_of(element)} <{_name(element)}>",
+            f"the request does not say {quote!r}: quote its words as they stand there",
+        )
+        for element, quote, places in quotes
+        if not places
+    ]
+    said: dict[_Element, list[Span]] = {}
+    taken: list[Span] = [places[0] for _, _, places in quotes if len(places) == 1]
+    for element, _, places in quotes:
+        if places:
+            span = places[0] if len(places) == 1 else next((p for p in places if not _covered(p, taken)), places[-1])
+            taken.append(span)
+            said.setdefault(element, []).append(span)
+    for element, spans in said.items():
+        element.set(QUOTED.get(_name(element), "said"), " ".join(f"{start}-{end}" for start, end in spans))
     return wrong
 
 
-def _find(quote: str, request: str, used: dict[str, int]) -> Span | None:
-    """Where a quote stands; ``used`` counts how often each was asked for."""
-    words = quote.split()
-    pattern = r"\s+".join(re.escape(word) for word in words)
+def _name(element: _Element) -> str:
+    return str(element.tag).rpartition("}")[2]
+
+
+def _covered(place: Span, taken: list[Span]) -> bool:
+    """Return True if another quote means these words."""
+    return any(start <= place[0] and place[1] <= end for start, end in taken)
+
+
+def _places(quote: str, request: str) -> list[Span]:
+    """Return everywhere that a quote stands, whatever its case and white space."""
+    pattern = r"\s+".join(re.escape(word) for word in quote.split())
     places = [m.span() for m in re.finditer(rf"(?<!\w){pattern}(?!\w)", request, re.IGNORECASE)]
-    places = places or [m.span() for m in re.finditer(pattern, request, re.IGNORECASE)]
-    if not places:
-        return None
-    key = " ".join(words).lower()
-    at = used.get(key, 0)
-    used[key] = at + 1
-    return places[min(at, len(places) - 1)]
+    return places or [m.span() for m in re.finditer(pattern, request, re.IGNORECASE)]

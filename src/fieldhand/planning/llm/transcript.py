@@ -16,6 +16,7 @@ from typing import Any
 
 from fieldhand.errors import InputError, OutputError
 from fieldhand.planning.llm.chat import Message, Reply
+from fieldhand.visible import json_text
 
 FORMAT = "fieldhand-transcript/1"
 
@@ -73,7 +74,7 @@ class TranscriptWriter:
             self._path.parent.mkdir(parents=True, exist_ok=True)
             self._path.touch(mode=0o600)
             with self._path.open("a", encoding="utf-8", errors="backslashreplace") as file:
-                file.write(self._redact(json.dumps(line, ensure_ascii=False)) + "\n")
+                file.write(self._redact(json_text(line)) + "\n")
         except OSError as error:
             raise OutputError(
                 f"the transcript cannot be written ({error.strerror})",

@@ -1,0 +1,77 @@
+"""Decide where a mission ends if its request does not say it: at home, unless the way there takes most of the budget.
+
+Both planners decide it here, so that the same words end in the same place whoever plans them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from fieldhand.forecast.homeward import costs_too_much
+from fieldhand.language import message
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.task.build import FAULTED_EXITS
+from fieldhand.task.frames import FaultedExit, Task, Then
+from fieldhand.task.words import say_rounded
+
+_HOMEWARD: dict[Then, str] = {
+    "return_to_end": message("When all is done the robot drives to the end marker.", context="assumption"),
+    "return_to_start": message("When all is done the robot drives back to the start marker.", context="assumption"),
+    "stay": message(
+        "The site has no start or end marker: the robot stays where it is when all is done.", context="assumption"
+    ),
+}
+
+
+def usual_exit(site: Site) -> Then:
+    """Return where a mission ends on a site that its request does not name an end for."""
+    if "end" in site.markers:
+        return "return_to_end"
+    return "return_to_start" if "start" in site.markers else "stay"
+
+
+def faulted_exits(nominal: Then) -> tuple[FaultedExit, ...]:
+    """Return what a mission does about faults; when little is left it goes where the plan ends, if only to stay."""
+    return tuple(replace(e, then=nominal) if e.fault == "low_budget" else e for e in FAULTED_EXITS)
+
+
+def with_assumed_exit(task: Task, site: Site, robot: RobotProfile) -> Task:
+    """Return a Task with the usual exit as an assumption.
+
+    Where the way home would take most of the budget for optional visits, the robot stays after the last of them.
+
+    Args:
+        task: Of a request that does not say where to end, with the usual exit.
+    """
+    then = task.composition.nominal
+    metres = costs_too_much(task, site, robot, then)
+    said = _HOMEWARD[then]
+    if metres is not None and then == "return_to_end":
+        said = message(
+            "The way to the end marker alone is {metres} m, much of what may be used: the robot stays where its last"
+            " visit was. Ask for the return if it is wanted.",
+            context="assumption",
+            metres=say_rounded(metres),
+        )
+    elif metres is not None:
+        said = message(
+            "The way to the start alone is {metres} m, much of what may be used: the robot stays where its last visit"
+            " was. Ask for the return if it is wanted.",
+            context="assumption",
+            metres=say_rounded(metres),
+        )
+    assumptions = tuple(dict.fromkeys([*task.command.assumptions, said]))
+    return replace(
+        task,
+        command=replace(task.command, assumptions=assumptions),
+        composition=task.composition
+        if metres is None
+        else replace(task.composition, nominal="stay", faulted=_staying(task.composition.faulted)),
+    )
+
+
+def _staying(faulted: Sequence[FaultedExit]) -> tuple[FaultedExit, ...]:
+    """Return the exits of a mission that keeps nothing for the way home, and so does not set out on it."""
+    return tuple(replace(e, then="stay") if e.fault == "low_budget" else e for e in faulted)

@@ -1,0 +1,202 @@
+"""Requests as growers say them, on a made vineyard: planned where the places are right, else asked or refused.
+
+Which places are right is told here from how the vineyard was planted, not by the selectors.
+"""
+
+# ruff: noqa: E501 - a request and its places stand on one line each
+
+from __future__ import annotations
+
+import random
+import re
+from collections.abc import Callable
+
+import pytest
+
+from fieldhand.approval.account import unaccounted
+from fieldhand.planning.english.planner import EnglishPlanner
+from fieldhand.planning.planner import Clarify, Outcome, Planned, Refused
+from fieldhand.robot.loader import load_robot
+from fieldhand.site.context import Context
+from fieldhand.site.places import resolve
+from fieldhand.task.plan import selector_of, walk
+from fieldhand.task.selectors import Random, is_relative
+from fieldhand.task.selectors import walk as parts_of
+from vineyards import ALONG, ROWS, Vine, vines, vineyard
+
+HUSKY = load_robot("husky")
+BY_ID = {vine.id: vine for vine in vines()}
+
+
+def outcome_of(request: str) -> Outcome:
+    return EnglishPlanner().plan(request, vineyard(), HUSKY)
+
+
+def visited(outcome: Planned) -> list[Vine]:
+    """The vines that the selectors of a plan come to from the start."""
+    found: list[str] = []
+    for node in walk(outcome.task.composition.plan):
+        selector = selector_of(node)
+        if selector is not None and not is_relative(selector):
+            found += [p.id for p in resolve(selector, vineyard(), Context(here=vineyard().start))]
+    return [BY_ID[one] for one in found]
+
+
+def north(vine: Vine) -> bool:
+    return vine.block == "North"
+
+
+def at(block: str, row: int, place: int) -> Vine:
+    return next(v for v in vines() if (v.block, v.row, v.place) == (block, row, place))
+
+
+N250 = BY_ID["N250"]
+EXACT: list[tuple[str, Callable[[Vine], bool]]] = [
+    ("Take pictures of rows 3 to 8 of the north block.", lambda v: north(v) and 3 <= v.row <= 8),
+    ("Take pictures of every tree in the north block.", north),
+    ("Take a picture at the first and last vine of every tenth row of the north block.", lambda v: north(v) and v.row in (1, 11) and v.place in (1, ALONG)),
+    ("Take a picture of every fifth vine in rows 3 to 8 of the north block.", lambda v: north(v) and 3 <= v.row <= 8 and v.place % 5 == 1),
+    ("Take 3 pictures of each vine in row 2 of the north block.", lambda v: north(v) and v.row == 2),
+    ("Measure CO2 at the vines with vigor below 0.35 in the south block.", lambda v: not north(v) and v.vigor < 0.35),
+    ("Take a picture of vine N250 and the vine next to it on the east.", lambda v: v in (N250, at(N250.block, N250.row + 1, N250.place))),
+    ("Take a picture of vine N250 and the vine next to it on the west.", lambda v: v in (N250, at(N250.block, N250.row - 1, N250.place))),
+    ("Take a picture of vine N250 and the vine to the north of it.", lambda v: v in (N250, at(N250.block, N250.row, N250.place - 1))),
+    ("Take a picture of the southern neighbour of vine N250.", lambda v: v is at(N250.block, N250.row, N250.place + 1)),
+    ("Take a picture of vine N250 and its two neighbours.", lambda v: v.block == N250.block and v.row == N250.row and abs(v.place - N250.place) <= 1),
+    ("Take pictures of the last 3 vines of row 8 of the north block.", lambda v: north(v) and v.row == 8 and v.place > ALONG - 3),
+    ("Take pictures of every 4th vine in row 8 of the south block starting with the second.", lambda v: not north(v) and v.row == 8 and v.place % 4 == 2),
+    ("Take pictures of the Syrah vines in row 7 of the south block.", lambda v: not north(v) and v.row == 7),
+    ("Take a picture at each corner of the north block and then come home.", lambda v: north(v) and v.row in (1, ROWS) and v.place in (1, ALONG)),
+    ("Take a picture at the corners of both blocks.", lambda v: v.row in (1, ROWS) and v.place in (1, ALONG)),
+]  # fmt: skip
+
+#: How many are drawn, and from which.
+DRAWN: list[tuple[str, int, Callable[[Vine], bool]]] = [
+    ("Take pictures of 10 vines chosen at random in the north block.", 10, north),
+    ("Take a picture of 20 random Merlot vines.", 20, lambda v: v.variety == "Merlot"),
+    ("Measure CO2 at one random vine in the south block.", 1, lambda v: not north(v)),
+    ("Photograph 3 vines picked at random in each of rows 2, 3 and 4 of the north block.", 9, lambda v: north(v) and v.row in (2, 3, 4)),
+]  # fmt: skip
+
+NOT_PLANNED = """
+Take pictures of row 12.
+Every morning take pictures of row 12 of the north block.
+Daily, measure CO2 at vine N250.
+Take pictures of row 12 of the north block tomorrow.
+Take pictures of row 12 of the north block before sunrise.
+At 6 am, measure the air temperature at the north-east corner of the south block.
+Take a picture of every second vine in row 5 of the north block, but only on weekdays.
+Take pictures of north block rows 1 and 2, slowly, at 0.3 m/s.
+Go to vine N250 and wait there for 10 minutes.
+Take a picture of vine N250, wait 30 seconds, and take another.
+Measure CO2 at vines N1, N2 and N3; if the average is above 450 ppm, take a picture of vine N4.
+Measure CO2 at every vine of row 5 of the north block. If the mean is above 450 ppm, take a picture of vine N4.
+Drive down rows 3 to 8 of the north block and spray.
+Mow between rows 10 and 14 of the north block.
+Count the grapes on 10 Syrah vines.
+Take pictures of the missing vines in the south block.
+Take pictures of a few vines in the north block.
+Take pictures of the 10 worst vines.
+Take pictures on the left side of row 4 of the north block.
+Take pictures of both sides of vine N250.
+Skip the ones you did yesterday and take pictures of the rest of row 5 in the north block.
+Sample 5 vines per variety.
+Take pictures of the Merlot but avoid the pond and drive around the south block.
+Take pictures of 5 vines. Do not drive through row 10.
+If any vine in row 4 of the north block is hotter than 36 degrees, photograph its two neighbours.
+Measure CO2 at the two vines closest to vine N250 on the east side.
+Take as many pictures as you can of the south block with 30 % battery.
+Patrol the property line.
+Patrol the vineyard.
+Measure CO2 at vine N9999.
+If the battery is below 50 percent come home.
+Take pictures of random vines in the north block.
+""".strip().splitlines()
+
+
+@pytest.mark.parametrize(("request_", "is_meant"), EXACT, ids=lambda v: v[:60] if isinstance(v, str) else "")
+def test_a_request_comes_to_the_vines_that_are_meant(request_: str, is_meant: Callable[[Vine], bool]) -> None:
+    outcome = outcome_of(request_)
+    assert isinstance(outcome, Planned), outcome
+    assert {v.id for v in visited(outcome)} == {v.id for v in vines() if is_meant(v)}
+    assert unaccounted(outcome.task) == ()
+
+
+@pytest.mark.parametrize(("request_", "count", "is_meant"), DRAWN, ids=lambda v: v[:60] if isinstance(v, str) else "")
+def test_a_draw_is_of_the_vines_that_are_meant_and_not_of_the_nearest(
+    request_: str, count: int, is_meant: Callable[[Vine], bool]
+) -> None:
+    outcome = outcome_of(request_)
+    assert isinstance(outcome, Planned), outcome
+    drawn = visited(outcome)
+    assert len({v.id for v in drawn}) == count
+    assert all(is_meant(v) for v in drawn)
+    selectors = [selector_of(node) for node in walk(outcome.task.composition.plan)]
+    assert any(isinstance(part, Random) for s in selectors if s is not None for part in parts_of(s))
+    assert outcome == outcome_of(request_)
+    if count >= 10:
+        assert max(v.y for v in drawn) - min(v.y for v in drawn) > 20.0
+
+
+def test_two_draws_of_a_request_are_independent() -> None:
+    outcome = outcome_of(
+        "Take pictures of 10 random vines in the north block. Measure CO2 at 10 random vines in the north block."
+    )
+    assert isinstance(outcome, Planned), outcome
+    assert len({v.id for v in visited(outcome)}) > 10
+
+
+@pytest.mark.parametrize("request_", NOT_PLANNED)
+def test_what_cannot_be_done_as_said_is_asked_or_refused(request_: str) -> None:
+    assert isinstance(outcome_of(request_), Clarify | Refused)
+
+
+BASES = """
+Take pictures of row 12 of the north block.
+Measure CO2 at vine N250.
+Take a picture of vine N250 and measure CO2 there.
+Take pictures of 10 random vines in the north block.
+Take a picture of the vine next to vine N250 on the east.
+Take a picture of every fifth vine in rows 3 to 8 of the north block.
+Measure CO2 at vine N250. If it is above 450 ppm, take a picture.
+Take pictures of the vines with vigor below 0.35 in the south block.
+Take pictures of as many vines in the north block as you can without driving more than 400 m.
+""".strip().splitlines()
+#: What a plan cannot hold, of every kind that growers use; an open list.
+MODIFIERS = """
+slowly; carefully; quickly; gently; tomorrow; daily; hourly; regularly; tonight; yesterday; sometimes; weekly; every morning; each week
+on weekdays; at 6 am; before sunrise; at noon; in the morning; after the rain; during lunch; next week; last week; on Monday; in June
+once a day; every hour; for powdery mildew; for pests; for water stress; for the lab; with flash; in colour; from above; from both sides
+on the left side; facing north; in the shade; without flash; weak; sick; healthy; missing; ripe; sprayed; pruned; thirsty; infected
+flowering; shaded; a few; several; on average; at the median; per variety; unless it rains; if the weather is fine
+weather permitting; avoiding the pond; except the weak ones; and wait 10 minutes; and spray; and mow; and count the grapes; and prune
+and water it; and take a leaf sample; and record a video; and call me; the ones you did yesterday; starting at the pond; via the barn
+along the road; near the fence; backwards; diagonally; in a zigzag; clockwise; from 2 m away; at half speed; with the drone; by hand
+silently; urgently; secretly; until dark; for 10 minutes; with two robots; at 0.3 m/s; twice a day; every 10 minutes
+""".replace("\n", ";").split(";")
+
+
+@pytest.mark.parametrize("base", BASES)
+def test_a_word_that_no_plan_holds_is_never_dropped_in_silence(base: str) -> None:
+    """Wherever it is put in: refused, asked, or a warning that has to be confirmed."""
+    plain = outcome_of(base)
+    assert isinstance(plain, Planned), plain
+    assert unaccounted(plain.task) == ()
+    chance = random.Random(base)
+    modifiers = [m.strip() for m in MODIFIERS if m.strip()]
+    silent: list[str] = []
+    for modifier in chance.sample(modifiers, 40):
+        words = base.split()
+        k = chance.randrange(1, len(words))
+        said = [
+            f"{modifier[0].upper()}{modifier[1:]}, {base[0].lower()}{base[1:]}",
+            f"{base[:-1]} {modifier}.",
+            f"{base[:-1]}, {modifier}.",
+            " ".join([*words[:k], modifier, *words[k:]]),
+            re.sub(r"\b(vines?|row|rows|picture|pictures|CO2)\b", rf"{modifier} \1", base, count=1),
+        ]
+        for request in said:
+            outcome = outcome_of(request)
+            if isinstance(outcome, Planned) and not unaccounted(outcome.task) and not outcome.task.command.warnings:
+                silent.append(request)
+    assert silent == []
