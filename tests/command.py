@@ -22,7 +22,8 @@ from pathlib import Path
 
 #: Read by the interpreter when it starts.
 _AT_START = ("PYTHON", "LC_", "LANG")
-_LIMIT_S = 300
+#: Seconds after which a command has hung, on the busiest machine.
+_LIMIT_S = 900
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -111,8 +111,7 @@ def test_the_commands_take_answers_and_without_them_end_with_the_question() -> N
 
 
 def test_the_words_of_a_request_are_shown_with_and_without_colour(monkeypatch: pytest.MonkeyPatch) -> None:
-    from rich.console import Console
-
+    from fieldhand.cli.console import Terminal
     from fieldhand.planning.english.planner import EnglishPlanner
 
     planned = EnglishPlanner().plan("Please take a picture of tree 4.", GROUND.site, GROUND.robot)
@@ -121,7 +120,7 @@ def test_the_words_of_a_request_are_shown_with_and_without_colour(monkeypatch: p
     for system in ("standard", None):
         page = io.StringIO()
         monkeypatch.setattr(
-            show, "out", Console(file=page, force_terminal=system is not None, color_system=system, width=200)
+            show, "out", Terminal(file=page, force_terminal=system is not None, color_system=system, width=200)
         )
         show.show_request(planned.task)
         shown[system] = page.getvalue()

@@ -51,7 +51,7 @@ def files(tmp_path: Path) -> Path:
         (export, {"given": "task.xml", "to": "mcap"}, "a Task cannot be written as mcap"),
         (export, {"given": "events.jsonl", "to": "btcpp"}, "an event log cannot be written as btcpp"),
         (export, {"given": "task.xml", "to": "kml"}, "needs its site"),
-        (export, {"given": "none.xml", "to": "btcpp"}, "none.xml: cannot be read"),
+        (export, {"given": "none.xml", "to": "btcpp"}, "none.xml: there is no such file"),
         (export, {"given": "task.xml", "to": "btcpp", "robot": "amiga"}, "not valid for this robot"),
         (export, {"given": "empty.jsonl", "to": "csv"}, "holds no event"),
         (export, {"given": "binary.jsonl", "to": "csv"}, "cannot be read"),

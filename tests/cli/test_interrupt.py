@@ -12,6 +12,9 @@ from pathlib import Path
 
 import pytest
 
+from patience import LONG_S
+from ros2.sim_robots import patient
+
 
 def as_usual() -> None:
     """Signals as a terminal hands them to a program, whatever started the tests."""
@@ -26,8 +29,9 @@ def in_the_background() -> None:
 
 
 def start(tmp_path: Path, speed: int, signals: Callable[[], None] = as_usual) -> subprocess.Popen[str]:
-    """A mission of many captures, so many times faster than it would be driven."""
+    """A mission of many captures, so many times faster than it would be driven; its battery loses nothing meanwhile."""
     words = ["run", "Take a picture of every tree.", "--site", "demo", "--yes", "--speed", str(speed)]
+    words += ["--robot", str(patient(tmp_path))]
     files = ["--out", str(tmp_path / "out"), "--events", str(tmp_path / "e.jsonl")]
     return subprocess.Popen(
         [sys.executable, "-u", "-m", "fieldhand", *words, *files],
@@ -50,10 +54,10 @@ def until_a_capture(process: subprocess.Popen[str]) -> None:
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_keeps_what_was_gathered(number: signal.Signals, tmp_path: Path) -> None:
     # Slow enough to be ended under way, also where this process has to wait for its turn.
-    process = start(tmp_path, 150)
+    process = start(tmp_path, 20)
     until_a_capture(process)
     process.send_signal(number)
-    out, err = process.communicate(timeout=60)
+    out, err = process.communicate(timeout=LONG_S)
     assert "Traceback" not in err, err
     assert process.returncode == 1, (out, err)
     events = [json.loads(line) for line in (tmp_path / "e.jsonl").read_text().splitlines()]
@@ -64,12 +68,12 @@ def test_a_signal_keeps_what_was_gathered(number: signal.Signals, tmp_path: Path
 
 
 def test_a_mission_in_the_background_is_ended_by_a_kill_alone(tmp_path: Path) -> None:
-    process = start(tmp_path, 150, in_the_background)
+    process = start(tmp_path, 20, in_the_background)
     until_a_capture(process)
     process.send_signal(signal.SIGINT)
     until_a_capture(process)
     process.send_signal(signal.SIGTERM)
-    process.communicate(timeout=60)
+    process.communicate(timeout=LONG_S)
     assert process.returncode == 1
     last = json.loads((tmp_path / "e.jsonl").read_text().splitlines()[-1])
     assert (last["status"], "SIGTERM" in json.dumps(last)) == ("aborted", True)
@@ -81,7 +85,7 @@ def test_a_reader_that_goes_away_ends_no_mission(tmp_path: Path) -> None:
     assert process.stdout is not None
     process.stdout.close()
     process.stdout = None
-    _, err = process.communicate(timeout=120)
+    _, err = process.communicate(timeout=LONG_S)
     assert "Traceback" not in err, err
     last = json.loads((tmp_path / "e.jsonl").read_text().splitlines()[-1])
     assert (last["event"], last["status"]) == ("mission", "completed")

@@ -45,3 +45,27 @@ def test_a_robot_is_calibrated_from_logs_and_its_new_profile_is_shown(tmp_path):
     refused = fieldhand("robot", "calibrate", cwd=tmp_path, env=env)
     assert refused.status == 2
     assert "no driven missions of husky were kept" in refused.err
+
+
+def test_a_mission_beyond_its_limit_is_no_success_though_every_goal_is_met(tmp_path):
+    request = "Take a picture of the middle tree without driving more than 500 meters."
+    words = ("run", request, "--site", "demo", "--planner", "english", "--yes", "-o", "out")
+    assert fieldhand(*words, cwd=tmp_path).status == 0
+    log = tmp_path / "out" / "events.jsonl"
+    *before, end = [json.loads(line) for line in log.read_text().splitlines()]
+    assert (end["event"], end["status"]) == ("mission", "completed")
+    # As an earlier version wrote it: the figures alone say that it went too far.
+    log.write_text("".join(f"{json.dumps(line)}\n" for line in [*before, end | {"t": 752.0, "travelled_m": 500.5}]))
+    again = ("report", "out/events.jsonl", "--task", "out/task.xml", "--site", "demo", "-o", "again")
+    said = fieldhand(*again, cwd=tmp_path)
+    assert said.status == 1, said.err
+    assert "✗ 500.5 m of 500 m driven: limit exceeded at 12:32, at the end" in said.out
+    assert "Mission ended, limit exceeded." in said.out
+    record = json.loads(fieldhand(*again, "--json", cwd=tmp_path).out)
+    assert (record["status"], record["success"]) == ("exceeded", False)
+    assert [(one["kind"], one["used"], one["limit"]) for one in record["exceeded"]] == [("distance_m", 500.5, 500.0)]
+    assert [goal["outcome"] for goal in record["goals"]] == ["success"]
+    page = (tmp_path / "again" / "report.html").read_text()
+    assert (
+        "Ended, limit exceeded (500.5 m of 500 m driven: limit exceeded at 12:32, at the end): 1 of 1 goal met." in page
+    )

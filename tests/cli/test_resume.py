@@ -17,6 +17,7 @@ from typer.testing import CliRunner
 from command import Run
 from fieldhand.cli.app import assemble
 from fieldhand.errors import FieldhandError
+from patience import LONG_S
 
 MISSION = ("run", "Take a thermal picture at every tree of row 2.", "--site", "demo", "--yes", "--confirm")
 
@@ -59,7 +60,7 @@ def captured(process: subprocess.Popen[str], captures: int) -> Iterator[str]:
 
 def kill(process: subprocess.Popen[str]) -> None:
     process.send_signal(signal.SIGKILL)
-    process.communicate(timeout=60)
+    process.communicate(timeout=LONG_S)
 
 
 def status() -> dict[str, Any]:
@@ -68,7 +69,7 @@ def status() -> dict[str, Any]:
 
 
 def test_paused_killed_twice_and_resumed(missions: Path, tmp_path: Path) -> None:
-    process = under_way(*MISSION, "--speed", "10", captures=2)
+    process = under_way(*MISSION, "--speed", "5", captures=2)
     assert "paused" in fieldhand("pause", "--because", "lunch").out
     assert status()["state"] == "paused"
     assert "goes on" in fieldhand("resume").out
@@ -78,7 +79,7 @@ def test_paused_killed_twice_and_resumed(missions: Path, tmp_path: Path) -> None
     assert "interrupted" in fieldhand("status").out
     unheard = fieldhand("pause")
     assert (unheard.status, "is cut off; the order stands" in unheard.out) == (1, True)
-    kill(under_way("resume", "--speed", "40", captures=2))
+    kill(under_way("resume", "--speed", "10", captures=2))
     done = fieldhand("resume", "--json", "-o", str(tmp_path / "out"), "--events", str(tmp_path / "e.jsonl"))
     assert done.status == 0, (done.out, done.err)
     found = status()

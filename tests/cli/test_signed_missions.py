@@ -7,6 +7,7 @@ import io
 import json
 import sqlite3
 import sys
+from collections import Counter
 from collections.abc import Callable
 from contextlib import closing
 from datetime import UTC, datetime
@@ -25,7 +26,11 @@ from fieldhand.approval.keys.trust import TrustStore
 from fieldhand.cli import app, approving, flight, main
 from fieldhand.exchange.mcap import read_mcap
 from fieldhand.execution.journal import store
+from fieldhand.robot.loader import profile_bytes
+from fieldhand.site.geojson import demo_path
 from fieldhand.task.codec import encode
+from fieldhand.task.results import Acted
+from opened import read_files_under
 from signed import pack_mission, signing_key
 
 REQUEST = "Read CO2 at tree 4."
@@ -164,7 +169,8 @@ def test_a_mission_that_was_changed_is_broken(trusting: Command) -> None:
 
 
 def test_a_mission_of_a_stranger_is_shown_and_not_run(trusting: Command) -> None:
-    Path("m.mission").write_bytes(pack_mission(key=signing_key(5, "Mallory"), by="Ada"))
+    now = datetime.now(UTC).isoformat(timespec="seconds")
+    Path("m.mission").write_bytes(pack_mission(key=signing_key(5, "Mallory"), by="Ada", at=now))
     shown = trusting("inspect", "m.mission")
     refuses(shown, 1, "not trusted here")
     assert "Signature unknown" in shown.out
@@ -340,6 +346,66 @@ def test_a_folder_without_its_bundle_is_not_resumed_in_production(
     refuses(trusting("resume", "--production"), 1, "only signed missions")
     assert _events(cut_off) == before
     assert trusting("resume").status == 0
+
+
+#: What SQLite opens it opens itself; what a person reads afterwards decides nothing.
+_WRITTEN = {"events.jsonl", "report.html", "observations.csv", "observations.geojson"}
+
+
+def _deciding(read: Counter[Path]) -> dict[str, int]:
+    return {path.name: times for path, times in read.items() if path.name not in _WRITTEN}
+
+
+def test_each_file_that_decides_what_the_robot_does_is_read_once(
+    trusting: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A file that was put in the place of one that was verified is never looked at."""
+    monkeypatch.setenv("FIELDHAND_MISSIONS", str(tmp_path / "missions"))
+    monkeypatch.setattr(store, "SYNCHRONOUS", "OFF")
+    approved(trusting)
+    Path("world.yaml").write_text("readings:\n  co2: 380\n")
+    (file,) = TrustStore(tmp_path / "config").folder.glob("*-*.json")
+    trust = file.name
+    with read_files_under(tmp_path) as read:
+        assert trusting("run", "m.mission", "--production", "--world", "world.yaml").status == 0
+    assert _deciding(read) == {"m.mission": 1, "world.yaml": 1, trust: 1, "list.json": 1, "journal.mark": 1}
+    (folder,) = (tmp_path / "missions").iterdir()
+    with read_files_under(tmp_path) as read:
+        assert trusting("resume", folder.name, "--production").status == 0
+    once = ("mission.json", "signed.mission", "task.xml", "robot.yaml", "world.yaml", "demo.geojson", trust)
+    once = (*once, "list.json", "approvals.json")
+    assert _deciding(read) == dict.fromkeys((*once, "journal.mark"), 1)
+
+    for name, data in (("demo.geojson", demo_path().read_bytes()), ("robot.yaml", profile_bytes("husky")[0])):
+        Path(name).write_bytes(data)
+    with read_files_under(tmp_path) as read:
+        run = trusting("run", REQUEST, "--site", "demo.geojson", "--robot", "robot.yaml", "--yes")
+        assert run.status == 0, run.err
+    assert _deciding(read) == {"demo.geojson": 1, "robot.yaml": 1, "journal.mark": 1}
+
+
+def test_what_was_verified_is_what_is_run_whatever_is_put_in_its_place(
+    trusting: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Every file of the mission's folder, and the bundle, are replaced the moment the folder is there."""
+    monkeypatch.setenv("FIELDHAND_MISSIONS", str(tmp_path / "missions"))
+    monkeypatch.setattr(store, "SYNCHRONOUS", "OFF")
+    approved(trusting)
+    trusting("run", "Take a thermal picture of tree 10.", "--site", "demo", "--yes", "--confirm")
+    (other,) = (tmp_path / "missions").iterdir()
+    begin = missions.begin
+
+    def swapped(*words: Any) -> missions.Mission:
+        given = begin(*words)
+        for file in ("task.xml", "mission.json", "robot.yaml"):
+            (given.folder / file).write_bytes((other / file).read_bytes())
+        Path("m.mission").write_bytes(b"another")
+        return given
+
+    monkeypatch.setattr(missions, "begin", swapped)
+    done = json.loads(trusting("run", "m.mission", "--production", "--json").out)
+    events = missions.events_of(tmp_path / "missions" / done["mission"])
+    assert [(e.action, e.place) for e in events if isinstance(e, Acted)] == [("read_co2", "4")]
 
 
 def _page(folder: str) -> str:

@@ -39,7 +39,7 @@ def main(*others: Callable[..., None]) -> None:
             _say(line)
         sys.exit(2)
     except typer.Abort:
-        print(file=sys.stderr)  # noqa: T201  behind the question
+        sys.stderr.write("\n")  # behind the question
         _say("no answer was given")
         sys.exit(1)
     except KeyboardInterrupt:
@@ -56,7 +56,11 @@ _INTERRUPTED = 130
 
 
 def _say(line: str) -> None:
-    print(f"fieldhand: {line}", file=sys.stderr)  # noqa: T201
+    """Print a failure; whatever it quotes, only its first line begins as ours do."""
+    from fieldhand.visible import print_error
+
+    first, *others = f"fieldhand: {line}".splitlines()
+    print_error(first, *(f"  {other}" for other in others))
 
 
 def _usage(error: Any) -> str:

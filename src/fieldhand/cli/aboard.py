@@ -12,6 +12,7 @@ import typer
 
 from fieldhand.errors import InputError
 from fieldhand.execution.drivers.ros2.domain import MOST_DOMAIN
+from fieldhand.language import Number, message
 
 if TYPE_CHECKING:
     from fieldhand.cli.approving import Consent
@@ -170,9 +171,15 @@ def see_off(ground: Ground, review: Review, vehicle: Vehicle, consent: Consent) 
     away_m = missions.require_in_place(ground.site, ground.robot, vehicle.driver)
     charge = vehicle.driver.charge_percent()
     if not consent.quiet:
-        note(f"{ground.robot.name} stands {away_m:.1f} m from the start, battery at {charge:.0f} %")
+        stands = message(
+            "{robot} stands {metres} m from the start, battery at {charge} %",
+            robot=ground.robot.name,
+            metres=Number(f"{away_m:.1f}"),
+            charge=f"{charge:.0f}",
+        )
+        note(stands, consent.language)
         if vehicle.remark:
-            note(vehicle.remark)
+            note(vehicle.remark, consent.language)
     missions.require_charged(review, ground.site, ground.robot, charge, confirm=consent.confirm)
 
 

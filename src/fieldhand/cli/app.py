@@ -9,6 +9,7 @@ import typer
 
 from fieldhand.cli.approve import approve
 from fieldhand.cli.bench import bench
+from fieldhand.cli.bench_forecast import bench_forecast
 from fieldhand.cli.bench_guard import bench_guard
 from fieldhand.cli.bench_missions import bench_missions
 from fieldhand.cli.bench_orienteering import bench_orienteering
@@ -43,7 +44,6 @@ def assemble(*others: Callable[..., None]) -> typer.Typer:
         help="Say in plain words what a field robot should do; get a checked mission, approve it, have it carried out.",
         no_args_is_help=True,
         pretty_exceptions_enable=False,
-        add_completion=False,
         context_settings={"help_option_names": ["-h", "--help"]},
     )
     commands: tuple[Callable[..., None], ...] = (
@@ -76,6 +76,7 @@ def assemble(*others: Callable[..., None]) -> typer.Typer:
     app.add_typer(robot)
     bench.command("orienteering")(bench_orienteering)
     bench.command("guard")(bench_guard)
+    bench.command("forecast")(bench_forecast)
     bench.command("missions")(bench_missions)
     bench.command("planning")(bench_planning)
     app.add_typer(keys)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -24,6 +25,8 @@ from fieldhand.cli.options import (
 from fieldhand.cli.outputs import to_whole_file
 
 if TYPE_CHECKING:
+    from datetime import timedelta
+
     from fieldhand.language import Language
 
 
@@ -49,6 +52,9 @@ def approve(
     by: Annotated[str | None, typer.Option("--by", help="Who approves; else the name of the key.")] = None,
     yes: Annotated[bool, typer.Option("--yes", "-y", help="Approve without asking.")] = False,
     confirm: ConfirmOption = False,
+    valid_for: Annotated[
+        str, typer.Option("--valid-for", help="How long the robot may begin it, such as 12h or 30d; at most 366d.")
+    ] = "90d",
     picture: PictureOption = None,
     answer: AnswerOption = None,
     assume: AssumeOption = False,
@@ -59,6 +65,7 @@ def approve(
 ) -> None:
     """Show what a mission will do and take, have it approved, and sign it for the robot."""
     import os
+    from datetime import datetime
 
     from fieldhand.approval.bundle.packing import pack
     from fieldhand.approval.keys.signing import SigningKeys
@@ -66,22 +73,18 @@ def approve(
     from fieldhand.cli.approving import approve_plan, review_plan
     from fieldhand.cli.asking import Replies, plan_or_read
     from fieldhand.cli.bundles import require_ending
-    from fieldhand.cli.inputs import Ground, tell_left_out, write_whole
+    from fieldhand.cli.inputs import read_ground, write_whole
     from fieldhand.cli.secrets import passphrase
     from fieldhand.files import config_folder
     from fieldhand.language import message, spoken
-    from fieldhand.robot.loader import parse_profile, profile_bytes
-    from fieldhand.site.geojson import site_files, site_of
 
     require_ending(output)
+    lasting = parse_validity(valid_for)
     language = spoken(lang, os.environ)
     own = SigningKeys(config_folder(os.environ))
     chosen = own.choose(key)
-    files = site_files(site)
-    profile, source = profile_bytes(robot)
-    ground = Ground(site=site_of(files, lenient=lenient), robot=parse_profile(profile, source=source))
-    tell_left_out(ground.site, lenient=lenient)
-    replies = Replies(given=tuple(answer or ()), assume=assume, ask=not json)
+    ground, files = read_ground(site, robot, lenient=lenient)
+    replies = Replies(given=tuple(answer or ()), assume=assume, ask=not json, progress=None if json else language)
     task, document, planned_by = plan_or_read(request, ground, planner, transcript, replies)
     consent = _Consent(ask=not yes, confirm=confirm, by=by or chosen.public.name, quiet=json, language=language)
     review = review_plan(ground, task, document, consent)
@@ -97,11 +100,13 @@ def approve(
         authorized,
         ground.site,
         ground.robot,
-        files=files,
-        lenient=lenient,
-        profile=profile,
+        files=files.site,
+        lenient=files.lenient,
+        profile=files.profile,
         key=signing,
         planner=planned_by,
+        valid_for=lasting,
+        number=own.next_number(chosen, datetime.fromisoformat(authorized.authorization.at)),
     )
     write_whole(output, data)
     if json:
@@ -115,3 +120,25 @@ def approve(
     show.out.print()
     show.out.print(language.say(signed))
     show.out.print(language.say(message("Mission: {file}", file=str(output))))
+
+
+def parse_validity(text: str) -> timedelta:
+    """Return how long a mission may be begun.
+
+    Raises:
+        InputError: The text says no time, or more than an approval may last.
+    """
+    from datetime import timedelta
+
+    from fieldhand.approval.bundle.manifest import LONGEST_VALID
+    from fieldhand.errors import InputError
+
+    found = re.fullmatch(r"([1-9][0-9]{0,6})([mhd])", text.strip())
+    lasting = timedelta(minutes=int(found[1]) * {"m": 1, "h": 60, "d": 1440}[found[2]]) if found else None
+    if lasting is None or lasting > LONGEST_VALID:
+        raise InputError(
+            f"'{text[:40]}' is no time for which a mission may be begun",
+            where="--valid-for",
+            advice=f"give minutes, hours or days: 30m, 12h, 90d; at most {LONGEST_VALID.days}d",
+        )
+    return lasting

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Protocol
 
 from fieldhand import mission
 from fieldhand.cli import show
+from fieldhand.cli.console import working
 from fieldhand.cli.inputs import Ground, may_ask
-from fieldhand.errors import NotApprovedError, NotConfirmedError
-from fieldhand.language import Language, Message, counted
+from fieldhand.errors import NotApprovedError, NotConfirmedError, few
+from fieldhand.language import Language, Message, counted, message
 from fieldhand.task.frames import Task
 
 if TYPE_CHECKING:
@@ -52,13 +53,14 @@ def review_plan(ground: Ground, task: Task, document: bytes | None, consent: Con
     Raises:
         NotApprovedError: A check fails.
     """
-    review = mission.review(task, ground.site, ground.robot, document=document)
+    with working(message("Checking ..."), None if consent.quiet else consent.language):
+        review = mission.review(task, ground.site, ground.robot, document=document)
     if not consent.quiet:
         show.show_review(review, consent.language)
         if review.errors:
             raise NotApprovedError("not approved: mend the errors above first")
     elif review.errors:
-        raise NotApprovedError("; ".join(consent.language.say(p.line()) for p in review.errors))
+        raise NotApprovedError(few([consent.language.say(p.line()) for p in review.errors], 3, "; "))
     return review
 
 

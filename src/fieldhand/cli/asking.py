@@ -5,22 +5,25 @@ from __future__ import annotations
 import os
 import shlex
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from rich.text import Text
-
 from fieldhand import mission
 from fieldhand.cli.bundles import is_bundle
+from fieldhand.cli.console import Words, err, working
 from fieldhand.cli.inputs import Ground, may_ask
-from fieldhand.cli.show import err, fail_outcome, note, show_question
-from fieldhand.errors import InputError, RequestError
+from fieldhand.cli.show import fail_outcome, show_question
+from fieldhand.errors import InputError, RequestError, few
+from fieldhand.files import STANDARD, FileFault, read_file
+from fieldhand.language import Language, message
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Planner
 from fieldhand.task.frames import Task
 
 #: A planner that has asked so often about one request goes round in circles.
 MOST_QUESTIONS = 12
+#: Bytes of a request or a Task on standard input.
+_MOST = 4_000_000
 #: Bytes that show what kind of file it is.
 _ENOUGH = 200
 
@@ -34,12 +37,14 @@ class Replies:
         assume: Take the first choice where no answer is given, and say so among the assumptions.
         ask: Ask the person at the terminal where there is one.
         draw: Draws a question that is put to a person, or that nobody answers.
+        progress: In which language a terminal is told that the program is planning; None to say nothing.
     """
 
     given: tuple[str, ...] = ()
     assume: bool = False
     ask: bool = True
     draw: Callable[[Clarify], None] = lambda _: None
+    progress: Language | None = None
 
 
 def plan_and_ask(request: str, ground: Ground, planner: Planner, replies: Replies) -> tuple[str, Outcome]:
@@ -50,16 +55,19 @@ def plan_and_ask(request: str, ground: Ground, planner: Planner, replies: Replie
         question, where nobody answers it.
 
     Raises:
-        RequestError: It is the name of a file, an answer is none, or there was no end of questions.
+        RequestError: It is the name of a file, an answer is none or answers no question, or there was no end of
+            questions.
     """
     _require_words(request)
     given = list(replies.given)
     answers: tuple[Answer, ...] = ()
     for _ in range(MOST_QUESTIONS + 1):
-        outcome = mission.plan(request, ground.site, ground.robot, planner, answers)
+        with working(message("Planning ..."), replies.progress):
+            outcome = mission.plan(request, ground.site, ground.robot, planner, answers)
         if not isinstance(outcome, Clarify):
-            for left in given:
-                note(f"the answer '{left}' was not needed")
+            if given and isinstance(outcome, Planned):
+                what = f"nothing was asked that '{given[0]}' answers"
+                raise RequestError(what, where="--answer", advice="leave it out, or say it in the request")
             return request, outcome
         assumed = False
         if given:
@@ -79,7 +87,9 @@ def plan_and_ask(request: str, ground: Ground, planner: Planner, replies: Replie
             raise RequestError(
                 f"'{said}' does not answer '{outcome.question}'",
                 where="--answer",
-                advice=f"give one of: {'; '.join(outcome.choices)}" if outcome.choices else "say it in the request",
+                advice=f"give one of: {few(outcome.choices, sign='; ')}"
+                if outcome.choices
+                else "say it in the request",
             )
         else:
             request, answers = said, ()
@@ -93,16 +103,50 @@ def plan_or_read(
 
     Ends the program with status 2 where the planner refuses, or has a question that nobody answers.
     """
+    if words == str(STANDARD):
+        typed = given_words(words)
+        if typed.lstrip("\ufeff").lstrip().startswith("<"):
+            require_no_answer(replies.given, "standard input")
+            document = typed.encode()
+            return mission.decode_task(document, ground.robot, source="standard input"), document, "file"
+        words = typed
     if is_bundle(words):
         what = "is a signed mission, neither a request nor a Task"
         raise InputError(what, where=words, advice="say what is in it with fieldhand inspect, carry it out with run")
     if words.lower().endswith(".xml") and "\n" not in words:
+        require_no_answer(replies.given, words)
         task, document = mission.read_task(Path(words), ground.robot)
         return task, document, "file"
     words, outcome = plan_and_ask(words, ground, mission.make_planner(planner, os.environ, transcript), replies)
     if not isinstance(outcome, Planned):
         fail_outcome(words, outcome)
     return outcome.task, None, outcome.planner
+
+
+def given_words(words: str) -> str:
+    """Return the words of a request, those on standard input where ``-`` is given.
+
+    Raises:
+        RequestError: They are not text.
+    """
+    if words != str(STANDARD):
+        return words
+    try:
+        return read_file(STANDARD, _MOST).decode().strip()
+    except (FileFault, UnicodeDecodeError) as fault:
+        what = fault.what if isinstance(fault, FileFault) else "is not UTF-8 text"
+        raise RequestError(what, where="standard input", advice="write a request or a Task to it") from None
+
+
+def require_no_answer(given: Sequence[str], words: str) -> None:
+    """Refuse answers beside a file that holds a plan: nothing is asked about it.
+
+    Raises:
+        InputError: There are some.
+    """
+    if given:
+        what = f"{words} is planned already, nothing is asked that '{given[0]}' answers"
+        raise InputError(what, where="--answer", advice="leave it out")
 
 
 def _require_words(request: str) -> None:
@@ -138,7 +182,7 @@ def _asked(asked: Clarify, read: Callable[[], str]) -> str:
     show_question(asked)
     other = "other words" if asked.free else "the whole request in other words"
     numbers = f"1 to {len(asked.choices)}, or " if len(asked.choices) > 1 else "1, or " if asked.choices else ""
-    err.print(Text(f"{numbers}{other}: "), end="")
+    err.print(Words(f"{numbers}{other}: "), end="")
     try:
         said = read().strip()
     except KeyboardInterrupt:

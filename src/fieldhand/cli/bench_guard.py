@@ -91,10 +91,10 @@ def _show(found: Summary) -> None:
     show.out.print(_table("By family (home alone is safe)", found.families))
     show.out.print(_table("By what limits them (home alone is safe)", found.limits))
     show.out.print(_table("By accepted probability (home alone is safe)", found.probabilities))
-    show.out.print(
-        "Failed: a budget or the reserve was exceeded. Most: failures that chance explains (97.5 %). Safe: what must\n"
-        "be done is within Pf at approval; warned: it is not. Visits: optional ones, mean; +/-: made less forecast;\n"
-        "reward: over that of the best route were all legs' costs their means."
+    show.out.print_lines(
+        "Failed: a budget or the reserve was exceeded. Most: failures that chance explains (97.5 %). Safe: what must",
+        "be done is within Pf at approval; warned: it is not. Visits: optional ones, mean; +/-: made less forecast;",
+        "reward: over that of the best route were all legs' costs their means.",
     )
     show.heading("Beyond the limits")
     show.out.print(f"{found.refused} drafts were not approved, and not flown")

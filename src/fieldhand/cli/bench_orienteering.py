@@ -97,9 +97,9 @@ def _say(
 
     for setting in dict.fromkeys((row.graph, row.budget, row.failure_probability) for row in rows):
         show.out.print(_table([r for r in rows if (r.graph, r.budget, r.failure_probability) == setting]))
-    show.out.print(
-        "R: mean reward of the missions within budget; R all: of all missions, a failed one counts 0;\n"
-        "ms, p99: median and 99th percentile of a decision; *: published."
+    show.out.print_lines(
+        "R: mean reward of the missions within budget; R all: of all missions, a failed one counts 0;",
+        "ms, p99: median and 99th percentile of a decision; *: published.",
     )
     for line in compared:
         ours, other = line["solvers"]

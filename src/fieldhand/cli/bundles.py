@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from fieldhand import mission
 from fieldhand.errors import BundleError, InputError
+from fieldhand.files import STANDARD
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle, Content
@@ -35,8 +36,10 @@ def open_mission(file: str, site: str | None, robot: str | None, *, lenient: boo
     Raises:
         BundleError: It cannot be used, or was approved for another site or robot.
         NotTrustedError: Nobody who is trusted here has signed it.
+        NotApprovedError: Its approval has run out, or a later one of the same mission was seen here.
     """
     from fieldhand.approval.bundle.container import read_bundle_file
+    from fieldhand.approval.memory import approval_memory
     from fieldhand.robot.loader import load_robot
     from fieldhand.site.geojson import open_site
 
@@ -47,6 +50,8 @@ def open_mission(file: str, site: str | None, robot: str | None, *, lenient: boo
         given = open_site(site, lenient=lenient)
         if (given.sha256, given.content_sha256) != (bundle.site.sha256, bundle.site.content_sha256):
             raise _another("--site", site, bundle.site.name)
+    memory, clock = approval_memory(os.environ), datetime.now(UTC)
+    memory.admit(bundle.manifest, bundle.signer.fingerprint, clock=clock, source=file)
     return bundle
 
 
@@ -57,10 +62,9 @@ def verify(data: bytes, source: str) -> Bundle:
         BundleError: It cannot be used.
         NotTrustedError: Nobody who is trusted here has signed it.
     """
-    from fieldhand.approval.keys.trust import TrustStore
-    from fieldhand.files import config_folder
+    from fieldhand.approval.memory import trust_store
 
-    trusted = TrustStore(config_folder(os.environ))
+    trusted = trust_store(os.environ)
     return mission.open_bundle(data, source=source, trusted=trusted, now=datetime.now(UTC))
 
 
@@ -88,17 +92,16 @@ def read_unverified(data: bytes, source: str) -> Unverified:
     """
     from fieldhand.approval.bundle.container import TASK
     from fieldhand.approval.bundle.opening import content_of, unseal
-    from fieldhand.approval.keys.trust import TrustStore
-    from fieldhand.files import config_folder
+    from fieldhand.approval.memory import trust_store
 
     sealed = unseal(data, source=source)
     fingerprint = sealed.signature.public.fingerprint
-    key = TrustStore(config_folder(os.environ)).known().get(fingerprint)
+    key = trust_store(os.environ).known().get(fingerprint)
     if key is None:
         signed = f"a key that is not trusted here ({fingerprint})"
     else:
         signed = key.in_words + ("" if key.revoked is None else f", revoked on {key.revoked}")
-    content = content_of(sealed, now=datetime.now(UTC))
+    content = content_of(sealed, now=datetime.now(UTC), stranger=key is None or key.state != "trusted")
     return Unverified(content=content, document=sealed.members[TASK], sha256=sealed.hashes["bundle"], signed=signed)
 
 
@@ -108,7 +111,7 @@ def require_ending(path: Path) -> None:
     Raises:
         InputError: It has another one.
     """
-    if path.suffix.lower() != ENDING:
+    if path != STANDARD and path.suffix.lower() != ENDING:
         better = path.with_suffix(ENDING) if path.name else f"a file such as mission{ENDING}"
         raise InputError("a signed mission ends in .mission", where=str(path), advice=f"write it to {better}")
 

@@ -50,10 +50,10 @@ def calibrate(
     for line in _lines(robot, found):
         show.out.print(line, highlight=False)
     if output is not None:
-        show.out.print(f"\nProfile: {output}")
+        show.out.print_lines("", f"Profile: {output}")
         show.out.print("  It is another profile than before: what was approved for the old one must be approved again.")
     else:
-        show.out.print("\nGive -o profile.yaml to write the new profile.")
+        show.out.print_lines("", "Give -o profile.yaml to write the new profile.")
 
 
 def _rows(robot: RobotProfile, found: Calibration) -> Iterator[tuple[str, float, Fitted | None, str]]:

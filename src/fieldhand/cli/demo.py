@@ -41,7 +41,7 @@ def demo(
     from fieldhand.cli.flight import Orders, fly
     from fieldhand.cli.inputs import open_ground
     from fieldhand.execution.world import World
-    from fieldhand.language import spoken
+    from fieldhand.language import message, spoken
 
     require_unsigned_allowed(os.environ)
     connection = connection_of(on, domain, namespace, sim_time=sim_time, environ=os.environ)
@@ -52,7 +52,7 @@ def demo(
     orders = Orders(ask=False, confirm=True, by="demo", world=World(), seed=seed, folder=output, language=language)
     with boarded(ground, task, connection, quiet=False) as vehicle:
         status = fly(ground, task, document, replace(orders, vehicle=vehicle), planner=planner)
-    show.heading("Try next")
+    show.heading(language.say(message("Try next")))
     if shutil.which("fieldhand") is None:
         show.out.print("  . .venv/bin/activate")
     for line in (

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -15,13 +15,13 @@ from fieldhand.cli import show
 from fieldhand.cli.aboard import see_off
 from fieldhand.cli.approving import approve_plan, review_plan
 from fieldhand.cli.bundles import signer_record
-from fieldhand.cli.inputs import Ground, write_file
+from fieldhand.cli.inputs import Ground, GroundFiles, write_file
 from fieldhand.cli.outputs import left_in
 from fieldhand.cli.show import note
 from fieldhand.errors import InputError
-from fieldhand.language import ENGLISH, Language, message
+from fieldhand.language import ENGLISH, Language, kept_in_log, message
 from fieldhand.task.frames import Task
-from fieldhand.task.results import Ended, Event
+from fieldhand.task.results import Ended, Event, MissionStatus
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
@@ -32,23 +32,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Kept:
-    """What a mission's folder takes along.
+    """The folder of a mission, and what it takes along.
 
     Attributes:
         under: The folder of all missions.
-        site: The site's files.
-        robot: The profile.
-        world: The world file, if there is one.
-        lenient: Whether the site was read leniently.
-        signed: The signed bundle, if the mission came in one.
+        files: The bytes from which site and robot were read.
     """
 
     under: Path
-    site: Mapping[str, bytes]
-    robot: bytes
-    world: bytes | None
-    lenient: bool
-    signed: bytes | None = None
+    files: GroundFiles
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -157,31 +149,33 @@ def _carry_out(
 
     with _taking(ground, orders, ()) as take:
         if orders.kept is not None:
-            given = _begin(authorized, orders, orders.kept, planner)
+            given = _begin(ground, authorized, orders, orders.kept, planner)
             return missions.carry_out(given, speed=orders.speed, vehicle=orders.vehicle, emit=take).events, given.id
         site, robot, seed = ground.site, ground.robot, orders.seed
         vehicle = orders.vehicle or simulation(site, robot, orders.world, seed=seed, speed=orders.speed)
         return mission.carry_out(authorized, site, robot, vehicle=vehicle, seed=seed, emit=take).events, ""
 
 
-def _begin(authorized: AuthorizedTask, orders: Orders, kept: Kept, planner: str) -> missions.Mission:
-    from fieldhand.task.codec import encode
-
+def _begin(ground: Ground, authorized: AuthorizedTask, orders: Orders, kept: Kept, planner: str) -> missions.Mission:
     inputs = missions.Inputs(
-        task=encode(authorized.task),
-        site=kept.site,
-        lenient=kept.lenient,
-        robot=kept.robot,
-        world=kept.world,
-        authorization=authorized.authorization,
+        authorized=authorized,
+        site=ground.site,
+        robot=ground.robot,
+        files=kept.files.site,
+        profile=kept.files.profile,
+        lenient=kept.files.lenient,
+        world=orders.world,
         seed=orders.seed,
         planner=planner,
-        signed=kept.signed,
+        bundle=orders.bundle,
         departure=missions.departure_on(orders.vehicle),
     )
-    given = missions.open_mission(missions.begin(kept.under, missions.new_id(datetime.now(UTC)), inputs))
+    given = missions.begin(kept.under, missions.new_id(datetime.now(UTC)), inputs)
     if not orders.quiet:
-        show.note(f"mission {given.id}; fieldhand status, pause, resume, abort and return know it by this name")
+        named = message(
+            "mission {id}; fieldhand status, pause, resume, abort and return know it by this name", id=given.id
+        )
+        show.note(named, orders.language)
     return given
 
 
@@ -200,10 +194,13 @@ def _taking(ground: Ground, orders: Orders, before: Sequence[Event]) -> Iterator
 
     teller = Teller(ground.robot)
     if not orders.quiet:
-        show.heading("The mission")
+        show.heading(orders.language.say(message("The mission")))
         if before:
-            left = "nothing is left to do" if isinstance(before[-1], Ended) else "it goes on from there"
-            show.out.print(f"          {len(before)} events before; {left}")
+            if isinstance(before[-1], Ended):
+                left = message("{count} events before; nothing is left to do", count=len(before))
+            else:
+                left = message("{count} events before; it goes on from there", count=len(before))
+            show.out.print(f"          {orders.language.say(left)}")
     with ExitStack() as stack:
         paths = [orders.log, None if orders.folder is None else orders.folder / "events.jsonl"]
         logs: list[Callable[[Event], None]] = [
@@ -217,7 +214,7 @@ def _taking(ground: Ground, orders: Orders, before: Sequence[Event]) -> Iterator
         def take(event: Event) -> None:
             for log in logs:
                 log(event)
-            line = teller.tell(event)
+            line = orders.language.say(teller.tell(event) or "")
             if line and not orders.quiet:
                 show.out.print(line)
 
@@ -255,26 +252,38 @@ def conclude(
         bundle=orders.bundle,
     )
     if done.not_kept:
-        note(done.not_kept)
+        note(done.not_kept, orders.language)
     assessment = done.assessment
     ended = next((e for e in reversed(events) if isinstance(e, Ended)), None)
     written: list[Path] = []
     if orders.folder is not None:
         written = list(left_in(orders.folder))
-    status = 0 if ended is not None and ended.status == "completed" and assessment.success else 1
+    status = 0 if assessment.success else 1
     if orders.quiet:
-        record = show.mission_record(review.task, planner, ended, assessment.outcomes, written)
+        record = show.mission_record(review.task, planner, ended, assessment, written)
         signed = None if orders.bundle is None else signer_record(orders.bundle)
         show.print_json({"mission": name} | record | {"signed": signed})
         return status
-    show.show_outcomes(assessment.outcomes, goal_names(review.task, ground.robot))
-    if ended is not None:
-        show.out.print(
-            f"\nMission {ended.status}: {ended.travelled_m:.0f} m driven in {ended.t / 60:.0f} min,"
-            f" battery at {ended.charge_percent:.0f} %{f' ({ended.reason})' if ended.reason else ''}"
-        )
+    show.show_outcomes(assessment, goal_names(review.task, ground.robot), orders.language)
+    if ended is not None and assessment.status is not None:
+        show.out.print()
+        show.out.print(orders.language.say(_say_end(assessment.status, assessment.reason, ended)))
     if written:
-        show.heading("Where to look")
+        show.heading(orders.language.say(message("Where to look")))
         for path in written:
             show.out.print(f"  {path}")
     return status
+
+
+def _say_end(status: MissionStatus, reason: str, ended: Ended) -> str:
+    """Say how a mission ended, what it took, and why."""
+    from fieldhand.task.exceeded import say_status
+
+    said = message(
+        "Mission {status}: {metres} m driven in {minutes} min, battery at {charge} %",
+        status=say_status(status),
+        metres=f"{ended.travelled_m:.0f}",
+        minutes=f"{ended.t / 60:.0f}",
+        charge=f"{ended.charge_percent:.0f}",
+    )
+    return message("{what} ({why})", what=said, why=kept_in_log(reason)) if reason else said

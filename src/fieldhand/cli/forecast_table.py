@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from rich.table import Table
-from rich.text import Text
 
 from fieldhand.cli import show
+from fieldhand.cli.console import Words
 from fieldhand.clock import clock_time
 
 if TYPE_CHECKING:
@@ -48,17 +48,17 @@ def show_forecast(review: Review, robot: RobotProfile) -> None:
     show.out.print(table)
     for number, branch in enumerate(shown, start=1):
         words = say_branch(branch, review.task, robot)
-        show.out.print(Text(f"  {number}: {words}" if number > 1 else f"  1, the worst: {words}"))
+        show.out.print(Words(f"  {number}: {words}" if number > 1 else f"  1, the worst: {words}"))
     if len(others) > _MOST:
-        show.out.print(Text(f"and {len(others) - _MOST} more branches; --json has them all", style="dim"))
+        show.out.print(Words(f"and {len(others) - _MOST} more branches; --json has them all", style="dim"))
     count = str(len(forecast.branches))
     said = "1 branch, the only one" if count == "1" else _COVERAGE[forecast.explored.coverage].format(count=count)
     draws = worst.chances[-1].draws
-    show.out.print(Text(f"{said}; {draws:,} missions drawn along each. Time is in minutes and seconds.", style="dim"))
+    show.out.print(Words(f"{said}; {draws:,} missions drawn along each. Time is in minutes and seconds.", style="dim"))
     exits = forecast.exits
     if exits.looked_at:
         some = "each" if exits.looked_at == exits.places else f"{exits.looked_at}"
-        show.out.print(Text(f"Ways home after a fault: driven from {some} of {exits.places} places.", style="dim"))
+        show.out.print(Words(f"Ways home after a fault: driven from {some} of {exits.places} places.", style="dim"))
 
 
 def _figures(branch: BranchEstimate) -> tuple[str, ...]:

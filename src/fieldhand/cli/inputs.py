@@ -6,12 +6,16 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from fieldhand import files
 from fieldhand.cli.outputs import unwritable
 from fieldhand.cli.show import note
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
+
+if TYPE_CHECKING:
+    from fieldhand.site.formats.files import SiteFiles
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,18 +26,44 @@ class Ground:
     robot: RobotProfile
 
 
+@dataclass(frozen=True, kw_only=True)
+class GroundFiles:
+    """Site and robot as they were read, for what keeps them: a mission's folder, a bundle.
+
+    Attributes:
+        site, profile: The bytes.
+        lenient: How the site was read.
+    """
+
+    site: SiteFiles
+    profile: bytes
+    lenient: bool
+
+
 def open_ground(site: str, robot: str, *, lenient: bool = False) -> Ground:
     """Open both; of a leniently read site say what was left out.
 
     Raises:
         SiteError, ProfileError: One of them cannot be used.
     """
-    from fieldhand.robot.loader import load_robot
-    from fieldhand.site.geojson import open_site
+    return read_ground(site, robot, lenient=lenient)[0]
 
-    opened = open_site(site, lenient=lenient)
+
+def read_ground(site: str, robot: str, *, lenient: bool = False) -> tuple[Ground, GroundFiles]:
+    """Open both as :func:`open_ground`, and return the bytes from which they were read, too: each file is read once.
+
+    Raises:
+        SiteError, ProfileError: One of them cannot be used.
+    """
+    from fieldhand.robot.loader import parse_profile, profile_bytes
+    from fieldhand.site.geojson import site_files, site_of
+
+    files = site_files(site)
+    opened = site_of(files, lenient=lenient)
     tell_left_out(opened, lenient=lenient)
-    return Ground(site=opened, robot=load_robot(robot))
+    profile, source = profile_bytes(robot)
+    ground = Ground(site=opened, robot=parse_profile(profile, source=source))
+    return ground, GroundFiles(site=files, profile=profile, lenient=lenient)
 
 
 def tell_left_out(site: Site, *, lenient: bool) -> None:
@@ -43,7 +73,7 @@ def tell_left_out(site: Site, *, lenient: bool) -> None:
 
 
 def write_file(path: Path, data: bytes) -> None:
-    """Write a file, making its folder.
+    """Write a file, making its folder; ``-`` is standard output.
 
     Raises:
         OutputError: It cannot be written.
@@ -61,6 +91,10 @@ def write_whole(path: Path, data: bytes) -> None:
 
 
 def _write(path: Path, data: bytes, how: Callable[[Path, bytes], object]) -> None:
+    if path == files.STANDARD:
+        sys.stdout.buffer.write(data)
+        sys.stdout.buffer.flush()
+        return
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         how(path, data)

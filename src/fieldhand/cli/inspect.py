@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -11,9 +11,14 @@ import typer
 from fieldhand.cli.options import JsonOption, LangOption
 
 if TYPE_CHECKING:
+    from fieldhand.approval.bundle.manifest import Manifest
     from fieldhand.approval.bundle.opening import Content, Sealed
     from fieldhand.language import Language
     from fieldhand.mission import Review
+
+
+#: Before every row that comes from the bundle, so that none of them looks like a line of this program.
+_MARK = "  | "
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,6 +34,7 @@ class _Findings:
     problems: tuple[str, ...]
     whose: str = ""
     sealed: Sealed | None = None
+    manifest: Manifest | None = None
     content: Content | None = None
     review: Review | None = None
 
@@ -50,7 +56,8 @@ def inspect(
     if json:
         show.print_json(_record(file, found, language))
     else:
-        _show(file, found, language)
+        with show.out.behind(), show.err.behind():
+            _show(file, found, language)
     if found.problems:
         raise SystemExit(1)
 
@@ -60,12 +67,11 @@ def _findings(data: bytes, source: str, language: Language) -> _Findings:
     from datetime import UTC, datetime
 
     from fieldhand import mission
-    from fieldhand.approval.bundle.opening import content_of, require_trusted, unseal
-    from fieldhand.approval.keys.trust import TrustStore
-    from fieldhand.errors import BundleError, FieldhandError, NotTrustedError
-    from fieldhand.files import config_folder
+    from fieldhand.approval.bundle.opening import content_of, manifest_of, require_trusted, unseal
+    from fieldhand.approval.memory import approval_memory, require_unexpired, trust_store
+    from fieldhand.errors import BundleError, FieldhandError, NotApprovedError, NotTrustedError
 
-    known = TrustStore(config_folder(os.environ)).known()
+    known = trust_store(os.environ).known()
     try:
         sealed = unseal(data, source=source)
     except BundleError as error:
@@ -77,47 +83,63 @@ def _findings(data: bytes, source: str, language: Language) -> _Findings:
         require_trusted(sealed, known)
     except NotTrustedError as error:
         problems.append(str(error))
+    found = _Findings(state=state, problems=(), whose=whose, sealed=sealed)
+    now = datetime.now(UTC)
     try:
-        content = content_of(sealed, now=datetime.now(UTC))
+        found = replace(found, manifest=manifest_of(sealed, now=now))
+        try:
+            require_unexpired(manifest_of(sealed, now=now), approval_memory(os.environ).time(now), now, source)
+        except NotApprovedError as error:
+            problems.append(str(error))
+        content = content_of(sealed, now=now, stranger=state != "trusted")
     except FieldhandError as error:
-        return _Findings(state=state, problems=(*problems, str(error)), whose=whose, sealed=sealed)
+        return replace(found, problems=(*problems, str(error)))
     review = mission.review(content.task, content.site, content.robot)
     problems.extend(language.say(problem.line()) for problem in review.errors)
-    return _Findings(state=state, problems=tuple(problems), whose=whose, sealed=sealed, content=content, review=review)
+    return replace(found, problems=tuple(problems), content=content, review=review)
 
 
 def _show(file: Path, found: _Findings, language: Language) -> None:
     from fieldhand.cli import show
 
-    if found.content is not None:
-        manifest = found.content.manifest
-        approved, here = manifest.approved, found.content
-        show.out.print(f"Approved by {approved.by} at {approved.at}, read in {approved.language}")
-        show.out.print(
-            f"  planned by {manifest.task.planner}, signed with {manifest.program}, format {manifest.format}"
-        )
-        show.out.print(f"  site {here.site.name}, {len(here.site.trees)} trees{' (lenient)' * manifest.site.lenient}")
-        show.out.print(f"  robot {here.robot.name}")
-        for warning in approved.confirmed:
-            show.out.print(f"  confirmed: {warning}")
     if found.sealed is not None:
         whose = f" of {found.whose}" if found.whose else ""
         show.out.print(f"Signature {found.state}: key{whose} {found.sealed.signature.public.fingerprint}")
         show.out.print("SHA-256")
         for name, sha256 in found.sealed.hashes.items():
             show.out.print(f"  {sha256}  {name}")
-    if found.review is not None:
-        show.show_review(found.review, language)
-    show.out.print()
+        show.out.print()
+    if found.manifest is not None:
+        show.out.print(f'What {file} holds stands behind "{_MARK.strip()}":')
+        with show.out.behind(_MARK):
+            _show_manifest(found.manifest, found.content)
+            if found.review is not None:
+                show.show_review(found.review, language)
+        show.out.print()
     for problem in found.problems:
         show.err.print(f"fieldhand: {problem}")
     show.out.print(f"{file} would not run here." if found.problems else f"{file} would run here.")
 
 
+def _show_manifest(manifest: Manifest, content: Content | None) -> None:
+    """Print who approved it, and for what; how many trees there are only if the site was read."""
+    from fieldhand.cli import show
+
+    approved = manifest.approved
+    show.out.print(f"Approved by {approved.by} at {approved.at}, read in {approved.language}")
+    show.out.print(f"  number {manifest.number}, may be begun until {manifest.until.isoformat(timespec='seconds')}")
+    show.out.print(f"  planned by {manifest.task.planner}, signed with {manifest.program}, format {manifest.format}")
+    trees = "" if content is None else f", {len(content.site.trees)} trees"
+    show.out.print(f"  site {manifest.site.name}{trees}{' (lenient)' * manifest.site.lenient}")
+    show.out.print(f"  robot {manifest.robot.name}")
+    for warning in approved.confirmed:
+        show.out.print(f"  confirmed: {warning}")
+
+
 def _record(file: Path, found: _Findings, language: Language) -> dict[str, Any]:
     from fieldhand.cli import show
 
-    sealed, content = found.sealed, found.content
+    sealed, manifest = found.sealed, found.manifest
     return {
         "file": str(file),
         "runs": not found.problems,
@@ -128,6 +150,6 @@ def _record(file: Path, found: _Findings, language: Language) -> dict[str, Any]:
             "fingerprint": "" if sealed is None else sealed.signature.public.fingerprint,
         },
         "hashes": {} if sealed is None else dict(sealed.hashes),
-        "manifest": None if content is None else content.manifest.model_dump(),
+        "manifest": None if manifest is None else manifest.model_dump(),
         "review": None if found.review is None else show.review_record(found.review, language),
     }

@@ -47,10 +47,16 @@ def new(
         show.print_json(record | {"file": str(file)})
         return
     show.out.print(f"A key for {public.name}, in {file.with_suffix('.key')}")
-    show.out.print("\nSend this line to whoever looks after the robot (it is no secret); it also stands in")
-    show.out.print(f"{file}:\n\n  {public.line()}\n")
-    show.out.print(
-        f"They give it to fieldhand keys trust, and compare the fingerprint with you:\n\n  {public.fingerprint}"
+    show.out.print_lines(
+        "",
+        "Send this line to whoever looks after the robot (it is no secret); it also stands in",
+        f"{file}:",
+        "",
+        f"  {public.line()}",
+        "",
+        "They give it to fieldhand keys trust, and compare the fingerprint with you:",
+        "",
+        f"  {public.fingerprint}",
     )
 
 
@@ -68,7 +74,8 @@ def list_keys(json: JsonOption = False) -> None:
     for key in held:
         guarded = "takes a passphrase" if key.encrypted else "no passphrase"
         show.out.print(f"  {key.public.fingerprint}  {key.public.name}  ({guarded})")
-    show.out.print("\nTrusted here" if known else "\nNo key is trusted here; fieldhand keys trust FILE trusts one.")
+    show.out.print()
+    show.out.print("Trusted here" if known else "No key is trusted here; fieldhand keys trust FILE trusts one.")
     for other in known:
         state = "trusted" if other.revoked is None else f"REVOKED {other.revoked}"
         show.out.print(f"  {other.fingerprint}  {other.name}  since {other.since}  {state}")
@@ -134,15 +141,53 @@ def revoke(
         show.out.print(f"Revoked for good: {known.name}, {known.fingerprint}")
 
 
+@keys.command("confirm")
+def confirm(
+    valid_for: Annotated[
+        str | None,
+        typer.Option("--valid-for", help="Have the list run out unless it is confirmed again, such as 30d."),
+    ] = None,
+    yes: Annotated[bool, typer.Option("--yes", "-y", help="You have looked at the list and at the clock.")] = False,
+    json: JsonOption = False,
+) -> None:
+    """Say that the trusted keys, as they lie here now, are those you mean, and that the clock is right."""
+    import os
+    from datetime import UTC, datetime
+
+    from fieldhand.approval.memory import approval_memory
+    from fieldhand.cli import show
+    from fieldhand.cli.approve import parse_validity
+    from fieldhand.cli.inputs import may_ask
+    from fieldhand.errors import NotApprovedError
+
+    trust, now = _folders()[1], datetime.now(UTC)
+    until = None if valid_for is None else now + parse_validity(valid_for)
+    found = tuple(trust.listed().values())
+    if not json:
+        show.out.print(f"The clock says {now.isoformat(timespec='seconds')}.")
+        for key in found:
+            show.out.print(f"  {key.fingerprint}  {key.name}  since {key.since}  {key.state}")
+    if not yes:
+        if not may_ask():
+            raise NotApprovedError("nobody is here to confirm the trusted keys", advice="give --yes")
+        if not typer.confirm("Are these the keys that you trust, and is the clock right?"):
+            raise NotApprovedError("not confirmed, nothing was changed")
+    trust.confirm(until)
+    approval_memory(os.environ).set_clock(now)
+    if json:
+        show.print_json([_known_record(key) for key in trust.known().values()])
+    else:
+        show.out.print("Confirmed." if until is None else f"Confirmed until {until.isoformat(timespec='seconds')}.")
+
+
 def _folders() -> tuple[SigningKeys, TrustStore]:
     import os
 
     from fieldhand.approval.keys.signing import SigningKeys
-    from fieldhand.approval.keys.trust import TrustStore
+    from fieldhand.approval.memory import trust_store
     from fieldhand.files import config_folder
 
-    folder = config_folder(os.environ)
-    return SigningKeys(folder), TrustStore(folder)
+    return SigningKeys(config_folder(os.environ)), trust_store(os.environ)
 
 
 def _compared(fingerprint: str, whose: str) -> None:

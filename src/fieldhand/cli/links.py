@@ -82,11 +82,10 @@ def sendable(data: bytes, source: str) -> Sendable:
     Raises:
         BundleError, NotTrustedError: It is not.
     """
-    from fieldhand.approval.keys.trust import TrustStore
+    from fieldhand.approval.memory import trust_store
     from fieldhand.delivery.verified import require_sendable
-    from fieldhand.files import config_folder
 
-    known = TrustStore(config_folder(os.environ)).known()
+    known = trust_store(os.environ).known()
     return require_sendable(data, source=source, known=known, now=datetime.now(UTC))
 
 

@@ -7,7 +7,27 @@ from typing import Annotated
 
 import typer
 
-from fieldhand.cli.outputs import to_file, to_folder, to_picture
+from fieldhand.cli.outputs import to_file, to_folder, to_named_file, to_picture
+
+
+def _robots() -> list[str]:
+    """Return the names that a shell completes a robot with."""
+    from fieldhand.robot.loader import builtin_names
+
+    return list(builtin_names())
+
+
+def _languages() -> list[str]:
+    from fieldhand.language import languages
+
+    return list(languages())
+
+
+def _planners() -> list[str]:
+    from fieldhand.mission import PLANNERS
+
+    return list(PLANNERS)
+
 
 SITE_HELP = (
     "File of the site, or 'demo' for the built-in orchard: GeoJSON or CSV; with the extra gis also"
@@ -19,23 +39,35 @@ MissionSiteOption = Annotated[str | None, typer.Option("--site", help=f"{SITE_HE
 LenientOption = Annotated[
     bool, typer.Option("--lenient", help="Load what is sound of the site and say what was left out.")
 ]
-RobotOption = Annotated[str, typer.Option("--robot", help="Built-in robot (husky, amiga) or a profile file (YAML).")]
+RobotOption = Annotated[
+    str,
+    typer.Option("--robot", autocompletion=_robots, help="Built-in robot (husky, amiga) or a profile file (YAML)."),
+]
 MissionRobotOption = Annotated[
     str | None,
-    typer.Option("--robot", help="Built-in robot (husky, amiga) or a profile file; husky if none is given."),
+    typer.Option(
+        "--robot",
+        autocompletion=_robots,
+        help="Built-in robot (husky, amiga) or a profile file; husky if none is given.",
+    ),
 ]
 ByOption = Annotated[str | None, typer.Option("--by", help="Who approves; else the user who is logged in.")]
 ConfirmOption = Annotated[
     bool, typer.Option("--confirm", help="Confirm every warning without asking; --yes alone does not.")
 ]
 PlannerOption = Annotated[
-    str, typer.Option("--planner", help="english (no model), llm (a language model), or auto: english, else llm.")
+    str,
+    typer.Option(
+        "--planner",
+        autocompletion=_planners,
+        help="english (no model), llm (a language model), or auto: english, else llm.",
+    ),
 ]
 TranscriptOption = Annotated[
     Path | None,
     typer.Option(
         "--transcript",
-        callback=to_file,
+        callback=to_named_file,
         help="Where to keep what was said to a language model and its answers; else in the user's state folder.",
     ),
 ]
@@ -49,7 +81,11 @@ AssumeOption = Annotated[
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object instead of text.")]
 LangOption = Annotated[
     str | None,
-    typer.Option("--lang", help="Language to read back in: en, es; else the environment's (LANG) if there is one."),
+    typer.Option(
+        "--lang",
+        autocompletion=_languages,
+        help="Language to read back in: en, es; else the environment's (LANG) if there is one.",
+    ),
 ]
 MissionsOption = Annotated[
     Path | None,

@@ -33,7 +33,10 @@ def order(
 
     word = said_of(said)
     with closing(open_link(url, token_file, trusting_of(ca, pin, insecure=insecure))) as link:
-        heard = link.order(find_mission(link, mission).bundle, word, because)
+        # Without a mission nothing is looked up first: whoever wants the robot to stop shall not wait for a list.
+        heard = link.order_now(word, because) if mission is None and word != "start" else None
+        if heard is None:
+            heard = link.order(find_mission(link, mission).bundle, word, because)
     if json:
         show.print_json(heard.model_dump())
     else:

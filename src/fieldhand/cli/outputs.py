@@ -7,12 +7,14 @@ command line is read. It tries, and leaves nothing behind.
 from __future__ import annotations
 
 import os
+import sys
 import tempfile
 from pathlib import Path
 
 import typer
 
 from fieldhand.errors import OutputError
+from fieldhand.files import STANDARD
 
 _OPTIONS = "fieldhand.outputs"
 
@@ -23,7 +25,9 @@ def to_file(ctx: typer.Context, param: typer.CallbackParam, path: Path | None) -
     Raises:
         OutputError: It cannot be written, or another option names the same.
     """
-    if path is not None:
+    if path == STANDARD:
+        _take_standard_output(ctx, param)
+    elif path is not None:
         _require_file(path, f"{_name(param)} {path}")
         _require_own(ctx, param, path)
     return path
@@ -32,15 +36,30 @@ def to_file(ctx: typer.Context, param: typer.CallbackParam, path: Path | None) -
 def to_whole_file(ctx: typer.Context, param: typer.CallbackParam, path: Path | None) -> Path | None:
     """Of an option that names a file which is written beside its place and then put there, as a whole or not at all.
 
+    Standard output gets it as a whole.
+
     Raises:
         OutputError: As :func:`to_file`.
     """
-    if path is not None:
+    if path == STANDARD:
+        _take_standard_output(ctx, param)
+    elif path is not None:
         where = f"{_name(param)} {path}"
         require_folder(path.parent, where)
         _require_no_folder(path, where)
         _require_own(ctx, param, path)
     return path
+
+
+def to_named_file(ctx: typer.Context, param: typer.CallbackParam, path: Path | None) -> Path | None:
+    """Refuse standard output for a file that is read again, or whose suffix names its kind.
+
+    Raises:
+        OutputError: As :func:`to_file`, or it is standard output.
+    """
+    if path is not None:
+        refuse_standard_output(path, _name(param))
+    return to_file(ctx, param, path)
 
 
 def to_picture(ctx: typer.Context, param: typer.CallbackParam, path: Path | None) -> Path | None:
@@ -52,6 +71,7 @@ def to_picture(ctx: typer.Context, param: typer.CallbackParam, path: Path | None
     if path is not None:
         from fieldhand.site.drawing.saving import require_picture
 
+        refuse_standard_output(path, _name(param))
         to_file(ctx, param, path)
         require_picture(path)
     return path
@@ -64,6 +84,7 @@ def to_folder(ctx: typer.Context, param: typer.CallbackParam, path: Path | None)
         OutputError: It cannot be written, or another option names the same.
     """
     if path is not None:
+        refuse_standard_output(path, _name(param))
         require_folder(path, f"{_name(param)} {path}")
         for file in left_in(path):
             if file.exists():
@@ -105,6 +126,32 @@ def unwritable(where: str, error: OSError) -> OutputError:
     return OutputError(
         f"cannot write: {error.strerror or error}", where=where, advice="choose a folder that you may write to"
     )
+
+
+def _take_standard_output(ctx: typer.Context, param: typer.CallbackParam) -> None:
+    """Keep standard output for one file: whatever people read goes to standard error for as long as the command runs.
+
+    Raises:
+        OutputError: Another option, or the one JSON object, goes there as well.
+    """
+    from fieldhand.cli.console import out
+
+    option = _name(param)
+    other = "--json" if "--json" in sys.argv else ctx.meta.setdefault(_OPTIONS, {}).setdefault(str(STANDARD), option)
+    if other != option:
+        raise OutputError(f"standard output is asked for by {other} and by {option}", advice="name a file for one")
+    out.stderr = True
+    ctx.call_on_close(lambda: setattr(out, "stderr", False))
+
+
+def refuse_standard_output(path: Path | None, option: str) -> None:
+    """Refuse ``-`` for what is a folder, a picture, or read again.
+
+    Raises:
+        OutputError: It is standard output.
+    """
+    if path == STANDARD:
+        raise OutputError("cannot go to standard output", where=f"{option} -", advice="give it a name")
 
 
 def _require_file(path: Path, where: str) -> None:

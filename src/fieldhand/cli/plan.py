@@ -44,7 +44,7 @@ def plan(
 
     from fieldhand import mission
     from fieldhand.cli import show
-    from fieldhand.cli.asking import Replies, plan_and_ask
+    from fieldhand.cli.asking import Replies, given_words, plan_and_ask
     from fieldhand.cli.inputs import open_ground, write_file
     from fieldhand.cli.pictures import draw_plan, draw_question
     from fieldhand.language import message, spoken
@@ -54,10 +54,10 @@ def plan(
     language = spoken(lang, os.environ)
     ground = open_ground(site, robot, lenient=lenient)
     chosen = mission.make_planner(planner, os.environ, transcript)
-    replies = Replies(given=tuple(answer or ()), assume=assume, ask=not json)
+    replies = Replies(given=tuple(answer or ()), assume=assume, ask=not json, progress=None if json else language)
     if picture is not None:
         replies = replace(replies, draw=lambda asked: draw_question(picture, asked, ground))
-    request, outcome = plan_and_ask(request, ground, chosen, replies)
+    request, outcome = plan_and_ask(given_words(request), ground, chosen, replies)
     if not isinstance(outcome, Planned):
         if json:
             show.print_json(show.outcome_record(outcome))
@@ -73,7 +73,8 @@ def plan(
         record = show.outcome_record(outcome) | show.review_record(review, language) | {"xml": document.decode()}
         show.print_json(record)
     else:
-        show.show_review(review, language)
+        # Whoever approves is shown every line; here those that are the same in each plan say nothing new.
+        show.show_review(review, language, usual=False)
         if output is not None:
             show.out.print(language.say(message("Task: {file}", file=str(output))))
         if picture is not None:

@@ -42,10 +42,14 @@ def folder_of(given: str | None, under: Path | None) -> Path | None:
 
     Raises:
         JournalError: There is no mission of that name.
+        InputError: What is given is the name of a file, and there is none.
     """
     from fieldhand import missions
 
     path = Path(given or "")
+    if given is not None and path.suffix and not path.exists():
+        advice = "give the event log of a mission, or the name or folder of a mission"
+        raise InputError("there is no such file", where=given, advice=advice)
     if given is not None and (path.is_file() or (path.suffix and not path.is_dir())):
         return None
     return missions.find(under or missions.missions_folder(os.environ), given)
@@ -59,12 +63,12 @@ def plan_of_folder(folder: Path) -> Plan:
     """
     from fieldhand import missions
 
-    given = missions.open_mission(folder)
-    data = missions.signed_bundle(folder)
-    bundle = None if data is None else read_unverified(data, str(folder))
+    contents = missions.read_folder(folder)
+    given = contents.mission()
+    bundle = None if contents.signed is None else read_unverified(contents.signed, str(folder))
     return Plan(
         task=given.authorized.task,
-        document=(folder / "task.xml").read_bytes(),
+        document=contents.files["task.xml"],
         ground=Ground(site=given.site, robot=given.robot),
         authorization=given.authorized.authorization,
         signed="" if bundle is None else bundle.signed,

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from fieldhand.cli.options import JsonOption, LenientOption, MissionsOption, RecordedSiteOption
-from fieldhand.cli.outputs import to_file
+from fieldhand.cli.outputs import to_named_file
 
 _ENDINGS = (".html", ".gif", ".mp4")
 
@@ -16,7 +16,9 @@ _ENDINGS = (".html", ".gif", ".mp4")
 def replay(
     output: Annotated[
         Path,
-        typer.Option("-o", "--output", callback=to_file, help="Where to write: .html, .gif, or .mp4 (needs ffmpeg)."),
+        typer.Option(
+            "-o", "--output", callback=to_named_file, help="Where to write: .html, .gif, or .mp4 (needs ffmpeg)."
+        ),
     ],
     given: Annotated[
         str | None,

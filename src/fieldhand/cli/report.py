@@ -32,13 +32,14 @@ def report(
     kept: MissionsOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Judge a mission and report it; exit status 1 unless it completed with every goal met."""
+    """Judge a mission and report it; exit status 1 unless it completed with every goal met and no limit exceeded."""
     from fieldhand import past
     from fieldhand.cli import show
     from fieldhand.cli.recorded import folder_of, log_of_folder, plan_of_files, plan_of_folder, require_nothing_beside
     from fieldhand.errors import InputError
     from fieldhand.evaluation.report_facts import end_of
     from fieldhand.evaluation.telling import goal_names
+    from fieldhand.task.exceeded import say_status
 
     folder = folder_of(given, kept)
     if folder is not None:
@@ -64,14 +65,15 @@ def report(
         hashes=plan.hashes,
     )
     ended = end_of(log.events)
-    status = 0 if ended is not None and ended.status == "completed" and assessment.success else 1
+    status = 0 if assessment.success else 1
     if json:
-        record = show.mission_record(plan.task, "", ended, assessment.outcomes, list(files.paths))
+        record = show.mission_record(plan.task, "", ended, assessment, list(files.paths))
         approved = None if plan.authorization is None else asdict(plan.authorization)
         show.print_json(record | {"authorization": approved, "signed": plan.signed})
         raise SystemExit(status)
-    show.show_outcomes(assessment.outcomes, goal_names(plan.task, plan.ground.robot))
-    show.out.print(f"\nMission {ended.status}." if ended else "\nThe log ends before the mission does.")
+    show.show_outcomes(assessment, goal_names(plan.task, plan.ground.robot))
+    how = None if assessment.status is None else say_status(assessment.status)
+    show.out.print_lines("", f"Mission {how}." if how else "The log ends before the mission does.")
     show.heading("Where to look")
     for path in files.paths:
         show.out.print(f"  {path}")

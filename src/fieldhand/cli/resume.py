@@ -52,12 +52,14 @@ def resume(
     if missions.is_running(folder):
         tell(str(folder), folder.parent, "continue", "the operator", "goes on", json=json)
         return
-    begun = missions.begun_on(folder)
-    connection = connection_again(folder.name, begun, on, domain, namespace, sim_time=sim_time, environ=os.environ)
+    contents = missions.read_folder(folder)
+    connection = connection_again(
+        folder.name, contents.departure, on, domain, namespace, sim_time=sim_time, environ=os.environ
+    )
     refuse_simulation_options(connection, world=None, speed=speed)
-    if not missions.is_signed(folder):
+    if contents.signed is None:
         require_unsigned_allowed(os.environ, asked=production)
-    given = missions.open_mission(folder, verify)
+    given = contents.mission(verify)
     if given.bundle is not None and not json:
         show.out.print(tell_signer(given.bundle))
     if missions.last_order(folder) == "pause":

@@ -79,10 +79,12 @@ def _lines(profile: RobotProfile) -> list[str]:
     from fieldhand.cli.bindings import binding_lines
 
     energy = profile.energy
+    battery = energy.levels(energy.reserve_percent)
     lines = [
         f"{profile.name}: {profile.description}",
         f"  drives {profile.speed_m_s:g} m/s, {profile.width_m:g} m wide, works {profile.standoff_m:g} m from a trunk",
-        f"  battery {energy.capacity_j / 3.6e6:.2f} kWh, {energy.reserve_percent:g} % kept in reserve",
+        f"  battery {energy.capacity_j / 3.6e6:.2f} kWh, {energy.reserve_percent:g} % kept in reserve;"
+        f" warns at {battery.warn:g} %, turns home at {battery.home:g} %, stops at {battery.stop:g} %",
         f"  a leg of d metres costs d·({profile.leg_cost.alpha:g} + Exp({1 - profile.leg_cost.alpha:g}))",
         "Actions",
     ]

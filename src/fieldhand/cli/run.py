@@ -72,15 +72,13 @@ def run(
     from fieldhand.approval.production import require_unsigned_allowed
     from fieldhand.cli import show
     from fieldhand.cli.aboard import boarded, connection_of, refuse_simulation_options
-    from fieldhand.cli.asking import Replies, plan_or_read
+    from fieldhand.cli.asking import Replies, plan_or_read, require_no_answer
     from fieldhand.cli.bundles import is_bundle, open_mission, require_site, tell_signer
     from fieldhand.cli.flight import Kept, Orders, fly, parse_speed
-    from fieldhand.cli.inputs import Ground, open_ground
+    from fieldhand.cli.inputs import Ground, GroundFiles, read_ground
     from fieldhand.cli.outputs import require_folder
     from fieldhand.execution.world import World, load_world
     from fieldhand.language import spoken
-    from fieldhand.robot.loader import profile_bytes
-    from fieldhand.site.geojson import site_files
 
     language = spoken(lang, os.environ)
     pace = parse_speed(speed)
@@ -91,18 +89,20 @@ def run(
     bundle = open_mission(request, site, robot, lenient=lenient) if is_bundle(request) else None
     if bundle is None:
         require_unsigned_allowed(os.environ, asked=production)
-        ground = open_ground(require_site(site), robot or "husky", lenient=lenient)
+        ground, files = read_ground(require_site(site), robot or "husky", lenient=lenient)
     else:
         ground = Ground(site=bundle.site, robot=bundle.robot)
+        files = GroundFiles(site=bundle.files, profile=bundle.profile, lenient=bundle.manifest.site.lenient)
         if not json:
             show.out.print(tell_signer(bundle))
     given = World() if world is None else load_world(world)
     mission.check_world(given, ground.site, ground.robot)
     authorized = None if bundle is None else bundle.authorized
     if bundle is None:
-        replies = Replies(given=tuple(answer or ()), assume=assume, ask=not json)
+        replies = Replies(given=tuple(answer or ()), assume=assume, ask=not json, progress=None if json else language)
         task, document, planned_by = plan_or_read(request, ground, planner, transcript, replies)
     else:
+        require_no_answer(answer or (), request)
         task, document, planned_by = bundle.authorized.task, None, bundle.manifest.task.planner
     orders = Orders(
         ask=not yes,
@@ -117,14 +117,7 @@ def run(
         history=None if no_history else past.history_folder(os.environ),
         quiet=json,
         language=language,
-        kept=Kept(
-            under=under,
-            site=(site_files(require_site(site)) if bundle is None else bundle.files).parts,
-            robot=profile_bytes(robot or "husky")[0] if bundle is None else bundle.profile,
-            world=given.data,
-            lenient=lenient if bundle is None else bundle.manifest.site.lenient,
-            signed=None if bundle is None else bundle.data,
-        ),
+        kept=Kept(under=under, files=files),
         bundle=bundle,
     )
     with boarded(ground, task, connection, quiet=json) as vehicle:

@@ -2,38 +2,28 @@
 
 from __future__ import annotations
 
-import json
-import os
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from rich.console import Console
 from rich.text import Text
 
+from fieldhand.cli.console import Words
+from fieldhand.cli.console import err as err
+from fieldhand.cli.console import out as out
 from fieldhand.language import ENGLISH, Language, message
 from fieldhand.planning.planner import Clarify, Planned, Reason, Refused
-from fieldhand.task.account import NAMES, Role, account, has_ranges
+from fieldhand.task.account import NAMES, Piece, Role, account, has_ranges
+from fieldhand.visible import json_text, visible
 
 if TYPE_CHECKING:
-    from fieldhand.mission import Review
+    from fieldhand.mission import Assessment, Review
     from fieldhand.site.model import Place
     from fieldhand.task.frames import Task
-    from fieldhand.task.results import Ended, GoalOutcome
+    from fieldhand.task.results import Ended
 
-
-class _Terminal(Console):
-    """A console that nobody may be reading any more: that is no reason to end a mission."""
-
-    def on_broken_pipe(self) -> None:
-        self.quiet = True
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-
-
-out = _Terminal(highlight=False, markup=False, soft_wrap=True)
-err = _Terminal(stderr=True, highlight=False, markup=False, soft_wrap=True)
 
 #: How words look by what became of them: told apart by brightness and form, too, not by red and green.
 WORDS: dict[Role, str] = {
@@ -52,17 +42,17 @@ MARK = {"success": ("✓", "green"), "failure": ("✗", "red"), "indeterminate":
 def heading(text: str) -> None:
     """A heading with an empty line before it."""
     out.print()
-    out.print(Text(text, style="bold"))
+    out.print(Words(text, style="bold"))
 
 
-def note(text: str) -> None:
-    """Something that the user should know, on standard error so that it never mixes with results."""
-    err.print(Text("note: ", style="yellow") + Text(text))
+def note(text: str, language: Language = ENGLISH) -> None:
+    """Print something that the user should know on standard error, so that it never mixes with results."""
+    err.print(Words(language.say(message("note: ")), style="yellow") + Words(language.say(text)))
 
 
 def print_json(value: Any) -> None:
     """One JSON object on standard output."""
-    sys.stdout.write(json.dumps(value, ensure_ascii=False, indent=2, default=str) + "\n")
+    sys.stdout.write(json_text(value, indent=2) + "\n")
 
 
 def fail_outcome(request: str, outcome: Clarify | Refused) -> NoReturn:
@@ -75,16 +65,16 @@ def fail_outcome(request: str, outcome: Clarify | Refused) -> NoReturn:
     if spans:
         err.print(underlined(request, spans))
     for reason in outcome.reasons:
-        err.print(Text("fieldhand: ", style="bold") + Text(sentence(reason)))
+        err.print(Words("fieldhand: ", style="bold") + Words(sentence(reason)))
     raise SystemExit(2)
 
 
 def show_question(asked: Clarify) -> None:
     """A question with its choices, and where each of them leads."""
-    err.print(Text("A question first: ", style="bold") + Text(asked.question))
+    err.print(Words("A question first: ", style="bold") + Words(asked.question))
     led = asked.places or tuple(() for _ in asked.choices)
     for number, (choice, places) in enumerate(zip(asked.choices, led, strict=True), start=1):
-        err.print(Text(f"  {number}. {choice}") + Text(_where(places), style="dim"))
+        err.print(Words(f"  {number}. {choice}") + Words(_where(places), style="dim"))
 
 
 def _where(places: Sequence[Place]) -> str:
@@ -101,7 +91,7 @@ def sentence(reason: Reason) -> str:
 
 def underlined(request: str, spans: Sequence[tuple[int, int]]) -> Text:
     """The request with the words in question in red and underlined."""
-    text = Text(request)
+    text = Words(request)
     for start, end in spans:
         text.stylize("bold underline red", start, end)
     return text
@@ -147,18 +137,20 @@ def review_record(review: Review, language: Language = ENGLISH, *, every: bool =
 
 
 def mission_record(
-    task: Task, planner: str, ended: Ended | None, outcomes: Sequence[GoalOutcome], files: Sequence[Path]
+    task: Task, planner: str, ended: Ended | None, found: Assessment, files: Sequence[Path]
 ) -> dict[str, Any]:
     """What came of a mission as JSON."""
     return {
         "task": task.id,
         "planner": planner,
-        "status": None if ended is None else ended.status,
-        "reason": "" if ended is None else ended.reason,
+        "status": found.status,
+        "reason": found.reason,
+        "success": found.success,
         "travelled_m": None if ended is None else ended.travelled_m,
         "seconds": None if ended is None else ended.t,
         "charge_percent": None if ended is None else ended.charge_percent,
-        "goals": [asdict(outcome) for outcome in outcomes],
+        "exceeded": [asdict(one) for one in found.exceeded],
+        "goals": [asdict(outcome) for outcome in found.outcomes],
         "files": [str(path) for path in files],
     }
 
@@ -169,29 +161,33 @@ def show_request(task: Task, language: Language = ENGLISH) -> None:
     if not pieces:
         return
     heading(language.say(message("The request")))
-    if not has_ranges(task):
-        out.print(Text(f"  {task.command.request}"))
-        return
-    if out.color_system is None or out.no_color:
-        out.print(Text(f"  {task.command.request}"))
-        named = [f"{language.say(NAMES[p.role])}: {p.text.strip()}" for p in pieces if p.role in NAMES]
-        out.print(Text(f"  ({'; '.join(named)})"))
-        return
-    coloured = Text("  ")
-    for piece in account(task):
-        coloured.append(piece.text, style=WORDS.get(piece.role, ""))
-    out.print(coloured)
-    used = [role for role in WORDS if any(piece.role == role for piece in pieces)]
-    out.print(Text("  ") + Text("  ").join(Text(language.say(NAMES[role]), style=WORDS[role]) for role in used))
+    coloured = has_ranges(task) and out.color_system is not None and not out.no_color
+    request = Text()
+    for piece in account(task) if coloured else [Piece(text=task.command.request, role="between")]:
+        request.append(visible(piece.text, lines=True).expandtabs(4), style=WORDS.get(piece.role, ""))
+    with out.behind():
+        for line in request.split("\n"):
+            out.print(Text("  ") + line)
+    if coloured:
+        used = [role for role in WORDS if any(piece.role == role for piece in pieces)]
+        out.print(Text("  ") + Text("  ").join(Words(language.say(NAMES[role]), style=WORDS[role]) for role in used))
+    elif has_ranges(task):
+        named = [f"{language.say(NAMES[p.role])}: {' '.join(p.text.split())}" for p in pieces if p.role in NAMES]
+        out.print(f"  ({'; '.join(named)})")
 
 
-def show_review(review: Review, language: Language = ENGLISH) -> None:
-    """The read-back in that language, then every problem on its own line."""
+def show_review(review: Review, language: Language = ENGLISH, *, usual: bool = True) -> None:
+    """Print the read-back in that language, then every problem on its own line.
+
+    Args:
+        usual: Print the limits and exits, too, that every Task has unless it asks for something else.
+    """
     show_request(review.task, language)
     if review.read_back is not None:
         heading(language.say(message("What will be done")))
-        for line in language.read(review.read_back.text_lines()):
-            out.print(Text(line))
+        with out.behind():
+            for line in language.read(review.read_back.text_lines(usual=usual)):
+                out.print(line)
     show_problems(review, language)
 
 
@@ -202,12 +198,17 @@ def show_problems(review: Review, language: Language = ENGLISH) -> None:
     for problem in sorted(review.problems, key=lambda p: p.severity != "error"):
         style = "red" if problem.severity == "error" else "yellow"
         kind = message("error: ") if problem.severity == "error" else message("warning: ")
-        out.print(Text(language.say(kind), style=style) + Text(language.say(problem.line())))
+        with out.behind():
+            out.print(Words(language.say(kind), style=style) + Words(language.say(problem.line())))
 
 
-def show_outcomes(outcomes: Sequence[GoalOutcome], name: Callable[[str], str]) -> None:
-    """What came of each goal; ``name`` says a goal's id in words."""
-    heading("What came of it")
-    for outcome in outcomes:
+def show_outcomes(found: Assessment, name: Callable[[str], str], language: Language = ENGLISH) -> None:
+    """Print what came of each goal, and each limit that was exceeded; ``name`` says a goal's id in words."""
+    say = language.say
+    heading(say(message("What came of it")))
+    for outcome in found.outcomes:
         mark, style = MARK[outcome.outcome]
-        out.print(Text(f"  {mark} ", style=style) + Text(f"{name(outcome.goal)}: {outcome.why}"))
+        out.print(Words(f"  {mark} ", style=style) + Words(f"{say(name(outcome.goal))}: {say(outcome.why)}"))
+    for one in found.exceeded:
+        mark, style = MARK["failure"]
+        out.print(Words(f"  {mark} ", style=style) + Words(say(one.why)))

@@ -10,7 +10,7 @@ import typer
 
 from fieldhand.cli.aboard import NamespaceOption, namespace_of
 from fieldhand.cli.options import LenientOption, RobotOption, SiteOption
-from fieldhand.cli.outputs import to_whole_file
+from fieldhand.cli.outputs import refuse_standard_output, to_whole_file
 from fieldhand.execution.drivers.ros2.domain import MOST_DOMAIN
 
 if TYPE_CHECKING:
@@ -71,6 +71,7 @@ def sim_robot(
         bindings = replace(bindings, namespace=namespace_of(namespace))
     profile = replace(ground.robot, ros2=bindings)
     made_for = Identity(site=ground.site.content_sha256, robot=profile.sha256, world=_hash_of(given))
+    refuse_standard_output(state, "--state")
     memory = None if state is None else read_state(state, made_for)
     interfaces = Interfaces.of(bindings.distro, bindings.interfaces)
     node = open_transport("dds" if dds else transport, interfaces, domain)
@@ -170,6 +171,7 @@ def _print(text: str) -> None:
 
 def _line(**values: Any) -> None:
     """One JSON object on a line of its own, at once: a program may be waiting for it."""
-    from json import dumps
 
-    typer.echo(dumps(values, ensure_ascii=False))
+    from fieldhand.visible import json_text
+
+    typer.echo(json_text(values))

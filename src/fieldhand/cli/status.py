@@ -50,6 +50,8 @@ def _show(found: Status) -> None:
     print_(f"  used      {now.travelled_m:.0f} m, {clock_time(now.seconds)}{charge}")
     for kind, limit in now.limits.items():
         print_(f"  allowed   {limit:g} {_UNITS[kind]}")
+    for one in now.exceeded:
+        print_(f"  exceeded  {one.why}")
     if now.in_doubt:
         print_(f"  in doubt  {now.in_doubt}")
     if found.last_event_at:

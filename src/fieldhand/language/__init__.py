@@ -6,10 +6,12 @@ knows a language; whoever prints asks a :class:`Language` for the words.
 
 from fieldhand.language.catalogue import ENGLISH, Language, languages, open_language, spoken
 from fieldhand.language.message import (
+    LOG,
     Message,
     Number,
     counted,
     joined,
+    kept_in_log,
     labelled,
     message,
     named,
@@ -19,11 +21,13 @@ from fieldhand.language.message import (
 
 __all__ = [
     "ENGLISH",
+    "LOG",
     "Language",
     "Message",
     "Number",
     "counted",
     "joined",
+    "kept_in_log",
     "labelled",
     "languages",
     "message",

@@ -17,7 +17,19 @@ from importlib import resources
 from typing import Any, TypeVar, cast
 
 from fieldhand.errors import InputError
-from fieldhand.language.message import Fill, Joined, Message, Number, Shaped, fill, message, named
+from fieldhand.language.message import (
+    LOG,
+    Fill,
+    Joined,
+    Message,
+    Number,
+    Shaped,
+    fill,
+    joined,
+    kept_in_log,
+    message,
+    named,
+)
 from fieldhand.language.po import Entry, compiled, read_entries
 
 _Said = TypeVar("_Said")
@@ -27,6 +39,28 @@ _DOMAIN = "fieldhand"
 _MISSING = "\x00"
 #: Placeholders of assumptions that hold numbers in figures.
 _FIGURES = frozenset({"metres", "least", "most"})
+
+
+#: Sentences in a log that are longer than this are not known again.
+_LONGEST_RETOLD = 600
+_FIGURE = r"[-\N{MINUS SIGN}]?\d[\d,]*(?:\.\d+)?"
+_QUANTITY = rf"{_FIGURE}(?: [^\s,;]+)?"
+#: How placeholders of sentences that a log keeps are known again: figures, with a unit; clauses that must be known;
+#: words of a context; values; names as they stand.
+_SHAPES = {
+    **dict.fromkeys(("amount", "limit", "low", "high", "reading"), _QUANTITY),
+    **dict.fromkeys(("metres", "seconds", "percent", "factor", "chance", "used", "allowed", "level", "value"), _FIGURE),
+    "count": r"\d+",
+    "time": r"[\d:]+",
+    "name": r"[^\d;:]+?",
+    "id": r"[^:;,()]+?",
+    "ids": r"[^:;()]+?",
+    **dict.fromkeys(("action", "quantity", "role"), r"[^\s:]+"),
+}
+_KNOWN = frozenset({"known", "also", "how", "reason"})
+_WORDS = {"name": "name", "word": "level", "role": "role", "quantity": "quantity", "action": "action"}
+_VALUES = frozenset({"bound", "has"})
+_NAMES = frozenset({"id", "one", "two", "robot"})
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -86,7 +120,7 @@ class Language:
             return self._filled(found, text.fills)
         known = self._known_again(text)
         if known is not None:
-            return self._message(known)
+            return self.say(known)
         if text.instead is not None:
             return self._message(text.instead)
         if text.fills:
@@ -107,6 +141,8 @@ class Language:
         return None if found == _MISSING else found
 
     def _known_again(self, text: Message) -> Message | None:
+        if text.context == LOG:
+            return self._retold(str(text))
         for pattern, template in self.patterns.get(text.context, ()):
             match = pattern.fullmatch(str(text))
             if match is not None:
@@ -115,6 +151,44 @@ class Language:
                     template, context=text.context, **{name: _recalled_fill(name, text) for name, text in fills}
                 )
         return None
+
+    def _retold(self, text: str) -> Message | None:
+        """Return the message that a log keeps as this text; None where no sentence or clause of it is known."""
+        if len(text) > _LONGEST_RETOLD:
+            return None
+        clauses = _clauses(text)
+        if len(clauses) > 1:
+            retold = [self._retold(clause) for clause in clauses]
+            said = [clause if known is None else known for known, clause in zip(retold, clauses, strict=True)]
+            return joined("; ", said) if any(known is not None for known in retold) else None
+        for pattern, template in self.patterns.get(LOG, ()):
+            match = pattern.fullmatch(text)
+            refilled = {} if match is None else {n: self._refilled(n, part) for n, part in match.groupdict().items()}
+            fills = {name: part for name, part in refilled.items() if part is not None}
+            if match is not None and len(fills) == len(refilled):
+                return message(template, context=LOG, **fills)
+        where, colon, what = text.partition(": ")
+        known = self._retold(what) if colon else None
+        return None if known is None else joined(": ", (kept_in_log(where), known))
+
+    def _refilled(self, name: str, text: str) -> str | None:
+        """Return what filled a placeholder of a sentence that a log keeps; None where that must be known and is not."""
+        if name in _KNOWN:
+            return self._retold(text)
+        if name in _WORDS:
+            return named(text, _WORDS[name])
+        if name == "ids":
+            more = re.fullmatch(r"(?P<items>.+) and (?P<count>\d+) more", text)
+            last = re.fullmatch(r"(?P<items>.+) and (?P<last>\S+)", text)
+            if more is not None:
+                return message("{items} and {count} more", **more.groupdict())
+            return text if last is None else message("{items} and {last}", **last.groupdict())
+        if name in _SHAPES and name not in _NAMES:
+            return Number(text)
+        if name in _VALUES and re.fullmatch(_QUANTITY, text):
+            return Number(text)
+        known = None if name in _NAMES else self._retold(text)
+        return text if known is None else known
 
     def _filled(self, template: str, fills: Mapping[str, Fill]) -> str:
         said: dict[str, Fill] = {
@@ -229,13 +303,27 @@ def _melts(text: str) -> dict[tuple[str, str], str]:
     return found
 
 
+def _clauses(text: str) -> list[str]:
+    """Return the clauses of a sentence: what semicolons part that stand in no brackets."""
+    found, depth, begins = [], 0, 0
+    for k, sign in enumerate(text):
+        depth += (sign == "(") - (sign == ")")
+        if depth <= 0 and text.startswith("; ", k):
+            found.append(text[begins:k])
+            begins = k + 2
+    return [*found, text[begins:]]
+
+
 def _patterns(entries: Iterable[Entry]) -> dict[str, tuple[tuple[re.Pattern[str], str], ...]]:
     """Sentences of a context as patterns, those with the most words of their own first."""
     found: dict[str, list[tuple[re.Pattern[str], str]]] = {}
     for entry in entries:
-        if entry.context == "assumption":
+        if entry.context in ("assumption", LOG):
+            shapes = _SHAPES if entry.context == LOG else {}
             parts = re.split(r"\{(\w+)\}", entry.template)
-            pattern = "".join(re.escape(p) if k % 2 == 0 else f"(?P<{p}>.*?)" for k, p in enumerate(parts))
+            pattern = "".join(
+                re.escape(p) if k % 2 == 0 else f"(?P<{p}>{shapes.get(p, '.*?')})" for k, p in enumerate(parts)
+            )
             found.setdefault(entry.context, []).append((re.compile(pattern, re.DOTALL), entry.template))
     return {
         context: tuple(sorted(pairs, key=lambda p: -len(re.sub(r"\{\w+\}", "", p[1]))))

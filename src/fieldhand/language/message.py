@@ -16,6 +16,9 @@ Fill = str | int
 
 _PARTS = Formatter()
 
+#: Context of sentences that event logs keep, in English.
+LOG = "log"
+
 
 class Message(str):
     """English text with the sentence it came from.
@@ -101,6 +104,11 @@ def recalled(text: str, context: str) -> Message:
     made = Message(text)
     made.template, made.fills, made.context = "{text}", {"text": text}, context
     return made
+
+
+def kept_in_log(text: str) -> Message:
+    """Return text of an event as a message, known again by the sentences that event logs keep."""
+    return recalled(str(text), LOG)
 
 
 def labelled(said: str, labels: Mapping[str, str]) -> str:

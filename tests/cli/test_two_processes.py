@@ -1,0 +1,93 @@
+"""Two processes and one mission: one drives, whatever is deleted; and one whose folder goes away stops in order."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from fieldhand import missions
+from fieldhand.errors import JournalError
+from fieldhand.task.results import Acted, Ended
+from patience import LONG_S
+
+FIELDHAND = [sys.executable, "-u", "-m", "fieldhand"]
+
+
+def start(under: Path) -> tuple[subprocess.Popen[str], Path]:
+    """A mission of six captures, driven in another process, and its folder once the first is made."""
+    words = ["run", "Take a thermal picture of tree 1, tree 2, tree 3, tree 4, tree 5 and tree 6.", "--site", "demo"]
+    process = subprocess.Popen(
+        [*FIELDHAND, *words, "--yes", "--confirm", "--speed", "20", "--missions", str(under)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=dict(os.environ),
+    )
+    assert process.stdout is not None
+    for line in process.stdout:
+        if "thermal picture" in line and "°C" in line:
+            return process, missions.find(under, None)
+    pytest.fail("no capture was told")
+
+
+def captures(folder: Path) -> list[str]:
+    return [event.place for event in missions.events_of(folder) if isinstance(event, Acted)]
+
+
+def test_a_second_process_never_drives_beside_the_first(tmp_path: Path) -> None:
+    process, folder = start(tmp_path)
+    try:
+        (folder / "lock").touch()
+        (folder / "lock").unlink()
+        assert missions.is_running(folder)
+        with pytest.raises(JournalError, match="another process is carrying this mission out"):
+            missions.carry_out(missions.open_mission(folder), speed=None, emit=lambda _: None)
+        # The same files in another folder of the same name: there is no lock on that, and the journal is the same.
+        old = folder.rename(tmp_path / "old")
+        folder.mkdir()
+        for path in old.iterdir():
+            path.rename(folder / path.name)
+        result = missions.carry_out(missions.open_mission(folder), speed=None, emit=lambda _: None)
+        _, err = process.communicate(timeout=LONG_S)
+    finally:
+        process.kill()
+        process.wait()
+    assert process.returncode == 2, err
+    assert "Traceback" not in err
+    assert result.status == "completed"
+    assert sorted(captures(folder)) == ["1", "2", "3", "4", "5", "6"]
+    assert len((folder / "events.jsonl").read_text().splitlines()) == len(result.events)
+
+
+@pytest.mark.parametrize("harm", ["renamed", "deleted"])
+def test_a_mission_whose_folder_goes_away_stops_and_says_so(tmp_path: Path, harm: str) -> None:
+    process, folder = start(tmp_path / "missions")
+    try:
+        if harm == "renamed":
+            folder.rename(tmp_path / "elsewhere")
+        else:
+            while folder.exists():  # SQLite removes files of its own meanwhile
+                shutil.rmtree(folder, ignore_errors=True)
+        _, err = process.communicate(timeout=LONG_S)
+    finally:
+        process.kill()
+        process.wait()
+    assert process.returncode == 2, err
+    assert "Traceback" not in err
+    assert "is not at its place any more" in err or "cannot be written" in err
+    if harm == "deleted":
+        return
+    (tmp_path / "elsewhere").rename(folder)
+    done = subprocess.run(
+        [*FIELDHAND, "resume", str(folder), "--json"], capture_output=True, text=True, env=dict(os.environ), check=False
+    )
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["status"] == "completed"
+    assert sorted(captures(folder)) == ["1", "2", "3", "4", "5", "6"]
+    assert isinstance(missions.events_of(folder)[-1], Ended)
