@@ -15,6 +15,7 @@ from fieldhand.task.results import (
     Event,
     Faulted,
     InDoubt,
+    LimitCrossed,
     Obstructed,
     Paused,
     Resumed,
@@ -65,7 +66,7 @@ def incidents(events: Sequence[Event], tell: Callable[[Event], str | None]) -> t
             case InDoubt():
                 at = (event.lat, event.lon)
                 found.append(_incident(event, at if known(at) else here, tell, event.place))
-            case Resumed() | Paused() | Continued() | Waited() | ClockSet() | Faulted():
+            case Resumed() | Paused() | Continued() | Waited() | LimitCrossed() | ClockSet() | Faulted():
                 stood = position_of(event) or _stood(events, k) or here
                 found.append(_incident(event, stood, tell, ""))
             case _:
@@ -75,7 +76,7 @@ def incidents(events: Sequence[Event], tell: Callable[[Event], str | None]) -> t
 
 def position_of(event: Event) -> LatLon | None:
     """Where an event says that the robot was."""
-    if isinstance(event, Started | Arrived | Resumed | Obstructed | Ended):
+    if isinstance(event, Started | Arrived | Resumed | Obstructed | LimitCrossed | Ended):
         return (event.lat, event.lon) if known((event.lat, event.lon)) else None
     return None
 

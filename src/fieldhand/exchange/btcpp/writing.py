@@ -32,7 +32,7 @@ from fieldhand.task import plan as p
 from fieldhand.task.capabilities import Capabilities
 from fieldhand.task.codec import encode_parts
 from fieldhand.task.codec_shapes import Attribute
-from fieldhand.task.codec_text import number_text, unwritable_character, written
+from fieldhand.task.codec_text import hidden_character, number_text, written
 from fieldhand.task.codec_xml import MAX_BYTES, MAX_DEPTH
 from fieldhand.task.conditions import AllOf, AnyOf, Condition, Not, TreeHas
 from fieldhand.task.frames import Task
@@ -246,7 +246,7 @@ def _element(kind: str, *children: _Element, **ports: str) -> _Element:
 
 def _set(element: _Element, attributes: dict[str, str], where: str) -> None:
     for key, text in attributes.items():
-        character = "U+007F" if key == "name" and "\x7f" in text else unwritable_character(text)
+        character = hidden_character(text, lines=True)
         if character:
             raise TaskError(f"{key} holds the character {character}, which a tree cannot hold", where=where)
         if text or key == "name":

@@ -14,7 +14,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -29,6 +28,7 @@ from fieldhand.errors import OutputError
 from fieldhand.exchange.broken_off import driven_part
 from fieldhand.exchange.incidents import known, position_of
 from fieldhand.exchange.mcap.schemas import EVENTS, GEOJSON, LOCATION, LOG, STATE, schema_of
+from fieldhand.files import open_output
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.results import (
     Acted,
@@ -40,12 +40,14 @@ from fieldhand.task.results import (
     Exited,
     Faulted,
     InDoubt,
+    LimitCrossed,
     Obstructed,
     Resumed,
     Shed,
     Started,
     Waited,
 )
+from fieldhand.visible import json_text, visible_json
 
 if TYPE_CHECKING:
     from mcap.writer import Writer
@@ -55,7 +57,7 @@ if TYPE_CHECKING:
 #: Levels of foxglove.Log.
 _INFO, _WARNING, _ERROR = 2, 3, 4
 #: What somebody should look at who reads the log.
-_DOUBTFUL = InDoubt | Resumed | Obstructed | Waited | ClockSet
+_DOUBTFUL = InDoubt | Resumed | Obstructed | Waited | LimitCrossed | ClockSet
 #: Seconds between positions along a drive.
 _EVERY_S = 1.0
 #: At most so many positions along one drive.
@@ -107,8 +109,7 @@ class McapLog:
         self._drive: Driving | None = None
         self._state: dict[str, Any] = {"charge_percent": 100.0, "travelled_m": 0.0, "readings": {}}
         try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            self._file: IO[bytes] = path.open("wb")
+            self._file: IO[bytes] = open_output(path, "wb")
             self._writer: Writer = Writer(self._file, chunk_size=_CHUNK)
             self._writer.start(profile="", library="fieldhand")
         except (OSError, ValueError) as error:
@@ -243,7 +244,7 @@ class McapLog:
         return _Message(topic="/log", schema=LOG, t=event.t, data=_json(line))
 
     def _geojson(self, topic: str, t: float, features: list[dict[str, Any]]) -> _Message:
-        text = json.dumps({"type": "FeatureCollection", "features": features}, ensure_ascii=False)
+        text = visible_json({"type": "FeatureCollection", "features": features})
         return _Message(topic=topic, schema=GEOJSON, t=t, data=_json({"geojson": text}))
 
     def _write(self, message: _Message) -> None:
@@ -320,4 +321,4 @@ def _feature(geometry: dict[str, Any], properties: dict[str, Any]) -> dict[str, 
 
 
 def _json(value: Any) -> bytes:
-    return json.dumps(value, ensure_ascii=False).encode()
+    return json_text(value).encode()

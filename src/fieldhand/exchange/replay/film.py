@@ -14,6 +14,7 @@ from fieldhand.errors import InputError
 from fieldhand.exchange.broken_off import driven_part
 from fieldhand.exchange.incidents import LatLon, incidents, known, position_of
 from fieldhand.site.model import Site
+from fieldhand.task.exceeded import say_status
 from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event, InDoubt, Paused, Resumed, Started
 
 Floats = NDArray[np.float64]
@@ -242,4 +243,4 @@ def _title(events: Sequence[Event]) -> str:
     started = next((e for e in events if isinstance(e, Started)), None)
     ended = next((e for e in reversed(events) if isinstance(e, Ended)), None)
     who = f"{started.robot} on {started.site}" if started is not None else "Mission"
-    return f"{who}: {ended.status if ended is not None else 'cut off'}"
+    return f"{who}: {say_status(ended.status) if ended is not None else 'cut off'}"

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from fieldhand.clock import clock_time
 from fieldhand.errors import OutputError
 from fieldhand.exchange.replay.film import Capture, Film
-from fieldhand.site.drawing import draw_site, site_figure
+from fieldhand.site.drawing import draw_site, name_site, site_figure
+from fieldhand.site.drawing.saving import make_text_visible
 from fieldhand.site.model import Site
 from fieldhand.task.words import capitalised, say_name, say_unit
 
@@ -111,6 +112,10 @@ class _Scene:
         self._moving = [artist for artist in (*moving, self._clock, self._news) if artist is not None]
         for artist in self._moving:
             artist.set_animated(True)
+        figure.draw_without_rendering()  # so that title and scale have taken their room
+        figure.set_layout_engine("none")
+        name_site(ax, site)
+        make_text_visible(figure)
         self._canvas = _canvas(figure)
         self._canvas.draw()
         self._ground = self._canvas.copy_from_bbox(figure.bbox)

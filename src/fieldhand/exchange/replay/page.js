@@ -67,6 +67,16 @@
     pen.fillText(sign.mark, left + 4.5, top + 11);
   };
 
+  // A name on white, so that it is read above trees.
+  const write = (words, x, y, ink) => {
+    pen.strokeStyle = "#fff";
+    pen.lineWidth = 4;
+    pen.lineJoin = "round";
+    pen.strokeText(words, x, y);
+    pen.fillStyle = ink;
+    pen.fillText(words, x, y);
+  };
+
   const order = { boundary: 0, zone: 1, keep_out: 2 };
   const zones = film.zones.slice().sort((a, b) => order[a.kind] - order[b.kind]);
   const ground = () => {
@@ -83,6 +93,20 @@
     for (const [x, y] of film.trees) dot(x, y, radius, "#5b8c5a");
     pen.font = "13px system-ui, sans-serif";
     pen.textAlign = "center";
+    for (const block of film.blocks) {
+      pen.beginPath();
+      block.ring.forEach(([x, y], k) => (k ? pen.lineTo(sx(x), sy(y)) : pen.moveTo(sx(x), sy(y))));
+      pen.strokeStyle = "#8fa08d";
+      pen.lineWidth = 1;
+      pen.stroke();
+      const across = block.ring.map(([x]) => sx(x)), down = block.ring.map(([, y]) => sy(y));
+      write(block.name, (Math.min(...across) + Math.max(...across)) / 2, (Math.min(...down) + Math.max(...down)) / 2, "#2f2f2f");
+    }
+    for (const zone of zones) {
+      if (zone.kind === "boundary" || !zone.name) continue;
+      const across = zone.ring.map(([x]) => sx(x)), down = zone.ring.map(([, y]) => sy(y));
+      write(zone.name, (Math.min(...across) + Math.max(...across)) / 2, Math.max(...down) + 14, zoneLook[zone.kind][1]);
+    }
     for (const marker of film.markers) {
       const ink = markerLook[marker.name] || "#2f2f2f";
       dot(marker.x, marker.y, 6, ink, "#fff");

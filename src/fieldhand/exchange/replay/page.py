@@ -5,15 +5,16 @@ from __future__ import annotations
 import base64
 import hashlib
 import html
-import json
 from importlib.resources import files
 from typing import Any
 
 import numpy as np
 
 from fieldhand.exchange.replay.film import SIGNS, Film
+from fieldhand.site.drawing.blocks import block_words, outline_of
 from fieldhand.site.model import Site
 from fieldhand.task.words import capitalised, say_action, say_name, say_unit
+from fieldhand.visible import visible, visible_json
 
 
 def page_of(film: Film, site: Site) -> bytes:
@@ -23,11 +24,11 @@ def page_of(film: Film, site: Site) -> bytes:
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
     policy = f"default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-{digest}'"
     # Inside a script element only "<" could end it.
-    data = json.dumps(_data(film, site), ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+    data = visible_json(_data(film, site), separators=(",", ":")).replace("<", "\\u003c")
     page = (here / "page.html").read_text(encoding="utf-8")
     parts = {
         "policy": policy,
-        "title": html.escape(film.title),
+        "title": html.escape(visible(film.title)),
         "style": (here / "page.css").read_text(encoding="utf-8"),
         "data": data,
         "script": script,
@@ -45,6 +46,7 @@ def _data(film: Film, site: Site) -> dict[str, Any]:
             {"kind": zone.kind, "name": zone.name, "ring": _rounded(np.asarray(zone.polygon.exterior.coords)[:, :2])}
             for zone in site.zones
         ],
+        "blocks": _blocks(site),
         "markers": [{"name": name, "x": round(p.x, 2), "y": round(p.y, 2)} for name, p in site.markers.items()],
         "captures": [
             {
@@ -74,6 +76,15 @@ def _data(film: Film, site: Site) -> dict[str, Any]:
         "meanings": [[mark, words] for mark, words in SIGNS.values() if any(s.mark == mark for s in film.signs)],
         "spacing": round(site.spacing_m, 2),
     }
+
+
+def _blocks(site: Site) -> list[dict[str, Any]]:
+    """Return the outline of each block with its name, where there are several."""
+    blocks = site.planting.blocks if len(site.planting.blocks) > 1 else ()
+    return [
+        {"name": block_words(block), "ring": _rounded(np.asarray(outline_of(site, block).exterior.coords)[:, :2])}
+        for block in blocks
+    ]
 
 
 def _unit(film: Film, quantity: str) -> str:

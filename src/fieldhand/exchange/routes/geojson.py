@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 from fieldhand.exchange.incidents import Incident, LatLon
 from fieldhand.exchange.routes.route import Route, Stop
+from fieldhand.visible import visible_json
 
 
 def write_geojson(route: Route) -> bytes:
@@ -29,7 +29,7 @@ def write_geojson(route: Route) -> bytes:
             ring = ring if ring[0] == ring[-1] else [*ring, ring[0]]
             features.append(_feature({"type": "Polygon", "coordinates": [ring]}, {"what": "blocked"}))
     collection = {"type": "FeatureCollection", "name": route.name, "features": features}
-    return (json.dumps(collection, ensure_ascii=False, indent=1) + "\n").encode()
+    return (visible_json(collection, indent=1) + "\n").encode()
 
 
 def _of_stop(route: Route, stop: Stop, number: int) -> dict[str, Any]:

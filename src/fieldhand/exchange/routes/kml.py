@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from fieldhand.exchange.incidents import LatLon
 from fieldhand.exchange.routes.route import Route, Stop
 from fieldhand.task.words import capitalised, say_action, say_name, say_number, say_unit
+from fieldhand.visible import visible
 
 if TYPE_CHECKING:
     from lxml.etree import _Element
@@ -106,5 +107,5 @@ def _sub(parent: _Element, name: str, text: str = "") -> _Element:
 
     made = etree.SubElement(parent, f"{{{NAMESPACE}}}{name}")
     if text:
-        made.text = "".join(c if c in "\t\n" or c >= " " else "\ufffd" for c in text)
+        made.text = visible(text, lines=True)
     return made

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import csv
-import io
-
 from fieldhand.exchange.routes.route import Route, Work
+from fieldhand.visible import csv_text
 
 COLUMNS = (
     "stop", "kind", "place", "lat", "lon", "robot_lat", "robot_lon", "leg_m", "travelled_m", "t_s", "certain",
     "node", "action", "captures", "failed", "readings", "event", "said",
 )  # fmt: skip
-#: What a spreadsheet takes for the beginning of a formula.
-_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
 
 
 def write_csv(route: Route) -> bytes:
@@ -20,25 +16,17 @@ def write_csv(route: Route) -> bytes:
 
     Text that a spreadsheet would take for a formula begins with an apostrophe.
     """
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\r\n")
-    writer.writerow(COLUMNS)
     rows: list[tuple[int, tuple[object, ...]]] = []
     for number, stop in enumerate(route.stops, start=1):
-        beginning = (number, _text(stop.kind), _text(stop.place), *(f"{d:.9f}" for d in (*stop.at, *stop.stand)))
+        beginning = (number, stop.kind, stop.place, *(round(d, 9) for d in (*stop.at, *stop.stand)))
         way = (round(stop.length_m, 3), round(stop.travelled_m, 3), "" if stop.t is None else round(stop.t, 3))
         for work in stop.work or (Work(node=stop.node, action="", captures=0),):
             readings = "; ".join(f"{q} {v} {u}".strip() for q, (v, u) in work.readings.items())
             certain = "" if route.driven else "yes" if stop.certain and work.certain else "no"
-            what = (_text(work.node), _text(work.action), work.captures or "", work.failed or "", _text(readings))
+            what = (work.node, work.action, work.captures or "", work.failed or "", readings)
             rows.append((number, (*beginning, *way, certain, *what, "", "")))
     for behind, one in route.incidents:
-        at = ("", "") if one.at is None else tuple(f"{d:.9f}" for d in one.at)
-        where = (behind or "", "", _text(one.place), *at, "", "", "", "", round(one.t, 3), "", _text(one.node))
-        rows.append((behind, (*where, "", "", "", "", one.event, _text(one.words))))
-    writer.writerows(row for _, row in sorted(rows, key=lambda numbered: numbered[0]))
-    return out.getvalue().encode()
-
-
-def _text(cell: str) -> str:
-    return f"'{cell}" if cell.startswith(_FORMULA) else cell
+        at = ("", "") if one.at is None else tuple(round(d, 9) for d in one.at)
+        where = (behind or "", "", one.place, *at, "", "", "", "", round(one.t, 3), "", one.node)
+        rows.append((behind, (*where, "", "", "", "", one.event, one.words)))
+    return csv_text([COLUMNS, *(row for _, row in sorted(rows, key=lambda numbered: numbered[0]))]).encode()

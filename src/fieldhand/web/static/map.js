@@ -1,10 +1,18 @@
 // The map: a site, a plan on it, a drive over it. Metres on an SVG whose view box is moved and zoomed.
 
 import { $, svg } from "./dom.js";
+import { placed, widthOf, worth } from "./names.js";
 
 const METRES_PER_DEGREE = 111_320;
 const CLOSEST_M = 8; // the view is never narrower than this
 const CLOSEST_STOPS_PX = 17;
+const STOP_PX = 26; // a numbered stop, from side to side
+const DOT_PX = [2, 6]; // a stop without a number: least and largest radius
+const NAME_PX = { zone: 12, gate: 11, block: 13, row: 11 }; // letters
+const ROW_STEPS = [1, 2, 5, 10, 20, 50, 100]; // every how many rows one has its number, so that they lie
+const ROW_PX = 22; // so far from each other
+const SMALL = 0.4; // work in so small a part of the site is looked at from near
+const OVERVIEW_PX = 84;
 const TAP_PX = 6; // a finger that moves less has tapped
 const MARKER = { start: "S", end: "E", charger: "C" };
 
@@ -13,11 +21,14 @@ export class FieldMap {
     this.root = $("map");
     this.info = $("map-info");
     this.layers = {};
-    for (const name of ["zones", "rows", "trees", "paths", "driven", "markers", "stops", "choices", "captures", "robot"]) {
+    for (const name of ["zones", "blocks", "rows", "trees", "paths", "driven", "names", "markers", "stops", "choices", "captures", "robot"]) {
       this.layers[name] = svg("g", { class: `layer-${name}` });
       this.root.append(this.layers[name]);
     }
+    this.overview = svg("svg", { class: "overview", "aria-hidden": "true" });
+    this.root.append(this.overview);
     this.signs = []; // drawn at the same size whatever the zoom
+    this.names = []; // of zones, gates, blocks and rows, what matters most first
     this.onstop = () => {};
     this.#listen();
     new ResizeObserver(() => this.#keepShape()).observe(this.root);
@@ -26,6 +37,8 @@ export class FieldMap {
   clear() {
     for (const layer of Object.values(this.layers)) layer.replaceChildren();
     this.signs = [];
+    this.names = [];
+    this.overview.replaceChildren();
     this.info.textContent = "";
   }
 
@@ -38,10 +51,16 @@ export class FieldMap {
     for (const feature of features) {
       const { role } = feature.properties;
       if (role === "zone") this.#zone(feature);
+      if (role === "block") this.#block(feature);
       if (role === "row") this.#row(feature);
       if (role === "tree") this.#tree(feature, radius);
       if (role === "marker") this.#marker(feature);
+      if (role === "gate") this.#gate(feature);
     }
+    this.#nameRows(features.filter((f) => f.properties.role === "row"));
+    this.names.sort((a, b) => a.worth - b.worth);
+    this.frame = svg("rect", { class: "view" });
+    this.overview.append(svg("rect", { class: "sheet" }), ...this.#outlines(features), this.frame);
     this.fit();
   }
 
@@ -56,9 +75,11 @@ export class FieldMap {
     }
     const stops = features.filter((f) => f.properties.role === "stop");
     // The first stops lie on top: where they crowd, the plan is read from its beginning.
-    for (const stop of stops.reverse()) this.#stop(stop);
-    this.closest = closest([...this.layers.stops.children].map((s) => s.at));
-    this.#crowd();
+    for (const stop of stops.reverse()) this.#stop(stop, stops.length);
+    const at = [...this.layers.stops.children].map((s) => s.at);
+    this.closest = closest(at);
+    if (at.length && this.#isSmall(at)) this.fit(at, 0.5);
+    else this.#crowd();
   }
 
   // The places that the choices of a question mean; a tap on one takes the choice with the fewest places that holds it.
@@ -86,6 +107,7 @@ export class FieldMap {
   clearPlan() {
     this.clearDrive();
     for (const name of ["paths", "stops", "choices"]) this.layers[name].replaceChildren();
+    this.numbered = [];
     this.signs = this.signs.filter((s) => s.isConnected);
     this.info.textContent = "";
   }
@@ -195,7 +217,49 @@ export class FieldMap {
   #zone({ geometry, properties }) {
     const d = geometry.coordinates.map((ring) => `M${this.#points(ring)}Z`).join("");
     const called = properties.name || properties.kind.replaceAll("_", " ");
+    if (properties.kind !== "boundary") this.#name("zone", called, middle(geometry.coordinates[0].map((p) => this.metres(p))), 1);
     this.layers.zones.append(svg("path", { d, class: `zone ${properties.kind}`, "fill-rule": "evenodd" }, svg("title", {}, called)));
+  }
+
+  #block({ geometry, properties }) {
+    const d = geometry.coordinates.map((ring) => `M${this.#points(ring)}Z`).join("");
+    this.layers.blocks.append(svg("path", { d, class: "block" }, svg("title", {}, properties.name)));
+    const points = geometry.coordinates[0].map((p) => this.metres(p));
+    const [left, right] = extremes(points.map((p) => p[0]));
+    const [top, bottom] = extremes(points.map((p) => p[1]));
+    const name = this.#name("block", properties.name, middle(points), 3);
+    name.ends = [[(left + right) / 2, bottom], [(left + right) / 2, top]];
+  }
+
+  // Names at both ends of each row; of many there is room for some, the round numbers first.
+  #nameRows(rows) {
+    const last = Math.max(...rows.map((f) => Number(f.properties.name) || 0), 0);
+    this.rowsApart = closest(rows.map((f) => this.metres(f.geometry.coordinates[0])));
+    for (const { geometry, properties } of rows) {
+      const points = geometry.coordinates.map((p) => this.metres(p));
+      const number = Number(properties.name);
+      for (const [end, other] of [[points[0], points.at(-1)], [points.at(-1), points[0]]]) {
+        const length = distance(end, other) || 1;
+        const name = this.#name("row", properties.name, end, 4 + (Number.isInteger(number) ? worth(number, last) : 5));
+        name.number = number;
+        name.out = [(end[0] - other[0]) / length, (end[1] - other[1]) / length];
+      }
+    }
+  }
+
+  #gate({ geometry, properties }) {
+    const at = this.metres(geometry.coordinates);
+    this.#sign(this.layers.markers, "gate", at, [svg("rect", { x: -5, y: -5, width: 10, height: 10 }), svg("title", {}, properties.name)]);
+    this.#name("gate", properties.name, at, 2).beside = true;
+  }
+
+  // A name at a place; where it stands, or whether at all, is decided whenever the view changes.
+  #name(kind, text, at, worthOf) {
+    const sign = svg("g", { class: `name ${kind}` }, svg("text", {}, text));
+    this.layers.names.append(sign);
+    const name = { kind, text, at, worth: worthOf, sign };
+    this.names.push(name);
+    return name;
   }
 
   #row(feature) {
@@ -217,7 +281,7 @@ export class FieldMap {
     ]);
   }
 
-  #stop({ geometry, properties }) {
+  #stop({ geometry, properties }, last) {
     const label = String(properties.number);
     const sign = this.#sign(this.layers.stops, properties.branch ? "stop other" : "stop", this.metres(geometry.coordinates), [
       svg("circle", { r: label.length > 2 ? 13 : 11 }),
@@ -225,6 +289,7 @@ export class FieldMap {
       svg("title", {}, `Stop ${label}: ${properties.kind} ${properties.place}`),
     ]);
     sign.dataset.nodes = properties.nodes.join(" ");
+    sign.worth = worth(properties.number, last);
     sign.words = `Stop ${label}: ${properties.kind} ${properties.place}${properties.branch ? ", only on some branches" : ""}`;
     sign.addEventListener("pointerenter", () => this.onstop(properties.nodes));
     sign.addEventListener("pointerleave", () => this.onstop([]));
@@ -280,10 +345,101 @@ export class FieldMap {
     this.perPixel = w / (this.root.clientWidth || 600);
     for (const sign of this.signs) this.#place(sign, sign.at);
     this.#crowd();
+    this.#writeNames();
+    this.#showOverview();
   }
 
-  // Numbers that would cover each other give way to dots until the map is zoomed in.
+  // Pixels on the page from the upper left of the map.
+  #pixels([x, y]) {
+    return [(x - this.view.x) / this.perPixel, (y - this.view.y) / this.perPixel];
+  }
+
+  get #sheet() {
+    return [0, 0, this.view.w / this.perPixel, this.view.h / this.perPixel];
+  }
+
+  #writeNames() {
+    const step = ROW_STEPS.find((one) => (one * this.rowsApart) / this.perPixel >= ROW_PX) ?? ROW_STEPS.at(-1);
+    const wanted = this.names.map((name) => {
+      if (name.number > 1 && name.number % step) return { width: 0, height: 0, spots: [] };
+      const size = NAME_PX[name.kind];
+      const width = widthOf(name.text, size);
+      return { width, height: size * 1.2, spots: this.#spots(name, width, size * 1.2) };
+    });
+    const box = (half) => ({ at }) => {
+      const [x, y] = this.#pixels(at);
+      return [x - half, y - half, x + half, y + half];
+    };
+    const signs = [...[...this.layers.markers.children].map(box(10)), ...(this.numbered ?? []).map(box(STOP_PX / 2))];
+    placed(wanted, this.#sheet, signs).forEach((spot, k) => {
+      const { sign } = this.names[k];
+      sign.classList.toggle("hidden", !spot);
+      if (!spot) return;
+      this.#place(sign, [this.view.x + spot[0] * this.perPixel, this.view.y + spot[1] * this.perPixel]);
+    });
+  }
+
+  // Where the middle of a name may stand, the best first.
+  #spots({ at, out, ends, beside }, width, height) {
+    const [x, y] = this.#pixels(at);
+    if (out) return [5, 12].map((gap) => gap + (Math.abs(out[0]) * width + Math.abs(out[1]) * height) / 2).map((away) => [x + out[0] * away, y + out[1] * away]);
+    if (ends) {
+      const [below, above] = ends.map((end) => this.#pixels(end));
+      return [...[24, 34].flatMap((gap) => [[below[0], below[1] + gap], [above[0], above[1] - gap]]), [x, y]];
+    }
+    if (beside) return [[x, y + 21], [x, y - 21], [x + width / 2 + 14, y], [x - width / 2 - 14, y]];
+    return [[x, y]];
+  }
+
+  // Where the view lies on the site, in a corner, once it shows a part alone.
+  #showOverview() {
+    const { view, whole, perPixel } = this;
+    const near = whole && view.w < 0.6 * whole.w;
+    this.overview.classList.toggle("hidden", !near);
+    if (!near) return;
+    const [left, right] = extremes(this.all.map((p) => p[0]));
+    const [top, bottom] = extremes(this.all.map((p) => p[1]));
+    const wide = Math.max(right - left, 1) * 1.1;
+    const tall = Math.max(bottom - top, 1) * 1.1;
+    const scale = Math.min((OVERVIEW_PX * perPixel) / wide, (0.35 * view.h) / tall);
+    const box = { x: view.x + 6 * perPixel, y: view.y + 6 * perPixel, width: wide * scale, height: tall * scale };
+    const sheet = { x: (left + right - wide) / 2, y: (top + bottom - tall) / 2, width: wide, height: tall };
+    set(this.overview, { ...box, viewBox: `${sheet.x} ${sheet.y} ${wide} ${tall}` });
+    set(this.overview.firstChild, sheet);
+    set(this.frame, { x: view.x, y: view.y, width: view.w, height: view.h });
+  }
+
+  #outlines(features) {
+    return features
+      .filter(({ properties: { role, kind } }) => role === "block" || (role === "zone" && kind !== "zone"))
+      .map(({ geometry, properties }) => {
+        const d = geometry.coordinates.map((ring) => `M${this.#points(ring)}Z`).join("");
+        return svg("path", { d, class: properties.role === "block" ? "block" : `zone ${properties.kind}`, "fill-rule": "evenodd" });
+      });
+  }
+
+  // Whether points lie in a small part of the site.
+  #isSmall(points) {
+    return [0, 1].every((axis) => {
+      const [low, high] = extremes(points.map((p) => p[axis]));
+      const [least, most] = extremes(this.all.map((p) => p[axis]));
+      return high - low < SMALL * (most - least);
+    });
+  }
+
+  // Numbers that would cover each other give way to dots until the map is zoomed in: the ends and round ones stay.
   #crowd() {
+    const stops = [...this.layers.stops.children].sort((a, b) => a.worth - b.worth);
+    const wanted = stops.map(({ at }) => ({ width: STOP_PX, height: STOP_PX, spots: [this.#pixels(at)] }));
+    const room = placed(wanted, [-Infinity, -Infinity, Infinity, Infinity]);
+    stops.forEach((stop, k) => stop.classList.toggle("small", !room[k]));
+    const numbered = stops.filter((_, k) => room[k]).reverse();
+    if (this.numbered?.length !== numbered.length || numbered.some((stop, k) => stop !== this.numbered[k])) {
+      this.layers.stops.append(...numbered); // so that they lie above the dots
+      this.numbered = numbered;
+    }
+    const dot = Math.min(Math.max((0.45 * (this.closest ?? Infinity)) / this.perPixel, DOT_PX[0]), DOT_PX[1]);
+    this.layers.stops.style.setProperty("--dot", `${dot}px`);
     this.layers.stops.classList.toggle("crowded", (this.closest ?? Infinity) / this.perPixel < CLOSEST_STOPS_PX);
     this.layers.choices.classList.toggle("crowded", (this.closestChoice ?? Infinity) / this.perPixel < CLOSEST_STOPS_PX);
   }
@@ -374,6 +530,16 @@ function positions({ type, coordinates }) {
 function closest(points) {
   const nearest = points.map((p, i) => Math.min(...points.map((q, k) => (k === i ? Infinity : distance(p, q)))));
   return nearest.sort((a, b) => a - b)[Math.floor(nearest.length / 4)];
+}
+
+function middle(points) {
+  const [left, right] = extremes(points.map((p) => p[0]));
+  const [top, bottom] = extremes(points.map((p) => p[1]));
+  return [(left + right) / 2, (top + bottom) / 2];
+}
+
+function set(element, attributes) {
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
 }
 
 function extremes(values) {

@@ -1,0 +1,71 @@
+"""Names on the page's map: none covers another, none leaves the map, and what matters most is written first."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+from random import Random
+from typing import Any
+
+import pytest
+
+from fieldhand.web.page import assets
+from patience import LONG_S
+
+NODE = shutil.which("node")
+pytestmark = pytest.mark.skipif(NODE is None, reason="no node is installed here")
+
+Box = tuple[float, float, float, float]
+
+
+def run(tmp_path: Any, call: str, *given: object) -> Any:
+    """What a function of the script gives."""
+    (tmp_path / "names.mjs").write_bytes(assets()["names.js"].data)
+    (tmp_path / "run.mjs").write_text(
+        "import * as names from './names.mjs';\n"
+        f"console.log(JSON.stringify(names.{call}(...JSON.parse(process.argv[2]))));\n"
+    )
+    assert NODE is not None
+    words = [NODE, str(tmp_path / "run.mjs"), json.dumps(given)]
+    return json.loads(subprocess.run(words, capture_output=True, text=True, timeout=LONG_S, check=True).stdout)
+
+
+def box(name: dict[str, Any], spot: list[float]) -> Box:
+    (x, y), wide, tall = spot, name["width"] / 2, name["height"] / 2
+    return (x - wide, y - tall, x + wide, y + tall)
+
+
+def shares(a: Box, b: Box) -> bool:
+    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_no_name_covers_another_or_leaves_a_phone(seed: int, tmp_path: Any) -> None:
+    random = Random(seed)
+    names = [
+        {
+            "width": random.uniform(8, 90),
+            "height": 14.0,
+            "spots": [[random.uniform(0, 390), random.uniform(0, 400)] for _ in range(random.randint(0, 4))],
+        }
+        for _ in range(300)
+    ]
+    sign = (100.0, 100.0, 126.0, 126.0)
+    found = run(tmp_path, "placed", names, [0, 0, 390, 400], [sign])
+    boxes = [box(name, spot) for name, spot in zip(names, found, strict=True) if spot]
+    assert 20 < len(boxes) < 300
+    for k, one in enumerate(boxes):
+        assert one[0] >= 0
+        assert one[1] >= 0
+        assert one[2] <= 390
+        assert one[3] <= 400
+        assert not any(shares(one, other) for other in (*boxes[:k], sign))
+    spots = [spot in name["spots"] for name, spot in zip(names, found, strict=True) if spot]
+    assert all(spots)
+
+
+def test_of_a_long_count_the_ends_and_round_numbers_come_first(tmp_path: Any) -> None:
+    worth = {number: run(tmp_path, "worth", number, 117) for number in (1, 117, 100, 50, 40, 30, 15, 7)}
+    assert worth[1] == worth[117] == min(worth.values())
+    assert [worth[n] for n in (100, 50, 40, 30, 15, 7)] == sorted({worth[n] for n in (100, 50, 40, 30, 15, 7)})
