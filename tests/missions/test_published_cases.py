@@ -14,7 +14,6 @@ from typing import Any
 import pytest
 import yaml
 
-from fieldhand import mission
 from fieldhand.bench.missions.case_file import load_cases
 from fieldhand.bench.missions.cases import Expected
 from fieldhand.bench.missions.ground import load_ground
@@ -33,19 +32,16 @@ from tampered import tampered
 
 ROOT = Path(__file__).resolve().parents[2]
 TRANSCRIPTS = ROOT / "tests" / "data" / "transcripts"
-#: Cases that the language model did not plan as they were meant: it drives to the end marker within the 100 m.
-READ_OTHERWISE = ("hundred-metres",)
 
 
-def cases(*, only: tuple[str, ...] = (), without: tuple[str, ...] = ()) -> list[Any]:
-    """Each world of the cases of these names, of all cases by default."""
+def cases() -> list[Any]:
+    """Each world of each case."""
     if not HERE:
         return [pytest.param(None, 0, "", marks=pytest.mark.skip(reason="the published cases are not here"))]
     book = yaml.safe_load(CASES.read_text())
     return [
         pytest.param(case, k, book["site"], id=f"{case['id']}[{k}]")
         for case in book["cases"]
-        if (not only or case["id"] in only) and case["id"] not in without
         for k in range(len(case["worlds"]))
     ]
 
@@ -111,21 +107,9 @@ def test_every_case_was_once_planned_by_a_language_model() -> None:
     assert {path.stem for path in TRANSCRIPTS.glob("*.jsonl")} == {case.id for case in load_cases([str(CASES)])}
 
 
-@pytest.mark.parametrize(("case", "world", "default_site"), cases(without=READ_OTHERWISE))
+@pytest.mark.parametrize(("case", "world", "default_site"), cases())
 def test_what_a_language_model_planned_ends_as_it_was_meant(
     case: dict[str, Any], world: int, default_site: str, expected: dict[str, tuple[Expected, ...]]
 ) -> None:
     _, said = model_flown(case, world, default_site, expected[case["id"]][world])
     assert said is None
-
-
-@pytest.mark.parametrize(("case", "world", "default_site"), cases(only=READ_OTHERWISE))
-def test_a_budget_that_a_language_model_spends_on_the_way_home_is_warned_of(
-    case: dict[str, Any], world: int, default_site: str, expected: dict[str, tuple[Expected, ...]]
-) -> None:
-    task, said = model_flown(case, world, default_site, expected[case["id"]][world])
-    assert said is not None
-    assert "wanted 18 to 98" in said
-    site = open_site(str((CASES.parent / case.get("site", default_site)).resolve()))
-    warnings = mission.review(task, site, load_robot(case.get("robot", "husky"))).warnings
-    assert any("does not last for what must be done" in str(warning) for warning in warnings)
