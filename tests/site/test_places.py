@@ -44,6 +44,8 @@ from fieldhand.task.selectors import (
     Quarter,
     Random,
     Selector,
+    Spaced,
+    Successive,
     Take,
     Top,
     TreeIs,
@@ -427,6 +429,52 @@ def test_a_margin_takes_the_trees_near_a_zone_too():
     assert ids(InZone(zone="pond", margin_m=3.0), site) == ["1", "2", "3"]
     assert ids(InZone(zone="pond", margin_m=4.5), site) == ["1", "2", "3", "4"]
     assert ids(InZone(zone="pond", outside=True, margin_m=60.0), site) == ["19", "20"]
+
+
+WATER = shapely.Polygon([(7, -14), (21, -11), (26, 3), (15, 6), (13, -2), (5, -4)])
+
+
+def with_water(site: Site, spread: float = 1.0) -> Site:
+    """The site with a zone that is no rectangle, wider by ``spread``, somewhere on or beside its trees."""
+    around = shapely.affinity.translate(shapely.affinity.scale(WATER, spread, spread), *site.xy.mean(axis=0))
+    return replace(site, zones=(Zone(name="pond", kind="keep_out", polygon=around),))
+
+
+@given(sites(min_size=2), st.integers(1, 6), st.floats(0.2, 3.0))
+def test_nearest_to_a_zone_is_by_the_distance_to_its_outline_and_never_inside(site, count, spread):
+    site = with_water(site, spread)
+    pond = site.zones[0].polygon
+    apart = {t.place.id: pond.distance(shapely.Point(t.place.x, t.place.y)) for t in site.trees}
+    outside = sorted(d for d in apart.values() if d > 0)
+    for selector, expected in (
+        (Nearest(to=InZone(zone="pond"), count=count), outside[:count]),
+        (Farthest(origin=InZone(zone="pond"), count=count), outside[::-1][:count]),
+    ):
+        if len(outside) < count:
+            with pytest.raises(PlaceError):
+                ids(selector, site)
+            continue
+        assert sorted(apart[tree] for tree in ids(selector, site)) == pytest.approx(sorted(expected), abs=TINY)
+    near = [tree for tree, metres in apart.items() if 0 < metres <= 12.0]
+    if near:
+        assert ids(Within(distance_m=12.0, to=InZone(zone="pond")), site) == near
+
+
+def test_a_zone_without_trees_is_near_to_rows_on_its_sides_and_to_lines_of_points():
+    site = site_of(
+        [(4.0 * k, 2.0 * j) for k in range(5) for j in range(10)],
+        row_names=[str(k) for k in range(5) for _ in range(10)],
+        zones=[("pond", "keep_out", [(20, 12), (30, 12), (30, 16.5), (20, 16.5)])],
+    )
+    pond = InZone(zone="pond")
+    assert ids(Successive(count=3, near=pond), site) == ["49", "48", "47"]
+    assert ids(Adjacent(near=pond, count=2), site)[0] in ("47", "48", "49", "50")
+    assert ids(Nearest(to=pond, side="west"), site) == ["47"]
+    with pytest.raises(PlaceError):
+        ids(Nearest(to=pond, side="east"), site)
+    assert reach(resolve(Spaced(apart_m=3.0, count=2, near=pond), site, at_start(site))[0], "east") > 15
+    with pytest.raises(PlaceError, match="no zone 'lake'"):
+        ids(Nearest(to=InZone(zone="lake")), site)
 
 
 def test_a_tree_that_the_file_holds_twice_is_not_its_own_neighbour():

@@ -5,7 +5,23 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from fieldhand.task.selectors import Bound, Here, Marker, Nearest, Other, Selector, Spaced, Successive, parts, walk
+from fieldhand.task.selectors import (
+    Adjacent,
+    Bound,
+    Farthest,
+    Here,
+    InZone,
+    Marker,
+    Nearest,
+    Other,
+    Selector,
+    Spaced,
+    Successive,
+    Within,
+    parts,
+    walk,
+    zone_itself,
+)
 
 
 def foreseeable(selector: Selector) -> Iterator[Selector]:
@@ -18,8 +34,23 @@ def foreseeable(selector: Selector) -> Iterator[Selector]:
     if not any(_depends(part) for part in walk(near_start)):
         yield near_start
         return
+    measured = _measured_from(selector)
     for part in parts(selector):
-        yield from foreseeable(part)
+        if part is measured and (zone := zone_itself(part)):
+            yield Farthest(origin=InZone(zone=zone))  # a zone without trees is a place to measure from, too
+        else:
+            yield from foreseeable(part)
+
+
+def _measured_from(selector: Selector) -> Selector | None:
+    """Return the part of a selector from which it measures distances."""
+    match selector:
+        case Nearest(to=origin) | Within(to=origin) | Farthest(origin=origin):
+            return origin
+        case Adjacent(near=origin) | Successive(near=origin) | Spaced(near=origin):
+            return origin
+        case _:
+            return None
 
 
 def _depends(part: Selector) -> bool:

@@ -164,7 +164,8 @@ class Nearest:
 
     ``adjacent`` asks for neighbours ("next to"): the same row is preferred. ``fresh`` passes over trees that this
     mission has visited already ("nearby"). ``side`` keeps those that lie in that direction from ``to`` ("its neighbour
-    on the east"), whatever half of the site they stand in.
+    on the east"), whatever half of the site they stand in. :class:`InZone` as ``to`` is the zone itself ("nearest to
+    the pond").
     """
 
     to: Selector
@@ -471,6 +472,14 @@ def walk(selector: Selector) -> Iterator[Selector]:
     yield selector
     for part in parts(selector):
         yield from walk(part)
+
+
+def zone_itself(selector: Selector) -> str:
+    """Return the name of the zone that a selector is all trees of; where distances are measured from, it is the zone.
+
+    Empty for any other selector.
+    """
+    return selector.zone if isinstance(selector, InZone) and selector == InZone(zone=selector.zone) else ""
 
 
 def is_relative(selector: Selector) -> bool:

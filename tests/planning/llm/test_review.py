@@ -10,6 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from fieldhand.planning.llm.review import Problem, read_draft, review
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
+from fieldhand.site.geojson import open_site
 from fieldhand.task.build import number
 from fieldhand.task.codec import Draft, encode
 from fieldhand.task.frames import Task
@@ -150,6 +151,26 @@ def test_a_static_part_of_a_relative_selector_is_checked_too() -> None:
 )
 def test_a_selector_that_gives_one_place_may_be_where_an_act_is_done(selector: str) -> None:
     assert problems(f"<act><take_picture/><at>{selector}</at></act>") == ()
+
+
+@pytest.mark.parametrize(
+    "selector",
+    [
+        '<nearest fresh="true"><to><in-zone zone="pond"/></to></nearest>',
+        '<nearest><to><in-zone zone="pond"/></to><of><other/></of></nearest>',
+        '<farthest><origin><in-zone zone="pond"/></origin><of><other/></of></farthest>',
+    ],
+)
+def test_a_zone_without_trees_is_something_to_measure_from(selector: str) -> None:
+    draft = read_draft(document(f"<act><take_picture/><at>{selector}</at></act>"), AMIGA)
+    assert isinstance(draft, Draft)
+    assert review(draft, open_site("demo"), AMIGA) == ()
+
+
+def test_a_zone_to_measure_from_has_to_be_one_of_the_site() -> None:
+    found = problems('<go-to><nearest fresh="true"><to><in-zone zone="lake"/></to></nearest></go-to>')
+    assert [p.kind for p in found] == ["site"]
+    assert "lake" in str(found[0])
 
 
 def test_problems_of_two_nodes_on_one_line_are_two() -> None:

@@ -354,6 +354,8 @@ def _describe(
             _among(bag, group, relation, behind, inner)
         case "NEXTTO" | "NEAR":
             group.anchor, group.beside = _single(behind, inner), kind == "NEXTTO"
+        case "WITHIN" | "BEYOND" if zone := s.zone_itself(behind.selector):
+            group.add(_near_zone(zone, relation), inner.phrase)
         case "WITHIN":
             group.within(relation.value, _single(behind, inner))
         case "BEYOND":
@@ -408,9 +410,15 @@ def beyond(metres: float, of: s.Selector) -> s.Selector:
     return s.Union(parts=(of, s.Within(distance_m=metres, to=of)))
 
 
+def _near_zone(zone: str, relation: Term) -> Found:
+    """Return the trees at most so far from a zone, or those farther away."""
+    near = s.InZone(zone=zone, margin_m=relation.value, outside=relation.kind == "BEYOND")
+    return Found(selector=near, many=True, region=True)
+
+
 def _single(found: Found, inner: _Part) -> s.Selector:
-    if found.many:
-        advice = "name one tree, corner or marker"
+    if found.many and not s.zone_itself(found.selector):
+        advice = "name one tree, corner, marker or zone"
         raise unclear(inner.phrase.terms, "one place is needed to measure from", advice)
     return found.selector
 

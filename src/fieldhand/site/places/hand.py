@@ -10,6 +10,7 @@ from fieldhand.language import message
 from fieldhand.site.model import Site
 from fieldhand.site.places import counted
 from fieldhand.site.places.counted import need_rows, row_words, wind
+from fieldhand.site.places.neighbours import Origin
 from fieldhand.site.places.saying import say_tree
 from fieldhand.site.places.spots import Spots
 from fieldhand.site.places.tell import Tell
@@ -111,7 +112,7 @@ def across(origin: Spots, selector: Across, tell: Tell) -> Spots:
     return found
 
 
-def successive(spots: Spots, near: Spots, selector: Successive, tell: Tell) -> Spots:
+def successive(spots: Spots, near: Origin, selector: Successive, tell: Tell) -> Spots:
     """That many of the group one after the other in one row.
 
     The row is the one with the nearest tree, of those that have as many; in it the ones with the least distance in
@@ -146,7 +147,7 @@ def longest_run(spots: Spots) -> int:
     return int(np.bincount(rows).max()) if len(rows) else 0
 
 
-def _distances(spots: Spots, near: Spots) -> np.ndarray:
+def _distances(spots: Spots, near: Origin) -> np.ndarray:
     from fieldhand.site.places.neighbours import distance_to
 
     return distance_to(spots, near)

@@ -2,16 +2,32 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
+from shapely.geometry.base import BaseGeometry
 
+from fieldhand.site.model import Site
 from fieldhand.site.places.spots import Spots
 from fieldhand.task.selectors import Side
 
 Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Ground:
+    """The ground of a zone, from whose outline distances are measured; no tree inside is near to it or far from it."""
+
+    site: Site
+    area: BaseGeometry
+
+
+#: Distances are measured from the nearest of some places, or from the ground of a zone.
+Origin = Spots | Ground
 
 #: "Next to" prefers the same row among those at most this much farther than the nearest one.
 _BAND = 1.5
@@ -29,15 +45,27 @@ _TIE_M = 2e-4
 _STRAIGHT_COS = 0.87
 
 
-def distance_to(spots: Spots, origin: Spots) -> Floats:
-    """Metres from each place to the nearest of ``origin``, straight."""
+def distance_to(spots: Spots, origin: Origin) -> Floats:
+    """Metres from each place to the nearest of ``origin``, straight; 0 inside a zone."""
+    if isinstance(origin, Ground):
+        return np.asarray(shapely.distance(origin.area, shapely.points(spots.xy)))
     if len(origin) == 1:
         return np.asarray(np.hypot(*(spots.xy - origin.xy[0]).T))
     return np.asarray(_index(origin).query(spots.xy)[0])
 
 
-def apart_from(spots: Spots, origin: Spots) -> Spots:
-    """Those that are not ``origin``, nor the same tree entered twice in the file (within a centimetre)."""
+def nearest_of(origin: Origin, spots: Spots) -> Floats:
+    """Return for each place the point of ``origin`` that is nearest to it, in metres east and north, shape (n, 2)."""
+    if isinstance(origin, Ground):
+        lines = shapely.shortest_line(origin.area, shapely.points(spots.xy))
+        return np.asarray(shapely.get_coordinates(lines)[::2])
+    return np.asarray(origin.xy[np.atleast_1d(_index(origin).query(spots.xy)[1])])
+
+
+def apart_from(spots: Spots, origin: Origin) -> Spots:
+    """Those neither among nor inside ``origin``, nor the same tree entered twice in the file (within a centimetre)."""
+    if isinstance(origin, Ground):
+        return spots.keep(distance_to(spots, origin) > 0)
     left = spots.without(origin)
     if not len(left):
         return left
@@ -46,17 +74,17 @@ def apart_from(spots: Spots, origin: Spots) -> Spots:
     return left.keep(_index(origin).query(left.xy, distance_upper_bound=_SAME_SPOT_M)[0] > _SAME_SPOT_M)
 
 
-def next_to(spots: Spots, to: Spots, count: int) -> Spots:
+def next_to(spots: Spots, to: Origin, count: int) -> Spots:
     """The nearest, but of those at most half as far again as the nearest one the same row comes first."""
     away = distance_to(spots, to)
-    rows = to.row[to.row >= 0]
+    rows = to.row[to.row >= 0] if isinstance(to, Spots) else ()
     other_row = ~np.isin(spots.row, rows) if len(rows) else np.zeros(len(spots), dtype=bool)
     tier = np.where(away <= _BAND * away.min() + 1e-9, other_row, 2)
     order = np.lexsort((spots.file_order, np.round(away, 4), tier))
     return spots.keep(order[:count])
 
 
-def on_side(spots: Spots, to: Spots, side: Side, *, next_to: bool) -> Spots:
+def on_side(spots: Spots, to: Origin, side: Side, *, next_to: bool) -> Spots:
     """Return those in the quarter of the compass around a side, seen from ``to``; the nearest of several counts.
 
     Args:
@@ -65,14 +93,15 @@ def on_side(spots: Spots, to: Spots, side: Side, *, next_to: bool) -> Spots:
     """
     if not len(spots):
         return spots
-    nearest = np.atleast_1d(_index(to).query(spots.xy)[1])
-    step = spots.xy - to.xy[nearest]
+    step = spots.xy - nearest_of(to, spots)
     outward = {"north": step[:, 1], "east": step[:, 0], "south": -step[:, 1], "west": -step[:, 0]}[side]
     sideways = np.abs(step[:, 0] if side in ("north", "south") else step[:, 1])
     kept = (outward > 0) & (sideways <= outward)
-    if next_to:
+    if next_to and isinstance(to, Ground):
+        kept &= np.hypot(*step.T) <= _BAND * to.site.spacing_m + 1e-9
+    elif next_to and isinstance(to, Spots):
         reach = np.array([_BAND * _apart_at(to, k) for k in range(len(to))])
-        kept &= np.hypot(*step.T) <= reach[nearest] + 1e-9
+        kept &= np.hypot(*step.T) <= reach[np.atleast_1d(_index(to).query(spots.xy)[1])] + 1e-9
     return spots.keep(kept)
 
 
@@ -88,22 +117,22 @@ def _apart_at(to: Spots, k: int) -> float:
     return max(block.tree_spacing_m, 0.0 if np.isnan(block.row_spacing_m) else block.row_spacing_m)
 
 
-def within(spots: Spots, to: Spots, distance_m: float) -> Spots:
+def within(spots: Spots, to: Origin, distance_m: float) -> Spots:
     """At most that far, straight."""
-    if not len(spots) or len(to) == 1:
+    if not len(spots) or isinstance(to, Ground) or len(to) == 1:
         return spots.keep(distance_to(spots, to) <= distance_m) if len(spots) else spots
     reach = distance_m + 1e-9  # the bound itself is left out
     return spots.keep(_index(to).query(spots.xy, distance_upper_bound=reach)[0] <= distance_m)
 
 
-def side_by_side(spots: Spots, near: Spots, count: int) -> Spots:
+def side_by_side(spots: Spots, near: Origin, count: int) -> Spots:
     """``count`` next to each other (fewer if there are not as many), beginning with the nearest to ``near``.
 
     Each next one is a neighbour of the last: of those at most half as far again as its nearest the same row comes
     first, then what lies straight on, then the nearest. Where the last one has no neighbour left, the line goes on
     from whichever taken one has the nearest.
     """
-    itself = np.isin(spots.index, near.index)
+    itself = np.isin(spots.index, near.index) if isinstance(near, Spots) else np.zeros(len(spots), dtype=bool)
     seed = spots.ranked(np.where(itself, -1.0, distance_to(spots, near)), 1).index[0]
     from_seed = np.hypot(*(spots.xy - spots.xy[np.flatnonzero(spots.index == seed)[0]]).T)
     around = max(_AROUND, 4 * count**2)

@@ -9,7 +9,7 @@ from fieldhand.site.kinds import phrase
 from fieldhand.site.places.attribute_words import say_attribute
 from fieldhand.site.places.noun import Phrase, clauses
 from fieldhand.site.places.row_words import say_ordinal, say_ranked_tree
-from fieldhand.site.places.saying import Saying, it, many, of_ground, one, say_marker
+from fieldhand.site.places.saying import Saying, many, of_ground, one, origin, say_marker
 from fieldhand.task import selectors as s
 from fieldhand.task.words import SIDES, say_name
 
@@ -95,12 +95,12 @@ def _distinction(selector: s.Middle | s.EdgeMiddle | s.Nearest | s.Farthest | s.
                 of_trees=of_ground(of, saying),
             )
         case s.Nearest(to=to, adjacent=adjacent, fresh=fresh, side=side):
-            place = it(to, saying)
+            place = origin(to, saying)
             near = message("next to {place}", place=place) if adjacent else message("nearest to {place}", place=place)
             there = near if side == "any" else _on_side(near, side)
             return message("{near} and not visited yet", near=there) if fresh else there
-        case s.Farthest(origin=origin):
-            return spot(origin, saying)
+        case s.Farthest(origin=far_from):
+            return spot(far_from, saying)
         case s.Top(attribute=attribute, lowest=lowest):
             name = say_attribute(attribute)[0]
             return (
@@ -127,7 +127,7 @@ def spot(selector: s.Selector, saying: Saying) -> str:
     """A place that something is far from."""
     if isinstance(selector, s.Here):
         return message("farthest from there")
-    return message("farthest from {place}", place=saying.phrase(selector).say())
+    return message("farthest from {place}", place=origin(selector, saying))
 
 
 def nth(selector: s.Nth, saying: Saying) -> Phrase:

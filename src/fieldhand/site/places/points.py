@@ -18,7 +18,7 @@ from fieldhand.site.model import Place, Site
 from fieldhand.site.places import counted
 from fieldhand.site.places.counted import row_words, wind
 from fieldhand.site.places.faults import short
-from fieldhand.site.places.neighbours import distance_to
+from fieldhand.site.places.neighbours import Origin, distance_to, nearest_of
 from fieldhand.site.places.rectangle import smallest_rectangle
 from fieldhand.site.places.room import OFF_TREES_M, area_called, free_part, ground_of, off_trees, segments, tree_index
 from fieldhand.site.places.spots import Spots
@@ -62,7 +62,7 @@ class _Line:
 _BESIDE = 0.4
 
 
-def spaced(spots: Spots, near: Spots, selector: Spaced, tell: Tell) -> Spots:
+def spaced(spots: Spots, near: Origin, selector: Spaced, tell: Tell) -> Spots:
     """Points at exactly that spacing on one straight line, from its end that is nearer to ``near``.
 
     Raises:
@@ -75,7 +75,7 @@ def spaced(spots: Spots, near: Spots, selector: Spaced, tell: Tell) -> Spots:
         raise PlaceError(f"{count} points are too many for one line", advice=f"ask for at most {MOST_POINTS}")
     in_row = spots.keep(spots.row >= 0) if not selector.zone and site.planting.blocks else spots.keep([])
     lines = _beside_row(in_row, near, tell) if len(in_row) else _across_area(spots, selector.zone, tell)
-    line, piece = _fitting(lines, near.xy[0], apart, count, tell)
+    line, piece = _fitting(lines, _from(near, spots), apart, count, tell)
     fit = min(int(piece.length / apart + 1e-6) + 1, MOST_POINTS)
     if fit < count or not fit:
         raise _does_not_fit(site, selector, line, piece, fit)
@@ -187,7 +187,14 @@ def _does_not_fit(site: Site, selector: Spaced, line: _Line, piece: LineString, 
     )
 
 
-def _beside_row(in_row: Spots, near: Spots, tell: Tell) -> Iterator[_Line]:
+def _from(near: Origin, spots: Spots) -> Floats:
+    """Return the point from which a line is seen: the first place of ``near``, or where a zone is nearest to a tree."""
+    if isinstance(near, Spots):
+        return np.asarray(near.xy[0])
+    return np.asarray(nearest_of(near, spots.ranked(distance_to(spots, near), 1))[0])
+
+
+def _beside_row(in_row: Spots, near: Origin, tell: Tell) -> Iterator[_Line]:
     """Lines beside the row that has the tree nearest to ``near``: on its side first."""
     site = in_row.site
     nearest = in_row.ranked(distance_to(in_row, near), 1)
@@ -197,7 +204,8 @@ def _beside_row(in_row: Spots, near: Spots, tell: Tell) -> Iterator[_Line]:
     u, v = counted.along(block), counted.across(block)
     centre, slope = _course(site, row, u, v)
     begin, end = (float(site.xy[row.trees[k]] @ u) for k in (0, -1))
-    aside = float(near.xy[0] @ v) - (centre + slope * float(near.xy[0] @ u))
+    begun = _from(near, in_row)
+    aside = float(begun @ v) - (centre + slope * float(begun @ u))
     spacing = block.row_spacing_m if np.isfinite(block.row_spacing_m) else block.tree_spacing_m
     inner = [k for k in (1, -1) if 0 <= at + k < len(block.rows)]
     sides = inner + [k for k in (1, -1) if k not in inner]

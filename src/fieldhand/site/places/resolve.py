@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
+from shapely.geometry.base import BaseGeometry
 
 from fieldhand.errors import PlaceError
 from fieldhand.language import message
@@ -25,6 +26,7 @@ from fieldhand.site.places.faults import (
     short,
     too_few,
 )
+from fieldhand.site.places.neighbours import Ground, Origin
 from fieldhand.site.places.nesting import bare_ground
 from fieldhand.site.places.pick_words import the_highest, the_middle_of_edge, the_most, the_nearest_to_marker
 from fieldhand.site.places.spots import Spots, joined
@@ -146,7 +148,7 @@ class Resolution:
             case s.Apart():
                 return apart(of.once(selector.count), selector, tell)
             case s.Spaced(near=near):
-                return points.spaced(of, self.spots(near), selector, tell)
+                return points.spaced(of, self._origin(near), selector, tell)
 
     def _source(self, selector: _Source) -> Spots:
         match selector:
@@ -195,7 +197,7 @@ class Resolution:
             case s.Within(distance_m=distance):
                 if not (math.isfinite(distance) and distance > 0):
                     raise PlaceError(f"a distance of {distance:g} m holds no tree", advice="ask for more than 0 m")
-                to = self.spots(selector.to)
+                to = self._origin(selector.to)
                 return neighbours.within(neighbours.apart_from(of, to), to, distance)
 
     def _kept(self, selector: _Kept, of: Spots, tell: Tell) -> Spots:
@@ -262,11 +264,11 @@ class Resolution:
                 attributes.tell_lacking(len(of) - len(known), name, tell)
                 return rank(known, numbers, count, tell, the_highest(name, lowest=lowest))
 
-    def _candidates(self, selector: _Ranked, of: Spots) -> tuple[Spots, Spots]:
+    def _candidates(self, selector: _Ranked, of: Spots) -> tuple[Spots, Origin]:
         """What may be chosen from, and what it is measured from (of no meaning where it is not)."""
         match selector:
             case s.Nearest(to=origin) | s.Farthest(origin=origin):
-                to = self.spots(origin)
+                to = self._origin(origin)
                 left = neighbours.apart_from(of, to).once(selector.count if selector.count > 1 else len(of))
                 if isinstance(selector, s.Nearest):
                     left = left.without(self._visited()) if selector.fresh else left
@@ -282,7 +284,7 @@ class Resolution:
 
     def _chained(self, selector: _Chained, of: Spots, tell: Tell) -> Spots:
         """Several, each of which hangs on the ones before, or on the draw."""
-        near = of if isinstance(selector, s.Take | s.Random) else self.spots(selector.near)
+        near = of if isinstance(selector, s.Take | s.Random) else self._origin(selector.near)
         count = selector.count
         if isinstance(selector, s.Take | s.Random):
             of = self._outside_keep_outs(of, tell).once(count)
@@ -303,6 +305,11 @@ class Resolution:
             there_are = len(found) if isinstance(selector, s.Adjacent) else hand.longest_run(of)
             raise too_few(self.site, selector, count, there_are)
         return found
+
+    def _origin(self, selector: s.Selector) -> Origin:
+        """Return what distances are measured from: the zone itself where a selector is all trees of one."""
+        zones = self._zones(s.zone_itself(selector))
+        return Ground(site=self.site, area=shapely.union_all(zones)) if zones else self.spots(selector)
 
     def _outside_keep_outs(self, of: Spots, tell: Tell) -> Spots:
         """Where any of them will do, those that no robot may drive to are passed over."""
@@ -362,18 +369,22 @@ class Resolution:
 
     def _inside(self, name: str, of: Spots, margin_m: float = 0.0) -> Spots | None:
         """Return those inside the zones of that name or so near to one; None where there are none."""
-        zones = [z for z in self.site.zones if phrase(z.name) == phrase(name)]
-        exact = [z for z in zones if z.name == name]
+        zones = self._zones(name)
         if not zones:
             return None
         inside = np.zeros(len(of), dtype=bool)
-        for zone in exact or zones:
-            shapely.prepare(zone.polygon)
+        for zone in zones:
+            shapely.prepare(zone)
             if margin_m:
-                inside |= shapely.dwithin(zone.polygon, shapely.points(of.xy), margin_m)
+                inside |= shapely.dwithin(zone, shapely.points(of.xy), margin_m)
             else:
-                inside |= shapely.intersects_xy(zone.polygon, of.xy[:, 0], of.xy[:, 1])
+                inside |= shapely.intersects_xy(zone, of.xy[:, 0], of.xy[:, 1])
         return of.keep(inside)
+
+    def _zones(self, name: str) -> list[BaseGeometry]:
+        """Return the outlines of the zones of that name, whatever its case, hyphens and underscores."""
+        zones = [z for z in self.site.zones if name and phrase(z.name) == phrase(name)]
+        return [z.polygon for z in [z for z in zones if z.name == name] or zones]
 
     def _visited(self) -> Spots:
         known = [self.site.by_id[t].index for t in self.context.visited if t in self.site.by_id]

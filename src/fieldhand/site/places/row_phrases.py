@@ -6,14 +6,14 @@ from fieldhand.language import counted, joined, message
 from fieldhand.site.places.noun import Phrase
 from fieldhand.site.places.pick_words import picked
 from fieldhand.site.places.row_words import say_numbers, say_ordinal, say_way
-from fieldhand.site.places.saying import Saying, it, many, one, say_zone
+from fieldhand.site.places.saying import Saying, it, many, one, origin, say_zone
 from fieldhand.task import selectors as s
 from fieldhand.task.words import COMPASS, say_number
 
 
 def adjacent(selector: s.Adjacent, saying: Saying) -> Phrase:
     """Trees next to each other."""
-    near, count = it(selector.near, saying), selector.count
+    near, count = origin(selector.near, saying), selector.count
     if count == 1:
         return picked(s.Nearest(to=selector.near, of=selector.of), saying)
     group = saying.phrase(selector.of)
@@ -89,9 +89,9 @@ def _numbered(number: str, group: Phrase) -> str:
 
 def from_hand(selector: s.AlongRow | s.Across, saying: Saying) -> Phrase:
     """The tree so many trees along the row, or in the next row."""
-    origin = "" if isinstance(selector.origin, s.Here) else it(selector.origin, saying)
+    start = "" if isinstance(selector.origin, s.Here) else it(selector.origin, saying)
     if isinstance(selector, s.Across):
-        place = origin or message("that place")
+        place = start or message("that place")
         if selector.side == "usual":
             return one(message("the tree abreast of {place} in the next row", place=place))
         return one(
@@ -104,13 +104,13 @@ def from_hand(selector: s.AlongRow | s.Across, saying: Saying) -> Phrase:
         said = message("the next tree {down_the_row}", down_the_row=way)
     else:
         said = message("the tree {count} trees further {down_the_row}", count=selector.trees, down_the_row=way)
-    return one(message("{tree} from {place}", tree=said, place=origin) if origin else said)
+    return one(message("{tree} from {place}", tree=said, place=start) if start else said)
 
 
 def successive(selector: s.Successive, saying: Saying) -> Phrase:
     """Trees that follow each other in one row."""
     group = saying.phrase(selector.of)
-    near, count = it(selector.near, saying), selector.count
+    near, count = origin(selector.near, saying), selector.count
     if count == 1:
         return picked(s.Nearest(to=selector.near, of=selector.of), saying)
     if group.bare:
@@ -155,7 +155,7 @@ def free_points(selector: s.Spaced | s.PointsIn, saying: Saying) -> Phrase:
             return one(message("the middle of {zone}", zone=zone))
         return many(message("{count} points spread over {zone}", count=selector.count, zone=zone))
     apart, count = say_number(selector.apart_m), selector.count
-    where, near = _line_of(selector, saying), it(selector.near, saying)
+    where, near = _line_of(selector, saying), origin(selector.near, saying)
     if count == 1:
         return one(message("a point {where}, beginning at the end nearer to {place}", where=where, place=near))
     if count:

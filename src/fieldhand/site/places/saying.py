@@ -76,6 +76,12 @@ def it(selector: s.Selector, saying: Saying) -> str:
     return message("that place") if isinstance(selector, s.Here) else saying.phrase(selector).say()
 
 
+def origin(selector: s.Selector, saying: Saying) -> str:
+    """Return the place that something is near to or far from in words: a zone itself, not the trees in it."""
+    zone = s.zone_itself(selector)
+    return say_zone(zone) if zone else it(selector, saying)
+
+
 def of_ground(of: s.Selector, saying: Saying) -> str:
     """Of what a half or an edge is one, where it is not the whole site (the rule stands in ``site.places``)."""
     ground = bare_ground(of)

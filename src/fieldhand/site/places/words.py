@@ -25,6 +25,7 @@ from fieldhand.site.places.saying import (
     many,
     of_ground,
     one,
+    origin,
     say_gate,
     say_marker,
     say_tree,
@@ -96,9 +97,9 @@ def _new_phrase(selector: s.Selector, saying: Saying) -> Phrase:
         case s.Rows(of=of):
             rows, single = say_rows(selector)
             return saying.phrase(of).of_rows(rows, one=single)
-        case s.RowOf(origin=origin, over=over, of=of):
-            from_here = isinstance(origin, s.Here)
-            return saying.phrase(of).of_rows(say_row_of(over, "" if from_here else it(origin, saying)), one=True)
+        case s.RowOf(over=over, of=of):
+            start = "" if isinstance(selector.origin, s.Here) else it(selector.origin, saying)
+            return saying.phrase(of).of_rows(say_row_of(over, start), one=True)
         case s.InRow() | s.EveryNth():
             return by_number(selector, saying)
         case s.AlongRow() | s.Across():
@@ -164,7 +165,7 @@ def _filtered(selector: s.Where | s.InZone | s.Within | s.Other | s.Excluding, s
             return base.keeping(after=message("inside {zone}", zone=say_zone(zone)))
         case s.Within(distance_m=distance, to=to):
             return base.keeping(
-                after=message("within {distance} m of {place}", distance=say_number(distance), place=it(to, saying))
+                after=message("within {distance} m of {place}", distance=say_number(distance), place=origin(to, saying))
             )
         case s.Other():
             return base.keeping(after=message("not visited yet"))
