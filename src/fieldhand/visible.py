@@ -80,6 +80,22 @@ def find_hidden(text: str, *, lines: bool = False) -> Hidden | None:
     return None
 
 
+def find_hidden_within(value: object, where: str = "") -> tuple[str, Hidden] | None:
+    """Return the place of the first hidden character in mappings, lists and texts, as ``a.b[2]``, and the character."""
+    if isinstance(value, str):
+        character = find_hidden(value, lines=True)
+        return None if character is None else (where, character)
+    parts: Iterable[tuple[str, object]] = ()
+    if isinstance(value, Mapping):
+        parts = ((f"{where}.{visible(str(key))}".lstrip("."), part) for key, part in value.items())
+        for key in value:
+            if isinstance(key, str) and (hidden := find_hidden(key, lines=True)) is not None:
+                return where, hidden
+    elif isinstance(value, list | tuple):
+        parts = ((f"{where}[{k}]", part) for k, part in enumerate(value))
+    return next((found for place, part in parts if (found := find_hidden_within(part, place)) is not None), None)
+
+
 def json_text(
     value: Any, *, indent: int | None = None, separators: tuple[str, str] | None = None, allow_nan: bool = True
 ) -> str:

@@ -19,6 +19,7 @@ from fieldhand.planning.planner import Answer
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
+from fieldhand.visible import find_hidden
 
 MAX_REQUEST = 20_000
 MAX_XML = 4_000_000
@@ -33,10 +34,19 @@ def _whole(text: str) -> str:
     return text
 
 
+def _on_one_line(text: str) -> str:
+    hidden = find_hidden(text)
+    if hidden is not None:
+        raise ValueError(f"this holds the character {hidden.name}, which nobody can see")
+    return text
+
+
 Text = Annotated[str, AfterValidator(_whole)]
 Words = Annotated[Text, StringConstraints(max_length=MAX_REQUEST)]
 Xml = Annotated[Text, StringConstraints(max_length=MAX_XML)]
-Name = Annotated[Text, StringConstraints(strip_whitespace=True, min_length=1, max_length=100)]
+Name = Annotated[
+    Text, StringConstraints(strip_whitespace=True, min_length=1, max_length=100), AfterValidator(_on_one_line)
+]
 
 
 class Body(BaseModel):
@@ -126,8 +136,6 @@ class RunBody(OnGround):
     def _one_of_both(self) -> RunBody:
         if (self.xml is None) == (self.request is None):
             raise ValueError("give either xml or request")
-        if not self.approved_by.isprintable():
-            raise ValueError("approved_by is a name")
         return self
 
 

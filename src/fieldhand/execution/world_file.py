@@ -22,6 +22,7 @@ from pydantic_core import ErrorDetails
 from fieldhand.errors import WorldError
 from fieldhand.execution.world import Truth, World
 from fieldhand.execution.world_faults import AnyFault, FaultModel, SpotModel, Strict
+from fieldhand.visible import find_hidden_within
 
 GUIDE = "see docs/formats.md, 'World file'"
 _CORRECT = "correct the value"
@@ -80,8 +81,13 @@ def world_of(content: Mapping[str, Any], *, source: str) -> World:
     """The world that a file's YAML says.
 
     Raises:
-        WorldError: A key is unknown, missing, or its value is of no use.
+        WorldError: A key is unknown, missing, or its value is of no use; or nobody can see all of it.
     """
+    found = find_hidden_within(content)
+    if found is not None:
+        place, hidden = found
+        what = f"holds the character {hidden.name}, which nobody can see"
+        raise WorldError(what, where=": ".join(filter(None, (source, place))), advice="take it out")
     try:
         model = WorldModel.model_validate(content)
     except ValidationError as error:

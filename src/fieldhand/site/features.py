@@ -14,7 +14,7 @@ from fieldhand.site.formats.records import Records, UnusablePart
 from fieldhand.site.kinds import PointKind, area_kind, barrier_name, is_derived, number_text, point_kind, text_of
 from fieldhand.site.model import ZoneKind
 from fieldhand.task.selectors import Value
-from fieldhand.visible import find_hidden
+from fieldhand.visible import find_hidden, visible
 
 _LONGEST_KEY = 100
 _LONGEST_ID = 64
@@ -95,13 +95,6 @@ def gather(records: Records, faults: Faults) -> Gathered:
             faults.add(number, fault.what, fault.advice, needed=_keeps_out(feature))
     gathered.heights = len(reader.high)
     return gathered
-
-
-def clean(text: str) -> str:
-    """Return text for a message: line breaks, control characters and lone surrogates replaced by spaces."""
-    if text.isprintable():
-        return text
-    return "".join(c if c.isprintable() else " " for c in text)
 
 
 def readable(text: str, what: str) -> str:
@@ -341,5 +334,5 @@ def _id_text(value: Any) -> str:
 
 
 def _shown(value: Any) -> str:
-    text = clean(repr(value)) if not isinstance(value, list | dict) else type(value).__name__
+    text = visible(repr(value)) if not isinstance(value, list | dict) else type(value).__name__
     return text if len(text) <= 60 else text[:57] + "..."

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any
 
 from fieldhand.errors import TaskError
 from fieldhand.task.capabilities import RESERVED_ACTIONS
-from fieldhand.task.codec_read import Reader, local_name
+from fieldhand.task.codec_read import Reader
 from fieldhand.task.codec_shapes import NAMESPACE, SURROGATES, Attribute, Child, Head, element_name, shape_of
 from fieldhand.task.codec_text import SEVERAL_LINES, bare_value, hidden_character, number_text, written
-from fieldhand.task.codec_xml import MAX_BYTES, MAX_DEPTH, parse_xml
+from fieldhand.task.codec_xml import MAX_BYTES, MAX_DEPTH, local_name, parse_xml
 from fieldhand.task.frames import Constraints, FaultedExit, Task, Then
 from fieldhand.task.plan import Node, Span
 

@@ -19,19 +19,14 @@ from fieldhand.task.codec_shapes import (
     element_name,
     shape_of,
 )
-from fieldhand.task.codec_text import SEVERAL_LINES, bare_value, hidden_character, parsed
-from fieldhand.task.codec_xml import at_line, line_of
+from fieldhand.task.codec_text import SEVERAL_LINES, bare_value, parsed
+from fieldhand.task.codec_xml import at_line, line_of, local_name, require_visible
 from fieldhand.task.frames import Task
 
 if TYPE_CHECKING:
     from lxml.etree import _Element
 
 XSI = "{http://www.w3.org/2001/XMLSchema-instance}"
-
-
-def local_name(element: _Element) -> str:
-    """The name of an element without its namespace."""
-    return str(element.tag).rpartition("}")[2]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,19 +52,9 @@ class Reader:
         return task
 
     def require_visible(self, root: _Element) -> None:
-        """Refuse characters that nobody sees: what is read back must be what is signed. A draft is not signed."""
-        if self.draft:
-            return
-        for element in root.iter():
-            name = local_name(element)
-            texts = [(f"attribute {key!s}", str(text), False) for key, text in element.attrib.items()]
-            texts += [("name", str(element.tag), False), ("tail", (element.tail or "").strip(), False)]
-            texts.append(("text", (element.text or "").strip(" \n\t"), name in SEVERAL_LINES))
-            for what, text, lines in texts:
-                character = hidden_character(text, lines=lines)
-                if character:
-                    what = f"its {what} holds the character {character}, which nobody can see"
-                    raise self.error(element, what, "take it out")
+        """Refuse characters that nobody sees; a draft is not signed."""
+        if not self.draft:
+            require_visible(root, source=self.source, lines=SEVERAL_LINES.__contains__)
 
     def value(self, element: _Element, cls: type) -> Any:
         """The dataclass in an element."""

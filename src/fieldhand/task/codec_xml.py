@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fieldhand.errors import TaskError
 from fieldhand.files import FileFault, read_file
+from fieldhand.task.codec_text import hidden_character
 
 if TYPE_CHECKING:
     from lxml.etree import _Element
@@ -70,9 +72,40 @@ def parse_xml(data: bytes, *, source: str = "") -> _Element:
     return root
 
 
+def require_visible(root: _Element, *, source: str = "", lines: Callable[[str], bool] = lambda _: True) -> None:
+    """Refuse characters that nobody sees, wherever in a document: what is read back must be what is signed.
+
+    Args:
+        root: Its outermost element.
+        source: What to call the document in messages.
+        lines: Returns True for the name of an element whose text, or ``@name`` of an attribute, may have several lines.
+
+    Raises:
+        TaskError: It holds one; says at which line and element, and where in it.
+    """
+    for element in root.iter():
+        name = local_name(element)
+        texts = [(f"attribute {key!s}", str(text), lines(f"@{key!s}")) for key, text in element.attrib.items()]
+        texts += [("name", str(element.tag), False), ("tail", (element.tail or "").strip(" \n\t"), False)]
+        texts.append(("text", (element.text or "").strip(" \n\t"), lines(name)))
+        for what, text, several in texts:
+            character = hidden_character(text, lines=several)
+            if character:
+                raise TaskError(
+                    f"its {what} holds the character {character}, which nobody can see",
+                    where=at_line(source, line_of(element), name),
+                    advice="take it out",
+                )
+
+
 def at_line(source: str, line: int, element: str = "") -> str:
     """A place in a document, as errors name it: ``task.xml, line 12, <act>``."""
     return ", ".join(part for part in (source, f"line {line}", f"<{element}>" if element else "") if part)
+
+
+def local_name(element: _Element) -> str:
+    """The name of an element without its namespace."""
+    return str(element.tag).rpartition("}")[2]
 
 
 def line_of(element: _Element) -> int:

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from fieldhand.errors import few
-from fieldhand.task.codec_read import local_name
 from fieldhand.task.codec_shapes import NAMESPACE, AttributeKind
+from fieldhand.task.codec_xml import local_name
 
 if TYPE_CHECKING:
     from lxml.etree import _Element

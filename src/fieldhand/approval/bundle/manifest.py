@@ -29,9 +29,9 @@ def _printable(text: str) -> str:
 
 
 def _one_line(text: str) -> str:
-    if not text.strip() or not text.isprintable():
-        raise ValueError("is empty, or holds signs that cannot be shown")
-    return text
+    if not text.strip() or "\n" in text or "\t" in text:
+        raise ValueError("is empty, or stands on several lines")
+    return _printable(text)
 
 
 def _moment(text: str) -> str:
@@ -44,9 +44,9 @@ def _moment(text: str) -> str:
 
 
 def _file_name(text: str) -> str:
-    if not text.isprintable() or set(text) & set("/\\") or text in (".", ".."):
+    if set(text) & set("/\\\n\t") or text in (".", ".."):
         raise ValueError("is no name of a file")
-    return text
+    return _printable(text)
 
 
 Sha256 = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]

@@ -18,7 +18,7 @@ from fieldhand.task import plan as p
 from fieldhand.task.build import FAULTED_EXITS, make_task
 from fieldhand.task.capabilities import Capabilities
 from fieldhand.task.codec import decode_parts
-from fieldhand.task.codec_xml import at_line, parse_xml
+from fieldhand.task.codec_xml import at_line, parse_xml, require_visible
 from fieldhand.task.frames import Command, Constraints, Fault, FaultedExit, Resource, Task, Then
 
 if TYPE_CHECKING:
@@ -61,7 +61,9 @@ def read_tree(
     if not data.strip():
         raise TaskError("the document is empty", where=source, advice="give a tree of BehaviorTree.CPP 4")
     elements = Elements(source=source, capabilities=capabilities)
-    main, trees = _trees(parse_xml(data, source=source), elements)
+    root = parse_xml(data, source=source)
+    require_visible(root, source=source)
+    main, trees = _trees(root, elements)
     reader = NodeReader(elements, trees)
     frames, plan = _mission(main, reader, _Frames(command=Command(request=request), resources=resources))
     measures = {

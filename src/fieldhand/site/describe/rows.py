@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fieldhand.site.features import clean
 from fieldhand.site.model import Site
 from fieldhand.site.places.counted import rows_from
 from fieldhand.site.planting import Block, Known, Row
+from fieldhand.visible import visible
 
 _LONGEST = 40
 _OPPOSITE = {"north": "south", "south": "north", "west": "east", "east": "west"}
@@ -170,7 +170,7 @@ def table_lines(rows: Sequence[RowSummary], *, several: bool) -> list[str]:
 
 def shortened(text: str, longest: int = _LONGEST) -> str:
     """Text from a file, printable and not longer than that."""
-    text = clean(text[: 4 * longest])
+    text = visible(text[: 4 * longest])
     return text if len(text) <= longest else text[: longest - 3] + "..."
 
 

@@ -12,10 +12,10 @@ from typing import Literal
 from fieldhand.brief import brief_repr
 from fieldhand.errors import SiteError
 from fieldhand.files import FileFault, read_file
-from fieldhand.site.features import clean
 from fieldhand.site.formats.geojson import geojson_records
 from fieldhand.site.formats.records import MAX_BYTES, Records, too_big
 from fieldhand.site.formats.table import table_records
+from fieldhand.visible import visible
 
 Format = Literal["geojson", "table", "shapefile", "geopackage", "kml", "zip"]
 
@@ -75,10 +75,10 @@ def read_files(path: Path) -> SiteFiles:
     Raises:
         SiteError: It is missing, no file, too big, or has no format that can be read.
     """
-    at = clean(str(path))
+    at = visible(str(path))
     data = read_bytes(path, at)
     parts = _shapefile_parts(path) if format_of(path.name, data, at) == "shapefile" else [path]
-    held = {part.name: data if part == path else read_bytes(part, clean(str(part))) for part in parts}
+    held = {part.name: data if part == path else read_bytes(part, visible(str(part))) for part in parts}
     return SiteFiles(parts=held, source=at)
 
 

@@ -18,7 +18,6 @@ from pathlib import Path
 from typing import Any
 
 from fieldhand.errors import SiteError
-from fieldhand.site.features import clean
 from fieldhand.site.formats.archive import unpack
 from fieldhand.site.formats.confined import read_confined
 from fieldhand.site.formats.files import SHAPEFILE_PARTS, Format
@@ -27,6 +26,7 @@ from fieldhand.site.formats.guards import check_geopackage, check_kml
 from fieldhand.site.formats.records import Records, UnusablePart
 from fieldhand.site.formats.table import table_records, value_of
 from fieldhand.site.kinds import KIND_KEYS, area_kind, barrier_name, point_kind, text_of
+from fieldhand.visible import visible
 
 MAX_LAYERS = 100
 MAX_FEATURES = 1_000_000
@@ -143,7 +143,7 @@ def _layers_of(gdal: Any, path: Path, gathering: _Gathering, at: str) -> list[st
     except Exception as fault:  # noqa: BLE001  # GDAL's errors are of many classes
         raise _unreadable(fault, at) from None
     if not drivers <= _DRIVERS[path.suffix.lower()]:
-        raise SiteError(f"the file is one of {clean(min(drivers))[:40]}", where=at, advice="export it again")
+        raise SiteError(f"the file is one of {visible(min(drivers))[:40]}", where=at, advice="export it again")
     return names
 
 
@@ -193,7 +193,7 @@ def _read_layer(gdal: Any, path: Path, layer: str, title: str, gathering: _Gathe
     if high:
         gathering.notes.append("heights are not used" + (f" (layer {title!r})" if title else ""))
     span = f"features {first} to {len(gathering.features)}" if len(shapes) > 1 else f"feature {first}"
-    gathering.layers.append(f"{clean(title)!r} ({span})")
+    gathering.layers.append(f"{visible(title)!r} ({span})")
 
 
 def _has_heights(gdal: Any, path: Path, layer: str) -> bool:
@@ -209,7 +209,7 @@ def _features(
 
     geometries = shapely.from_wkb(shapes, on_invalid="ignore")
     geometries = _in_degrees(geometries, meta.get("crs"), at, notes)
-    names = [clean(str(name)) for name in meta["fields"]]
+    names = [str(name) for name in meta["fields"]]
     if meta.get("driver") in ("LIBKML", "KML") or "Name" in names:
         called = {"Name": "name", "Description": "description", **dict.fromkeys(_KML_OWN, "")}
         names = [called.get(name, name) for name in names]
@@ -277,11 +277,11 @@ def _in_degrees(geometries: Any, crs: str | None, at: str, notes: list[str]) -> 
         lon, lat = transformer.transform(xy[:, 0], xy[:, 1])
     except pyproj.exceptions.ProjError as fault:
         raise SiteError(
-            f"its coordinate system cannot be used ({clean(str(fault))[:100]})",
+            f"its coordinate system cannot be used ({visible(str(fault))[:100]})",
             where=at,
             advice="export it as WGS 84 (EPSG:4326)",
         ) from None
-    name = clean(str(source.name))[:60]
+    name = visible(str(source.name))[:60]
     note = f"coordinates were converted from {name} to WGS 84"
     if note not in notes:
         notes.append(note)
@@ -316,6 +316,6 @@ def _untyped(name: str, values: list[Any]) -> list[Any]:
 
 
 def _unreadable(fault: Exception, at: str) -> SiteError:
-    text = clean(str(fault)).strip().rstrip(".")
+    text = visible(str(fault)).strip().rstrip(".")
     reason = text.rsplit("/", 1)[-1] if "/" in text else text  # the copy's path says nothing to anybody
     return SiteError(f"the file cannot be read ({reason[:160]})", where=at, advice="export it again")

@@ -9,7 +9,7 @@ from pathlib import Path
 from xml.parsers import expat
 
 from fieldhand.errors import SiteError
-from fieldhand.site.features import clean
+from fieldhand.visible import visible
 
 MAX_DEPTH = 100
 _VIRTUAL = re.compile(r"\s*CREATE\s+VIRTUAL", re.IGNORECASE)
@@ -32,7 +32,9 @@ def check_kml(path: Path, at: str) -> None:
     def begin(name: str, _: object) -> None:
         nonlocal depth
         if depth == 0 and name.rpartition(":")[2] != "kml":
-            raise SiteError(f"this is XML, but not KML (its root is {clean(name)[:40]!r})", where=at, advice="give KML")
+            raise SiteError(
+                f"this is XML, but not KML (its root is {visible(name)[:40]!r})", where=at, advice="give KML"
+            )
         depth += 1
         if depth > MAX_DEPTH:
             raise SiteError("the file is nested too deeply", where=at, advice="export it again as KML")

@@ -11,9 +11,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from fieldhand.errors import SiteError
-from fieldhand.site.features import clean
+from fieldhand.site.features import readable
+from fieldhand.site.formats.faults import Unsound
 from fieldhand.site.formats.records import Records, UnusablePart
 from fieldhand.site.kinds import phrase
+from fieldhand.visible import visible
 
 # fmt: off
 #: Names of the two columns, the surest first; compared without case, hyphens, underscores and what stands in brackets.
@@ -104,7 +106,7 @@ def _lines(text: str, delimiter: str, at: str, skipped: int) -> list[tuple[int, 
 
 
 def _columns(header: Sequence[str], at: str, line: int) -> _Columns:
-    names = [clean(name.strip()) for name in header]
+    names = [_column(name, at, line) for name in header]
     if all(_NUMBER.fullmatch(name.replace(",", ".")) for name in names if name):
         raise SiteError(
             "the first line is no header",
@@ -127,6 +129,18 @@ def _columns(header: Sequence[str], at: str, line: int) -> _Columns:
             twice = sum(other == name for other in properties.values())
             properties[k] = f"{name} {twice + 1}" if twice else name
     return _Columns(names=names, latitude=latitude, longitude=longitude, properties=properties)
+
+
+def _column(name: str, at: str, line: int) -> str:
+    """Return the name of a column, on one line.
+
+    Raises:
+        SiteError: It holds a character that nobody sees.
+    """
+    try:
+        return readable(name.strip(), "header")
+    except Unsound as fault:
+        raise SiteError(fault.what, where=f"{at}, line {line}", advice=fault.advice) from None
 
 
 def _first(wanted: Sequence[str], words: Sequence[str]) -> int | None:
@@ -181,7 +195,7 @@ def _degrees(text: str, what: str, *, comma: bool) -> float | UnusablePart:
 
 
 def _not_degrees(text: str, what: str) -> UnusablePart:
-    shown = clean(text)[:40]
+    shown = visible(text)[:40]
     parts = [float(p.replace(",", ".")) for p in re.findall(r"\d+(?:[.,]\d+)?", text)]
     if not _SEXAGESIMAL.fullmatch(text) or len(parts) not in (2, 3) or any(p >= 60 for p in parts[1:]):
         return UnusablePart(f"its {what} is {shown!r}", "give it in decimal degrees, such as 37.208333")

@@ -8,11 +8,11 @@ from typing import Literal
 
 from fieldhand.errors import PlaceError
 from fieldhand.language import counted, joined, message, shaped
-from fieldhand.site.features import clean
 from fieldhand.site.kinds import number_text
 from fieldhand.site.model import Site
 from fieldhand.site.planting import Block
 from fieldhand.task.selectors import Rows, Selector, Top, Value, Where
+from fieldhand.visible import visible
 
 _MOST = 8
 _LONGEST = 40
@@ -209,7 +209,7 @@ def listed(names: Sequence[str]) -> str:
 
 def short(text: str, longest: int = _LONGEST) -> str:
     """Text on one line and not too long."""
-    text = clean(text)
+    text = visible(text)
     return text if len(text) <= longest else text[: longest - 3] + "..."
 
 
