@@ -97,6 +97,22 @@ RIGHT = [
         f"{CO2}</for-each></sequence>",
     ),
     (
+        "Take pictures of 3 vines of a row, every second one.",
+        f'<for-each><select><every-nth nth="2"><successive count="5"/></every-nth></select>{PICTURE}</for-each>',
+    ),
+    (
+        "Measure CO2 at N12 and at 4 vines next to it in that row, every second one.",
+        '<sequence><act label="a"><read_co2/><at><tree-is tree="N12"/></at></act><for-each><select><every-nth nth="2">'
+        f"<excluding><places><here/></places><of><row-of/></of></excluding></every-nth></select>{CO2}</for-each>"
+        "</sequence>",
+    ),
+    (
+        "Take 8 pictures, two at each end of rows 2 and 3 of the south block.",
+        '<for-each><select><union><in-row first="1" last="1"><rows first="2" last="3"><in-block block="South"/></rows>'
+        '</in-row><in-row first="-1" last="-1"><rows first="2" last="3"><in-block block="South"/></rows></in-row>'
+        '</union></select><body><act count="2"><take_thermal_picture/></act></body></for-each>',
+    ),
+    (
         "Go to the gate and take a picture of the vine nearest to it.",
         '<sequence><go-to><gate-is gate="gate"/></go-to><act><take_thermal_picture/><at><nearest><to><here/></to>'
         "</nearest></at></act></sequence>",
@@ -131,6 +147,11 @@ WRONG = [
         "Go to the gate and take a picture of N1.",
         '<act><take_thermal_picture/><at><tree-is tree="N1"/></at></act>',
         "gate",
+    ),
+    (
+        "Take pictures of 4 vines of a row, every second one.",
+        f'<for-each><select><every-nth nth="2"><successive count="5"/></every-nth></select>{PICTURE}</for-each>',
+        "no steps of the plan come to 4",
     ),
     ("Take a picture of every vine.", '<sequence><go-to><gate-is gate="gate"/></go-to></sequence>', "gate"),
     (

@@ -9,21 +9,20 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import accumulate, takewhile
 
-from fieldhand.errors import PlaceError
 from fieldhand.facts import words as w
 from fieldhand.facts.amounts import Amount, numbers_of
 from fieldhand.facts.limits import limits
 from fieldhand.facts.mismatch import Mismatch
 from fieldhand.facts.places import named_places
 from fieldhand.facts.planned import Captures, Number, Planned, planned
-from fieldhand.facts.selected import places
+from fieldhand.facts.sizes import Sizes
 from fieldhand.facts.stated import Stated, hints, stated
 from fieldhand.facts.thresholds import thresholds
+from fieldhand.facts.unheld import unheld
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import selector_of
-from fieldhand.task.selectors import Selector, is_relative
 from fieldhand.task.words import listed, say_name
 
 #: Steps that are counted together.
@@ -39,13 +38,15 @@ def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[Mismatch, .
     A request that states no such fact has none, and a plan without any may still be wrong.
     """
     request = task.command.read_as or task.command.request
-    said, plan = stated(request, robot, site), planned(task)
+    sizes = Sizes(task, site)
+    said, plan = stated(request, robot, site), planned(task, sizes.of_node)
     found = [
         *_sensors(said, plan, robot),
-        *_counts(said, plan, site),
+        *_counts(said, plan, sizes),
         *thresholds(said, plan, robot),
         *limits(said, plan),
         *named_places(said, plan, site),
+        *unheld(said),
     ]
     return tuple(dict.fromkeys(found))
 
@@ -74,13 +75,13 @@ def _sensors(said: Stated, plan: Planned, robot: RobotProfile) -> Iterator[Misma
         )  # fmt: skip
 
 
-def _counts(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
+def _counts(said: Stated, plan: Planned, sizes: Sizes) -> Iterator[Mismatch]:
     """A stated number of captures, trees or corners is somewhere in the plan, and no other number is."""
     for amount in said.amounts:
         n = int(amount.values[0]) if float(amount.values[0]).is_integer() else 0
         if amount.kind not in ("captures", "trees", "corners") or n < 2 or said.negated(amount.index):
             continue
-        if amount.compared or n in _explained(plan, amount) or n in _sizes(plan, site):
+        if amount.compared or n in _explained(plan, amount) or n in _visited(plan, sizes):
             continue
         yield Mismatch(
             kind="count", message=f"the request says '{_phrase(said, amount)}', and no steps of the plan come to {n}"
@@ -88,8 +89,17 @@ def _counts(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
     for number in plan.numbers:
         if number.kind != "count" or int(number.value) in _allowed(said, number) or _by_itself(said, number.what):
             continue
+        if number.what.endswith(" count") and _comes_to_what_is_said(said, plan, number.node, sizes):
+            continue
         message = f"the plan holds the number {number.value:g} ({number.what}), which the request does not say"
         yield Mismatch(kind="count", message=message, node=number.node)
+
+
+def _comes_to_what_is_said(said: Stated, plan: Planned, node: str, sizes: Sizes) -> bool:
+    """Return True if a selector only keeps some of what is counted inside it, as many as the request says."""
+    top = next(x for name, x in plan.selectors if name == node)
+    stated = {n for a in said.amounts if a.kind in ("trees", "captures") for n in numbers_of(a)}
+    return not hasattr(top, "count") and sizes.of_node(node) in stated
 
 
 def _phrase(said: Stated, amount: Amount) -> str:
@@ -130,27 +140,14 @@ def _sums(acts: list[Captures]) -> set[int]:
     return found
 
 
-def _sizes(plan: Planned, site: Site) -> set[int]:
+def _visited(plan: Planned, sizes: Sizes) -> set[int]:
     """Return at how many places each selector comes out ("all 18 yellow trees"), and steps that follow each other."""
-    found = {n for _, selector in plan.selectors if (n := _size(selector, site)) is not None}
-    steps = [_size(top, site) for node in plan.nodes if (top := selector_of(node)) is not None]
+    steps = [sizes.of_node(node.id) for node in plan.nodes if selector_of(node) is not None]
+    found = set(sizes.every)
     for start in range(min(len(steps), _MOST_STEPS)):
         known = takewhile(lambda n: n is not None, steps[start : start + _MOST_STEPS])
         found.update(accumulate(n for n in known if n is not None))
     return found
-
-
-def _size(selector: Selector, site: Site) -> int | None:
-    """Return at how many places a selector comes out wherever the robot is; None where that is open."""
-    from fieldhand.site.context import Context
-    from fieldhand.site.places import resolve
-
-    if is_relative(selector):
-        return places(selector).exact
-    try:
-        return len(resolve(selector, site, Context(here=site.start)))
-    except PlaceError:
-        return None
 
 
 def _allowed(said: Stated, number: Number) -> set[int]:

@@ -7,7 +7,7 @@ from typing import Literal
 
 MismatchKind = Literal[
     "count", "sensor", "threshold", "condition", "limit", "place", "side", "attribute", "order", "return", "distance",
-    "number",
+    "number", "unheld",
 ]  # fmt: skip
 
 

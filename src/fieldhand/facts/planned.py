@@ -5,7 +5,7 @@ From the Task alone. Where the plan leaves a number to the site, to a reading or
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Literal
@@ -146,8 +146,12 @@ class Planned:
         return tuple(kept)
 
 
-def planned(task: Task) -> Planned:
-    """The facts of a Task."""
+def planned(task: Task, size: Callable[[str], int | None]) -> Planned:
+    """The facts of a Task.
+
+    Args:
+        size: At how many places the selector of a node comes out on the site, by the node's id; None where it is open.
+    """
     root = task.composition.plan
     nodes = tuple(p.walk(root))
     selectors = tuple((n.id, x) for n in nodes if (top := p.selector_of(n)) is not None for x in s.walk(top))
@@ -155,7 +159,7 @@ def planned(task: Task) -> Planned:
         task=task,
         nodes=nodes,
         selectors=selectors,
-        captures=tuple(_captures(root, _Around())),
+        captures=tuple(_captures(root, _Around(), size)),
         tests=tuple(_tests(nodes, selectors)),
         numbers=tuple(_numbers(nodes, selectors)),
     )
@@ -171,7 +175,7 @@ class _Around:
     bound: bool = False
 
 
-def _captures(node: p.Node, around: _Around) -> Iterator[Captures]:
+def _captures(node: p.Node, around: _Around, size: Callable[[str], int | None]) -> Iterator[Captures]:
     """The acts inside a node."""
     match node:
         case p.Act():
@@ -186,25 +190,25 @@ def _captures(node: p.Node, around: _Around) -> Iterator[Captures]:
                 around=around.numbers | own,
             )
         case p.ForEach():
-            yield from _captures(node.body, _visited(node, around))
+            yield from _captures(node.body, _visited(node, around, size(node.id)), size)
         case p.Repeat():
             times = Range(low=1 if node.until is not None else node.times, high=node.times)
             bound = around.bound or node.until is not None
             inside = replace(
                 around, rounds=around.rounds.times(times), bound=bound, numbers=around.numbers | {node.times}
             )
-            yield from _captures(node.body, inside)
+            yield from _captures(node.body, inside, size)
         case p.If() | p.Try() | p.Optional():
             for child in p.children(node):
-                yield from _captures(child, replace(around, bound=True))
+                yield from _captures(child, replace(around, bound=True), size)
         case _:
             for child in p.children(node):
-                yield from _captures(child, around)
+                yield from _captures(child, around, size)
 
 
-def _visited(node: p.ForEach, around: _Around) -> _Around:
+def _visited(node: p.ForEach, around: _Around, size: int | None) -> _Around:
     """What stands around the body of a for-each."""
-    inside = places(node.select)
+    inside = places(node.select) if size is None else Range(low=size, high=size)
     most = frozenset({node.at_most} if node.at_most is not None else ())
     if node.at_most is not None:
         high = node.at_most if inside.high is None else min(inside.high, node.at_most)

@@ -33,6 +33,7 @@ class Stated:
         zones: Names of zones and blocks of the site that are said.
         attributes: Words that the site records of its trees, each with the token where it is said.
         levels: Words such as "low" that are said in a condition, each with its sentence.
+        named: Tokens of names and of words of this site and this robot.
     """
 
     request: str
@@ -43,6 +44,7 @@ class Stated:
     attributes: dict[str, int]
     levels: frozenset[str]
     known: frozenset[str]
+    named: frozenset[int]
 
     @cached_property
     def text(self) -> str:
@@ -141,6 +143,7 @@ def stated(request: str, robot: RobotProfile, site: Site) -> Stated:
         attributes=attributes,
         levels=frozenset(),
         known=_known(robot, site, names),
+        named=frozenset(taken | {k + j for k, noun in nouns.items() for j in range(noun.length)}),
     )
     spoken = {
         word for word, k in _phrases(said, levels) if facts.conditional(said[k].sentence) and not facts.negated(k)

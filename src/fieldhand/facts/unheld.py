@@ -1,0 +1,74 @@
+"""Words that no plan can hold: times of day, schedules, what was done on other days, waiting.
+
+A plan has no element for any of these, so whatever it holds, it leaves them out. They are looked for in the words
+alone, and a name of the site ("the Sunday block") is none of them.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from fieldhand.facts import words as w
+from fieldhand.facts.mismatch import Mismatch
+from fieldhand.facts.stated import Stated
+
+_PARTS = "morning|afternoon|evening|night|midnight|noon|midday|lunch|lunchtime|dawn|dusk|sunrise|sunset|nightfall"
+_UNITS = "day|night|week|weekend|fortnight|month|year|season|hour|minute"
+_DAYS = "monday|tuesday|wednesday|thursday|friday|saturday|sunday|weekday|weekend|workday"
+_MONTHS = "january|february|march|april|may|june|july|august|september|october|november|december"
+_SEASONS = "spring|summer|autumn|fall|winter"
+_AMOUNT = rf"(?:\d+|{'|'.join((*w.NUMBERS, *w.ORDINALS, 'a', 'an', 'few', 'couple of', 'other', 'single', 'second'))})"
+
+_SCHEDULES = (
+    rf"(?:every|each|any|per) (?:{_AMOUNT} )?(?:{_PARTS}|{_UNITS}|{_DAYS})s?",
+    rf"(?:once|twice|thrice|{_AMOUNT} times|times) (?:a|an|per|every|each) (?:{_UNITS})",
+    r"daily|hourly|nightly|weekly|fortnightly|monthly|yearly|annually|overnight|regularly|periodically|from now on",
+    rf"(?:tomorrow|tonight)(?: (?:{_PARTS}))?",
+    rf"(?:this|next) (?:(?:{_PARTS}|week|weekend|month|year|season|time)(?! to\b)|{_DAYS})",
+    rf"(?:in|during|until|till) the (?:{_PARTS})s?",
+    rf"(?:at|by|before|after|until|till|around|from|since|towards?) (?:the )?(?:{_PARTS}|dark|daylight|daybreak)",
+    rf"(?:on|every|next|each|only|until|by|from) (?:the )?(?:{_DAYS})s?|(?:{_DAYS})s",
+    rf"in (?:the )?(?:{_MONTHS}|{_SEASONS})",
+    r"\d{1,2}(?: : \d\d)? (?:am|pm|a \. m|p \. m|o'clock)|(?:at|by|before|after|until|till|from) \d{1,2} : \d\d",
+    r"(?:at|by|before|until|till|after) \w+ o'clock",
+    rf"in {_AMOUNT} (?:days?|weeks?|months?)|{_AMOUNT} (?:minutes?|hours?|days?|weeks?) (?:from now|later)",
+)
+_PAST = (
+    rf"yesterday(?: (?:{_PARTS}))?|last (?:{_PARTS}|{_DAYS}|week|month|time)",
+    rf"{_AMOUNT} (?:hours?|days?|weeks?|months?) ago|earlier today",
+)
+_WAITING = (
+    rf"(?:wait|waits|waiting|pause|pauses|pausing|linger|lingers)(?: there| here)?"
+    rf"(?: (?:for )?(?:{_AMOUNT} )?(?:seconds?|minutes?|hours?|while))?",
+    rf"stay (?:there |here )?for (?:{_AMOUNT} )?(?:seconds?|minutes?|hours?|while)",
+)
+
+
+def _pattern(forms: tuple[str, ...]) -> re.Pattern[str]:
+    return re.compile(rf"(?<!\S)(?:{'|'.join(forms)})(?!\S)")
+
+
+_KINDS = (
+    (_pattern(_SCHEDULES), "a plan holds no times and no days: it runs once, when it is approved"),
+    (_pattern(_PAST), "a plan knows nothing of earlier missions"),
+    (_pattern(_WAITING), "a plan holds no waiting"),
+)
+#: Of what was before a sentence may speak that asks for nothing ("We had a leak last week.").
+_REMARKS = _KINDS[1][0]
+
+
+def unheld(said: Stated) -> Iterator[Mismatch]:
+    """Yield a contradiction for each stretch of the request that no plan can hold."""
+    starts: dict[int, int] = {}
+    at = 0
+    for k, token in enumerate(said.said):
+        starts[at] = k
+        at += len(token.text) + 1
+    for pattern, why in _KINDS:
+        for match in pattern.finditer(said.text):
+            first = starts[match.start()]
+            sentence = said.said[first].sentence
+            remark = pattern is _REMARKS and not any(said.said[k].sentence == sentence for k in said.nouns)
+            if not remark and said.named.isdisjoint(range(first, first + len(match[0].split()))):
+                yield Mismatch(kind="unheld", message=f"the request says '{match[0]}', and {why}")
