@@ -150,6 +150,8 @@ def test_a_repair_lists_the_problems_and_says_how_often_one_may_try() -> None:
     assert "- [site] line 3 <act>: no such zone\n- second" in text
     assert "2 tries are left" in text
     assert "last try" in repair(["x"], 1).text
+    for permitted in ("corrected", "<refusal>", "<question>", "Do not change what is asked for"):
+        assert permitted in text
 
 
 VARIETIES = ("Cabernet Sauvignon", "Merlot", "Syrah", "Zinfandel")

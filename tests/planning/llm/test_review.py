@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import pytest
@@ -165,6 +166,32 @@ def test_a_zone_without_trees_is_something_to_measure_from(selector: str) -> Non
     draft = read_draft(document(f"<act><take_picture/><at>{selector}</at></act>"), AMIGA)
     assert isinstance(draft, Draft)
     assert review(draft, open_site("demo"), AMIGA) == ()
+
+
+@pytest.mark.parametrize(
+    "selector",
+    [
+        '<top attribute="age" count="99"/>',
+        '<spaced apart-m="30" count="9" zone="wet corner"/>',
+        '<apart apart-m="90" count="5"><rows first="2" last="2"/></apart>',
+        '<points-in zone="wet corner" count="99999"/>',
+        '<rows first="1" last="1" every="0"/>',
+        '<row-of over="40"><origin><tree-is tree="1"/></origin></row-of>',
+        '<nearest><to><union><tree-is tree="1"/></union></to><of><in-block block="9"/></of></nearest>',
+        '<along-row trees="1"><trees/></along-row>',
+    ],
+)
+def test_no_problem_asks_for_another_request(selector: str) -> None:
+    found = problems(f"<for-each><select>{selector}</select><body><stop/></body></for-each>")
+    assert found
+    for problem in found:
+        assert not re.search(r"\b(?:ask for|say |name one)", problem.message), problem
+
+
+def test_too_few_trees_apart_are_told_with_their_row_and_its_length() -> None:
+    apart = '<apart apart-m="90" count="5"><rows first="2" last="2"/></apart>'
+    found = problems(f"<for-each><select>{apart}</select><body><stop/></body></for-each>")
+    assert "in row 2: it has 6 trees over 25 m" in found[0].message
 
 
 def test_a_zone_to_measure_from_has_to_be_one_of_the_site() -> None:

@@ -33,6 +33,9 @@ from fieldhand.task.selectors import Bound, InRow, RowOf, Selector
 if TYPE_CHECKING:
     from lxml.etree import _Element
 
+#: Advice to whoever made the request, which a model may not change.
+_TO_A_PERSON = re.compile(r"(?:ask|say|name|give|add|count from)\b")
+
 Kind = Literal["answer", "schema", "words", "reference", "site", "coordinate", "request"]
 
 
@@ -167,4 +170,5 @@ def _no_attribute(name: str, site: Site, where: str) -> Problem:
 
 
 def _said(error: TaskError | PlaceError) -> str:
-    return f"{error.what}; {error.advice}" if error.advice else error.what
+    """What is wrong and what there is; without advice to ask for something else, which only a person may follow."""
+    return f"{error.what}; {error.advice}" if error.advice and not _TO_A_PERSON.match(error.advice) else error.what

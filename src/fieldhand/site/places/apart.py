@@ -9,6 +9,7 @@ import numpy as np
 
 from fieldhand.errors import PlaceError
 from fieldhand.language import message
+from fieldhand.site.places.counted import row_words
 from fieldhand.site.places.spots import Spots
 from fieldhand.site.places.tell import Tell
 from fieldhand.task.selectors import Apart
@@ -33,7 +34,7 @@ def apart(of: Spots, selector: Apart, tell: Tell) -> Spots:
     if not chosen:
         how = f"{'at least' if selector.least else 'about'} {say_number(metres)} m"
         raise PlaceError(
-            f"there are no {count} trees {how} from each other",
+            f"there are no {count} trees {how} from each other{_among(of)}",
             where=of.site.name,
             advice="ask for fewer, or for a smaller distance",
         )
@@ -45,6 +46,18 @@ def apart(of: Spots, selector: Apart, tell: Tell) -> Spots:
         differ = message("trees stand where they stand: these are {near} to {far} m apart", near=near, far=far)
         tell.note(alike if near == far else differ)
     return found
+
+
+def _among(of: Spots) -> str:
+    """Return in which row they were looked for and how long it is, or over how much ground."""
+    rows = np.unique(of.row).tolist()
+    if len(rows) == 1 and rows[0] >= 0:
+        row = row_words(of.site, of.site.planting.rows[rows[0]])
+        length = float(np.hypot(*np.ptp(of.xy, axis=0)))
+        trees = "1 tree" if len(of) == 1 else f"{len(of)} trees over {say_rounded(length)} m"
+        return f" in {row}: it has {trees}"
+    east, north = (say_rounded(float(metres)) for metres in np.ptp(of.xy, axis=0))
+    return f" among {len(of)} trees over {east} m east-west and {north} m north-south"
 
 
 def _chosen(of: Spots, count: int, metres: float, least: bool) -> list[int]:
