@@ -154,9 +154,10 @@ def require_free(host: str, port: int) -> None:
         with socket.socket(family, kind, protocol) as tried:
             tried.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             tried.bind(address)
-    except OSError as error:
+    except (OSError, UnicodeError) as error:  # the latter of a name that no network can have
+        why = (error.strerror if isinstance(error, OSError) else None) or error
         raise InputError(
-            f"cannot listen: {error.strerror or error}",
+            f"cannot listen: {why}",
             where=f"{host}:{port}",
             advice="choose another --host or --port",
         ) from None

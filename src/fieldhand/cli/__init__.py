@@ -49,6 +49,9 @@ def main(*others: Callable[..., None]) -> None:
         # Whoever read our output has gone (a pager, head); say nothing more, not even at exit.
         sys.stderr.close()
         sys.exit(0)
+    except Exception:  # noqa: BLE001  a fault of the program; its traceback may quote anyone
+        _show_traceback()
+        sys.exit(1)
 
 
 #: Exit status after Ctrl-C, as shells have it.
@@ -60,6 +63,16 @@ def _say(line: str) -> None:
     from fieldhand.visible import print_error
 
     first, *others = f"fieldhand: {line}".splitlines()
+    print_error(first, *(f"  {other}" for other in others))
+
+
+def _show_traceback() -> None:
+    """Print where the program failed, indented, so that no line of what it quotes begins as ours do."""
+    import traceback
+
+    from fieldhand.visible import print_error
+
+    first, *others = traceback.format_exc().rstrip("\n").split("\n")
     print_error(first, *(f"  {other}" for other in others))
 
 

@@ -61,4 +61,6 @@ def _template() -> Template:
 
 def _printable(value: Any) -> Any:
     """Return text with its hidden characters made visible, line ends kept; anything else as it is."""
-    return visible(value, lines=True) if type(value) is str else value
+    from markupsafe import Markup
+
+    return visible(value, lines=True) if isinstance(value, str) and not isinstance(value, Markup) else value

@@ -47,7 +47,7 @@ from fieldhand.task.results import (
     Started,
     Waited,
 )
-from fieldhand.visible import json_text, visible_json
+from fieldhand.visible import visible_json
 
 if TYPE_CHECKING:
     from mcap.writer import Writer
@@ -321,4 +321,5 @@ def _feature(geometry: dict[str, Any], properties: dict[str, Any]) -> dict[str, 
 
 
 def _json(value: Any) -> bytes:
-    return json_text(value).encode()
+    # Panels show this as it stands. Programs, who want the same text again, have the events.
+    return visible_json(value).encode()

@@ -15,6 +15,7 @@ from fieldhand.site.drawing import draw_site, name_site, site_figure
 from fieldhand.site.drawing.saving import make_text_visible
 from fieldhand.site.model import Site
 from fieldhand.task.words import capitalised, say_name, say_unit
+from fieldhand.visible import visible
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -89,7 +90,7 @@ class _Scene:
         low = 0.04 if film.signs else 0.0
         if layout is not None:
             layout.set(rect=(0.0, low, 1.0, 0.91 - low))  # type: ignore[call-arg]  # a constrained one
-        figure.text(0.02, 0.985, film.title.replace("$", r"\$"), ha="left", va="top", fontsize=11, color=_INK)
+        figure.text(0.02, 0.985, film.title, ha="left", va="top", fontsize=11, color=_INK)
         self._clock = figure.text(0.02, 0.915, "", ha="left", va="bottom", fontsize=10, color=_INK)
         self._aside = 0.03 * float(np.ptp(ax.get_xlim()))
         quantity = film.quantities[0] if film.quantities else ""
@@ -112,6 +113,7 @@ class _Scene:
         self._moving = [artist for artist in (*moving, self._clock, self._news) if artist is not None]
         for artist in self._moving:
             artist.set_animated(True)
+        make_text_visible(figure)
         figure.draw_without_rendering()  # so that title and scale have taken their room
         figure.set_layout_engine("none")
         name_site(ax, site)
@@ -138,7 +140,7 @@ class _Scene:
             # Beside the robot, not under it.
             mine = [sign for sign in signs if sign.mark == mark]
             flag.set_data([s.x + (1 + s.beside) * self._aside for s in mine], [s.y for s in mine])
-        said = signs[-1].words.replace("$", r"\$") if signs else ""
+        said = visible(signs[-1].words) if signs else ""
         self._news.set_text(said if len(said) <= _LONGEST else f"{said[: _LONGEST - 1]}\u2026")
         made = sum(c.good and c.t <= t for c in film.captures)
         said = f"{made} capture{'s' * (made != 1)}"

@@ -14,7 +14,7 @@ from fieldhand.site.choices import choice_marks
 from fieldhand.site.drawing import colours
 from fieldhand.site.drawing.ground import draw_dots, draw_site, site_figure, tree_size
 from fieldhand.site.drawing.names import name_site
-from fieldhand.site.drawing.saving import save_figure
+from fieldhand.site.drawing.saving import make_text_visible, save_figure
 from fieldhand.site.model import Place, Site
 
 if TYPE_CHECKING:
@@ -53,6 +53,7 @@ def choices_picture(site: Site, question: str, choices: Sequence[str], places: S
     draw_site(ax, site)
     _mark(ax, site, places)
     _write(figure, question, choices, places)
+    make_text_visible(figure)
     figure.draw_without_rendering()  # so that the words have taken their room
     figure.set_layout_engine("none")
     name_site(ax, site)
@@ -90,17 +91,12 @@ def _write(figure: Figure, question: str, choices: Sequence[str], places: Sequen
     from matplotlib.lines import Line2D
 
     width = max(30, int(figure.get_size_inches()[0] * _LETTERS_IN))
-    figure.suptitle("\n".join(textwrap.wrap(_plain(question), width)), fontsize=11, color=colours.INK)
+    figure.suptitle("\n".join(textwrap.wrap(question, width)), fontsize=11, color=colours.INK)
     handles = [
         Line2D(
             [], [], marker="o", linestyle="none", markersize=8, color=colour_of(k) if there else "white",
-            markeredgecolor="white", label=textwrap.shorten(f"{k}. {_plain(choice)}", width, placeholder=" …"),
+            markeredgecolor="white", label=textwrap.shorten(f"{k}. {choice}", width, placeholder=" …"),
         )
         for k, (choice, there) in enumerate(zip(choices, places, strict=True), start=1)
     ]  # fmt: skip
     figure.legend(handles=handles, loc="outside lower left", frameon=False, fontsize=9, labelcolor=colours.INK)
-
-
-def _plain(text: str) -> str:
-    """A dollar sign is a dollar sign and not mathematics."""
-    return text.replace("$", r"\$")

@@ -125,7 +125,7 @@ def _write_names(ax: Axes, site: Site) -> None:
 def _write_head(figure: Figure, site: Site) -> None:
     width, height = figure.get_size_inches()
     left = _MARGIN_IN / width
-    name = short(site.name, max(20, int(width * 8))).replace("$", r"\$")
+    name = short(site.name, max(20, int(width * 8)))
     figure.text(left, 1 - 0.12 / height, name, ha="left", va="top", fontsize=12, fontweight="bold", color=colours.INK)
     figure.text(left, 1 - 0.36 / height, _in_short(site), ha="left", va="top", fontsize=8.5, color=colours.QUIET_INK)
 
@@ -151,7 +151,7 @@ def _write_legend(figure: Figure, site: Site, network: Network | None, driving: 
 
     planting = site.planting
     kinds = {line.kind for line in network.lines} if network is not None else set()
-    robot = short(driving.robot, 16).replace("$", r"\$") if driving is not None else "robot"
+    robot = short(driving.robot, 16) if driving is not None else "robot"
     shown: list[tuple[bool, str, dict[str, Any]]] = [
         (
             bool(planting.rows),

@@ -37,12 +37,16 @@ def save_figure(figure: Figure, path: Path, *, what: str = "picture") -> None:
 
 
 def make_text_visible(figure: Figure) -> None:
-    """Replace hidden characters in every text of a figure by their code points."""
+    """Replace hidden characters in every text of a figure by their code points; no dollar sign begins a formula.
+
+    To be called before anything of it is drawn or measured.
+    """
     from matplotlib.text import Text
 
     for text in figure.findobj(Text):
         if isinstance(text, Text):
             text.set_text(visible(text.get_text(), lines=True))
+            text.set_parse_math(False)
 
 
 def require_picture(path: Path) -> None:
