@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from functools import cached_property
 from types import NoneType, UnionType
-from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
+from typing import Any, Literal, Union, get_args, get_origin
 
 from hypothesis import strategies as st
 
@@ -22,6 +22,7 @@ from fieldhand.task.capabilities import (
     NumberParameter,
     QuantityCapability,
 )
+from fieldhand.task.codec_shapes import hints_of
 from fieldhand.task.conditions import Between, Compare, Condition, Level
 from fieldhand.task.frames import Budget, Constraints, FaultedExit, Resource, Task
 from fieldhand.task.plan import Act, Node, Span
@@ -98,7 +99,7 @@ class Parts:
     def instance(self, cls: type, depth: int = 1) -> st.SearchStrategy[Any]:
         """Instances of one class with parts at most ``depth`` deep."""
         if (cls, depth) not in self._made:
-            hints = get_type_hints(cls)
+            hints = hints_of(cls)
             drawn = {}
             for one in fields(cls):
                 if depth == 0 and one.default is not MISSING and _holds_parts(hints[one.name]):
@@ -215,5 +216,5 @@ def _holds_parts(hint: Any) -> bool:
 
 
 def _needs_parts(cls: type) -> bool:
-    hints = get_type_hints(cls)
+    hints = hints_of(cls)
     return any(f.default is MISSING and _holds_parts(hints[f.name]) for f in fields(cls))

@@ -165,7 +165,7 @@ def _rest(walker: Walker, node: ForEach | Optional, visits: Sequence[Visit]) -> 
         node.id,
         here,
         to_come=to_come,
-        rounds=walker.rounds,
+        rounds=walker.plan.rounds,
     )
 
 

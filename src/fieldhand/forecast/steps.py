@@ -10,7 +10,7 @@ from fieldhand.brief import brief_repr
 from fieldhand.forecast.drawn import Used
 from fieldhand.site.context import Context
 from fieldhand.site.model import Place
-from fieldhand.task.plan import Node, Stop
+from fieldhand.task.plan import Node
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drive
@@ -126,15 +126,3 @@ class Walk:
         """Seconds and joules of all actions."""
         acts = [s for s in self.steps if s.kind == "act"]
         return (sum(s.seconds for s in acts), sum(s.joules for s in acts))
-
-
-class Ended(Exception):
-    """A ``Stop`` was reached. No error: it unwinds the walk."""
-
-    def __init__(self, node: Stop) -> None:
-        self.node = node
-        super().__init__(node.id)
-
-
-class Failed(Exception):
-    """An action inside a ``Try`` is taken to fail. No error: it unwinds the walk to that ``Try``."""

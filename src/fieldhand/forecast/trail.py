@@ -11,13 +11,15 @@ from fieldhand.forecast.drawn import Drawn
 from fieldhand.forecast.limits import speed_of
 from fieldhand.forecast.possible import Readings
 from fieldhand.forecast.state import Spent, Work
-from fieldhand.forecast.steps import Answer, Decision, DecisionKind, Failed, Step, StepKind, never
+from fieldhand.forecast.steps import Answer, Decision, DecisionKind, Step, StepKind, never
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context, Visited
 from fieldhand.site.model import Place, Site
 from fieldhand.task import plan
 from fieldhand.task.frames import Task
+from fieldhand.task.nodes.base import Failed
 from fieldhand.task.plan import Node
+from fieldhand.task.run import Run
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -93,8 +95,8 @@ class Trail:
         self.unread: list[tuple[str, str]] = []
         #: Id of the node that drove last, or tried to.
         self.bound_for = ""
-        self._inside_try = 0
-        self._inside_optional = 0
+        #: The nodes in hand.
+        self.plan = Run(task.composition.plan)
         self.drawn = drawn
         self.spent = Spent()
         #: Every place that was gone to, in order; also those where the walk stood already.
@@ -103,7 +105,7 @@ class Trail:
     def _drive_to(self, node: Node, place: Place) -> None:
         if place.xy != self.context.here.xy or self._stuck:
             leg = self._leg(node, "drive", place)
-            if self._inside_try and self._decide(node, "blocked"):
+            if self.plan.is_caught and self._decide(node, "blocked"):
                 # As bad as it gets: all of the way is driven, and the robot stands just before the place.
                 self._note(replace(leg, reached=False))
                 self._standing = _on_the_way(leg.places[0])
@@ -173,7 +175,7 @@ class Trail:
     def _note(self, step: Step) -> None:
         self.steps.append(step)
         metres = 0.0 if step.drive is None else step.drive.length_m
-        if self.drawn is not None and not self._inside_optional:
+        if self.drawn is not None and self.plan.optional is None:
             if step.drive is not None:
                 self.drawn.drive(metres)
             elif step.kind == "act":

@@ -1,14 +1,13 @@
-"""The state of a walk through a Task, one function for each kind of node.
+"""A walk through a Task on paper: the answers to what its nodes ask (:mod:`fieldhand.task.requests`).
 
-The meaning of every node is that of :mod:`fieldhand.task.plan`; orders come from :mod:`fieldhand.forecast.routes`, as
-they do on the robot.
+Orders come from :mod:`fieldhand.forecast.routes`, as they do on the robot.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -19,15 +18,32 @@ from fieldhand.forecast.drawn import Drawn
 from fieldhand.forecast.possible import Readings
 from fieldhand.forecast.service import tried_again, work_of
 from fieldhand.forecast.state import Visit, Work
-from fieldhand.forecast.steps import Ended, Failed, Step, Walk
+from fieldhand.forecast.steps import Step, Walk
 from fieldhand.forecast.trail import Answers, Trail
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.context import Context
 from fieldhand.site.model import Place, Site
-from fieldhand.task import plan
 from fieldhand.task.build import exit_of
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Optional, Repeat, Stop, Try
+from fieldhand.task.nodes.base import Failed, Stopped
+from fieldhand.task.plan import Act, ForEach, Node, Optional
+from fieldhand.task.requests import (
+    Arrange,
+    Begin,
+    Bind,
+    Capture,
+    Decide,
+    Drive,
+    Forget,
+    Locate,
+    Next,
+    Offer,
+    Permit,
+    Read,
+    Request,
+    Round,
+)
+from fieldhand.task.run import Run, carry_out
 
 if TYPE_CHECKING:
     from fieldhand.forecast.expected import Expected
@@ -43,8 +59,33 @@ MAX_NODES = 100_000
 MOST_TOLD = 200
 
 
+class Tour:
+    """The visits of a for-each.
+
+    Args:
+        places: In the order in which they are visited, each with its stand.
+        work: What each takes, drives not included.
+    """
+
+    def __init__(self, places: tuple[Place, ...], work: Work | None = None) -> None:
+        self._places, self._work, self._begun = places, work or Work(), 0
+
+    def next(self) -> Place | None:
+        """The next place; None after the last."""
+        if self._begun == len(self._places):
+            return None
+        self._begun += 1
+        return self._places[self._begun - 1]
+
+    @property
+    def to_come(self) -> tuple[Visit, ...]:
+        """Those that are not begun."""
+        seconds, joules = self._work.seconds, self._work.joules
+        return tuple(Visit(place=p, service_s=seconds, service_j=joules) for p in self._places[self._begun :])
+
+
 class Walker(Trail):
-    """The functions of a walk, one for each kind of node.
+    """Answers what the nodes of a Task ask, and notes what happens.
 
     Args:
         task, site, robot, drives, answers, context, drawn, readings: As for a trail.
@@ -75,10 +116,7 @@ class Walker(Trail):
         self._kept = {} if kept is None else kept
         #: What optional visits may still add to the chance of running short; None before the first of them.
         self.allowance: Allowance | None = None
-        #: Of each for-each under way the places that must be visited, and how many of them were begun; outermost first.
-        self.loops: list[tuple[ForEach, tuple[Place, ...], int]] = []
-        #: Further rounds of each repeat under way, by node id.
-        self.rounds: dict[str, int] = {}
+        self.plan = Run(task.composition.plan, entered=self._entered)
 
     def run(self, nodes: Sequence[Node]) -> Walk:
         """Walk nodes one after the other, then the exit."""
@@ -87,8 +125,8 @@ class Walker(Trail):
         then = self.task.composition.nominal
         try:
             for node in nodes:
-                self._node(node)
-        except Ended as end:
+                carry_out(self.plan.do(node), self._answer)
+        except Stopped as end:
             last, taken = end.node, end.node.exit
             then = then if taken == "nominal" else exit_of(self.task, "action_failed")
         self._exit(last, self.site.home(then, self._standing), goes=then != "stay")
@@ -109,15 +147,23 @@ class Walker(Trail):
             DriveFault: A place that cannot be reached.
         """
         try:
-            self._node(node)
-        except Ended:
+            carry_out(self.plan.do(node), self._answer)
+        except Stopped:
             pass
         except PlaceError:
             if not self.steps:
                 raise
         return tuple(self.steps)
 
-    def _node(self, node: Node) -> None:
+    def to_come(self) -> tuple[Visit, ...]:
+        """The visits that must be made and are still to come, of the loops in hand, innermost first."""
+        found: list[Visit] = []
+        for frame in self.plan.outwards():
+            if frame.tour is not None and not frame.node.is_optional:
+                found += frame.tour.to_come
+        return tuple(found)
+
+    def _entered(self, node: Node) -> None:
         self._nodes += 1
         if self._nodes > MAX_NODES:
             raise TaskError(
@@ -125,77 +171,73 @@ class Walker(Trail):
                 where=node.id,
                 advice="repeat less often, or nest fewer loops",
             )
-        match node:
-            case plan.Sequence(steps=steps):
-                for step in steps:
-                    self._node(step)
-            case AnyOrder():
-                home = routes.home_if_last(self.task, self.site, node.id, self.context.here)
-                for index in routes.steps_in_order(node, self.site, self.drives, self.context, home):
-                    self._node(node.steps[index])
-            case ForEach():
-                self._for_each(node)
-            case Repeat():
-                for done in range(node.times):
-                    self.rounds[node.id] = node.times - done - 1
-                    self._node(node.body)
-                    if node.until is not None and self._decide(node, "holds"):
-                        break
-                self.rounds.pop(node.id, None)
-            case If():
-                if self._decide(node, "holds"):
-                    self._node(node.then)
-                elif node.otherwise is not None:
-                    self._node(node.otherwise)
-            case Try():
-                self._try(node)
-            case Optional():
-                self._optional_step(node)
-            case GoTo():
-                self._drive_to(node, routes.place_of(node, node.place, self.site, self.context))
-                self._bind(node.label, self.context.here)
-            case Act():
-                self._act(node)
-            case Stop():
-                raise Ended(node)
 
-    def _for_each(self, node: ForEach) -> None:
+    def _answer(self, request: Request) -> Any:
+        """Answer what a node asks."""
+        match request:
+            case Drive(node=node, place=place, back=back):
+                if not back or self._stuck:
+                    self._drive_to(node, place)
+                return self.context.here
+            case Bind(label=label, places=places):
+                return self._bind(label, *places)
+            case Capture(node=act):
+                return self._capture(act)
+            case Locate(node=node, selector=selector):
+                if selector is None:
+                    return self.context.here
+                return routes.place_of(node, selector, self.site, self.context)
+            case Decide(node=node):
+                return self._decide(node, "holds")
+            case Next(tour=tour):
+                return tour.next()
+            case Begin(node=for_each):
+                return self._tour(for_each)
+            case Offer(node=optional):
+                return self._takes(optional)
+            case Arrange(node=any_order):
+                home = routes.home_if_last(self.task, self.site, any_order.id, self.context.here)
+                return routes.steps_in_order(any_order, self.site, self.drives, self.context, home)
+            case Forget(reading=reading):
+                if self.readings is not None:
+                    self.readings.lose(reading)
+            case Read(node=act, reading=reading):
+                if self.readings is not None:
+                    self.readings.take(reading, act.action)
+            case Permit() | Round():
+                pass
+        return None
+
+    def _tour(self, node: ForEach) -> Tour:
+        """The visits of a for-each, in the order in which they are made."""
         places = routes.places_of(node, node.select, self.site, self.context)
-        if node.optional:
-            open_, closed = routes.reachable(self.drives, places)
-            standing = routes.standing(self.drives, self.context.here, open_)
-            if self.optional == "told":
-                places = self._told(node, standing, most=self._decide(node, "taken"))
-                self._note(Step(node=node, kind="visit-list", context=self.context, places=places, shed=closed))
-                self._visit_all(node, places)
-                return
-            visits = self._visits().of_places(node, standing, self.context) if self.optional == "likely" else ()
-            self._visit_all(node, self._some(node, visits, closed))
-            return
-        home = routes.home_if_last(self.task, self.site, node.id, self.context.here)
-        places = routes.visits_in_order(node, self.drives, self.context.here, places, home)
-        self._note(Step(node=node, kind="visit-list", context=self.context, places=places))
-        self._visit_all(node, places)
-
-    def _optional_step(self, node: Optional) -> None:
-        if self.optional == "none":
-            return
-        here = self.context
+        if not node.optional:
+            home = routes.home_if_last(self.task, self.site, node.id, self.context.here)
+            places = routes.visits_in_order(node, self.drives, self.context.here, places, home)
+            self._note(Step(node=node, kind="visit-list", context=self.context, places=places))
+            return Tour(places, work_of(node.body, self.robot))
+        open_, closed = routes.reachable(self.drives, places)
+        standing = routes.standing(self.drives, self.context.here, open_)
         if self.optional == "told":
-            self._step_as_told(node)
-            return
+            places = self._told(node, standing, most=self._decide(node, "taken"))
+            self._note(Step(node=node, kind="visit-list", context=self.context, places=places, shed=closed))
+            return Tour(places)
+        visits = self._visits().of_places(node, standing, self.context) if self.optional == "likely" else ()
+        return Tour(self._some(node, visits, closed))
+
+    def _takes(self, node: Optional) -> bool:
+        """Whether an optional step is done."""
+        if self.optional == "none":
+            return False
+        if self.optional == "told":
+            return self._takes_as_told(node)
         try:
-            visit = self._visits().of_step(node, here)
+            visit = self._visits().of_step(node, self.context)
         except DriveFault:
-            never = next(iter(routes.first_places(node.body, self.site, here)), here.here)
+            never = next(iter(routes.first_places(node.body, self.site, self.context)), self.context.here)
             self._some(node, [], (never,))
-            return
-        if self._some(node, [visit], ()):
-            self._inside_optional += 1
-            try:
-                self._node(node.body)
-            finally:
-                self._inside_optional -= 1
+            return False
+        return bool(self._some(node, [visit], ()))
 
     def _told(self, node: ForEach, standing: tuple[Place, ...], *, most: bool) -> tuple[Place, ...]:
         """The optional visits of the mission that makes most, or fewest; where none is known all, or none."""
@@ -206,15 +248,16 @@ class Walker(Trail):
         made = known.preview.stops(int(visits.argmax() if most else visits.argmin()))
         return tuple(by_id[name] for vertex in made if (name := known.ids[vertex - 1]) in by_id)
 
-    def _step_as_told(self, node: Optional) -> None:
+    def _takes_as_told(self, node: Optional) -> bool:
         try:
             first = self._visits().of_step(node, self.context).place
         except DriveFault:
-            return
+            return False
         known = self._kept.get(node.id)
-        if (known is None or known.preview.visited.any()) and self._decide(node, "taken"):
+        takes = (known is None or bool(known.preview.visited.any())) and self._decide(node, "taken")
+        if takes:
             self._note(Step(node=node, kind="visit-list", context=self.context, places=(first,)))
-            self._node(node.body)
+        return takes
 
     def _visits(self) -> Visits:
         from fieldhand.forecast.visits import Visits
@@ -241,58 +284,14 @@ class Walker(Trail):
             self.drawn.visit(found.preview, [v.work for v in visits])
         return found.places
 
-    def to_come(self) -> tuple[Visit, ...]:
-        """The visits that are still to come of the loops under way, in their order."""
-        found = []
-        for node, places, begun in reversed(self.loops):
-            work = work_of(node.body, self.robot)
-            found += [Visit(place=p, service_s=work.seconds, service_j=work.joules) for p in places[begun:]]
-        return tuple(found)
+    def _capture(self, node: Act) -> Mapping[str, float]:
+        """Note the captures of an action; inside a ``Try`` it may fail.
 
-    def _visit_all(self, node: ForEach, places: tuple[Place, ...]) -> None:
-        """Do the body at each place; afterwards the label means all the places that were visited."""
-        visited: list[Place] = []
-        around, optional = len(self.loops), self._inside_optional
-        self._inside_optional += node.optional
-        try:
-            for at, place in enumerate(places):
-                self.loops[around:] = [(node, () if node.optional else places, at + 1)]
-                self._drive_to(node, place)
-                self._bind(node.label, place)
-                self._node(node.body)
-                visited.append(place)
-                if node.until is not None and self._decide(node, "holds"):
-                    break
-        finally:
-            del self.loops[around:]
-            self._inside_optional = optional
-        if visited:
-            self._bind(node.label, *visited)
-
-    def _try(self, node: Try) -> None:
-        self._inside_try += 1
-        try:
-            self._node(node.body)
-        except Failed:
-            failed = True
-        else:
-            failed = False
-        finally:
-            self._inside_try -= 1
-        if failed:
-            self._node(node.otherwise)
-
-    def _act(self, node: Act) -> None:
-        if node.at is not None:
-            self._drive_to(node, routes.place_of(node, node.at, self.site, self.context))
-        elif self._stuck:
-            self._drive_to(node, self.context.here)
-        here = self.context.here
-        self._bind(node.label, here)
-        if self.readings is not None and node.reading:
-            self.readings.lose(node.reading)
+        Raises:
+            Failed: It fails.
+        """
         action = self.robot.action[node.action]
-        fails = bool(self._inside_try) and self._decide(node, "fails")
+        fails = self.plan.is_caught and self._decide(node, "fails")
         # One that fails is taken to do so at its last capture, each time that it is tried again.
         again = tried_again(node, self.robot) if fails else Work()
         self._note(
@@ -300,7 +299,7 @@ class Walker(Trail):
                 node=node,
                 kind="act",
                 context=self.context,
-                places=(here,),
+                places=(self.context.here,),
                 captures=node.count - fails,
                 seconds=node.count * action.duration_s + again.seconds,
                 joules=node.count * action.energy_j + again.joules,
@@ -308,5 +307,4 @@ class Walker(Trail):
         )
         if fails:
             raise Failed(node.id)
-        if self.readings is not None and node.reading:
-            self.readings.take(node.reading, node.action)
+        return {}

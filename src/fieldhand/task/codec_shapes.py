@@ -147,12 +147,17 @@ def element_name(cls: type) -> str:
     return _CLASS_NAMES.get(cls) or re.sub(r"(?<!^)(?=[A-Z])", "-", cls.__name__).lower()
 
 
+def hints_of(cls: type) -> dict[str, Any]:
+    """The type of each field; those families that refer to each other are known here."""
+    return get_type_hints(cls, localns={"Node": Node, "Selector": Selector, "Condition": Condition})
+
+
 @cache
 def shape_of(cls: type) -> Shape:
     """How a class is written; a class that XML groups differently has the shape of its stand-in."""
     if cls in SURROGATES:
         return shape_of(SURROGATES[cls][0])
-    hints = get_type_hints(cls)
+    hints = hints_of(cls)
     names = [f.name for f in fields(cls)]
     of_head = _OF_QUANTITY if "quantity" in names else ()
     in_head = ("action", "parameters") if cls is Act else ("quantity",)

@@ -1,0 +1,62 @@
+"""An action of the robot."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.task.nodes.base import Meaning, PlanNode, SayPlace, Span
+from fieldhand.task.requests import Bind, Capture, Drive, Forget, Locate, Permit, Read
+from fieldhand.task.words import say_action
+
+if TYPE_CHECKING:
+    from fieldhand.task.requests import Place, Reading
+    from fieldhand.task.run import Run
+    from fieldhand.task.selectors import Selector
+
+
+@dataclass(frozen=True, kw_only=True)
+class Act(PlanNode):
+    """An atomic task: one action of the robot's profile.
+
+    It drives to its place, which the selector must give alone, binds that, and makes its captures there. Without a
+    place of its own it is work at the place in hand: a robot that a failed drive left elsewhere drives back there.
+    What an earlier round read is forgotten first, so that it decides nothing if this one fails.
+
+    Attributes:
+        at: Where; else at the place in hand.
+        at_said: Those of its ranges of the request that say where.
+        count: How many captures at that place.
+        parameters: Name and value of each parameter that the profile declares for the action.
+        label: Binds the place for later nodes.
+        reading: Binds what the action measures, of several captures the last.
+    """
+
+    id: str
+    action: str
+    at: Selector | None = None
+    at_said: tuple[Span, ...] = ()
+    count: int = 1
+    parameters: tuple[tuple[str, str | float], ...] = ()
+    label: str = ""
+    reading: str = ""
+    said: tuple[Span, ...] = ()
+
+    def meaning(self, run: Run) -> Meaning:  # noqa: ARG002
+        if self.reading:
+            yield Forget(node=self, reading=self.reading)
+        place: Place = yield Locate(node=self, selector=self.at)
+        yield Permit(node=self, place=place)
+        place = yield Drive(node=self, place=place, back=self.at is None)
+        yield Bind(node=self, label=self.label, places=(place,))
+        value: Reading = yield Capture(node=self)
+        if self.reading:
+            yield Read(node=self, reading=self.reading, value=value)
+
+    def say(self, place: SayPlace) -> str:
+        there = "" if self.at is None else f" at {place(self.at)}"
+        return f"{say_action(self.action, self.count)}{there}"
+
+    @property
+    def selector(self) -> Selector | None:
+        return self.at

@@ -1,0 +1,45 @@
+"""One of two things, by a condition."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.task.nodes.base import Meaning, PlanNode, SayPlace, Span
+from fieldhand.task.requests import Decide
+
+if TYPE_CHECKING:
+    from fieldhand.task.conditions import Condition
+    from fieldhand.task.plan import Node
+    from fieldhand.task.run import Run
+
+
+@dataclass(frozen=True, kw_only=True)
+class If(PlanNode):
+    """``then`` where the condition holds, else ``otherwise`` (nothing if absent). It is tested once, when reached.
+
+    What cannot be known (a reading that was not taken) does not hold.
+    """
+
+    id: str
+    condition: Condition
+    then: Node
+    otherwise: Node | None = None
+    said: tuple[Span, ...] = ()
+
+    def meaning(self, run: Run) -> Meaning:
+        if (yield Decide(node=self, condition=self.condition)):
+            yield from run.do(self.then)
+        elif self.otherwise is not None:
+            yield from run.do(self.otherwise)
+
+    def say(self, place: SayPlace) -> str:  # noqa: ARG002
+        return "if"
+
+    @property
+    def children(self) -> tuple[Node, ...]:
+        return (self.then,) if self.otherwise is None else (self.then, self.otherwise)
+
+    @property
+    def tested(self) -> Condition:
+        return self.condition

@@ -1,0 +1,87 @@
+"""Something at each place of a selector."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+from fieldhand.task.nodes.base import GivenUp, Meaning, PlanNode, SayPlace, Span
+from fieldhand.task.requests import Begin, Bind, Decide, Drive, Next
+
+if TYPE_CHECKING:
+    from fieldhand.task.conditions import Condition
+    from fieldhand.task.plan import Node
+    from fieldhand.task.requests import Place
+    from fieldhand.task.run import Run
+    from fieldhand.task.selectors import Selector
+
+
+@dataclass(frozen=True, kw_only=True)
+class ForEach(PlanNode):
+    """``body`` at each place of a selector.
+
+    The selector is resolved once, when the node is reached. Then, until no visit is left, ``at_most`` are made, or
+    ``until`` holds after one: drive to the next place, bind it, do the body. A visit that is given up does not count.
+    Afterwards the label means every place that was visited.
+
+    Attributes:
+        label: Name under which ``body`` finds the place (``Bound(label=...)``).
+        order: ``best`` drives least; ``given`` keeps the order of the selector.
+        optional: Visits may be shed by the budget guard, least worth first ("as many as you can").
+        at_most: Stop after that many visits ("up to 6").
+        reward: Attribute that says what a visit is worth; else every visit is worth 1.
+        until: Stop once this holds after a visit.
+    """
+
+    id: str
+    select: Selector
+    body: Node
+    label: str = ""
+    order: Literal["best", "given"] = "best"
+    optional: bool = False
+    at_most: int | None = None
+    reward: str = ""
+    until: Condition | None = None
+    said: tuple[Span, ...] = ()
+
+    def meaning(self, run: Run) -> Meaning:
+        frame = run.frame
+        frame.tour = tour = yield Begin(node=self)
+        visited: list[Place] = []
+        while self.at_most is None or len(visited) < self.at_most:
+            place: Place | None = yield Next(node=self, tour=tour, made=len(visited))
+            if place is None:
+                break
+            try:
+                place = yield Drive(node=self, place=place, tour=tour)
+                yield Bind(node=self, label=self.label, places=(place,))
+                yield from run.do(self.body)
+            except GivenUp as given_up:
+                if given_up.node != self.id:
+                    raise
+                continue
+            visited.append(place)
+            frame.made = len(visited)
+            if self.until is not None and (yield Decide(node=self, condition=self.until)):
+                break
+        if visited:
+            yield Bind(node=self, label=self.label, places=tuple(visited))
+
+    def say(self, place: SayPlace) -> str:
+        return f"{'as many as fit of' if self.optional else 'at each of'} {place(self.select)}"
+
+    @property
+    def children(self) -> tuple[Node, ...]:
+        return (self.body,)
+
+    @property
+    def selector(self) -> Selector:
+        return self.select
+
+    @property
+    def tested(self) -> Condition | None:
+        return self.until
+
+    @property
+    def is_optional(self) -> bool:
+        return self.optional

@@ -1,0 +1,37 @@
+"""A drive to a place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.task.nodes.base import Meaning, PlanNode, SayPlace, Span
+from fieldhand.task.requests import Bind, Drive, Locate, Permit
+
+if TYPE_CHECKING:
+    from fieldhand.task.requests import Place
+    from fieldhand.task.run import Run
+    from fieldhand.task.selectors import Selector
+
+
+@dataclass(frozen=True, kw_only=True)
+class GoTo(PlanNode):
+    """Drive to a place; the selector must give one. ``label`` binds it for later nodes."""
+
+    id: str
+    place: Selector
+    label: str = ""
+    said: tuple[Span, ...] = ()
+
+    def meaning(self, run: Run) -> Meaning:  # noqa: ARG002
+        place: Place = yield Locate(node=self, selector=self.place)
+        yield Permit(node=self, place=place)
+        place = yield Drive(node=self, place=place)
+        yield Bind(node=self, label=self.label, places=(place,))
+
+    def say(self, place: SayPlace) -> str:
+        return f"go to {place(self.place)}"
+
+    @property
+    def selector(self) -> Selector:
+        return self.place

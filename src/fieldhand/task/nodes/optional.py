@@ -1,0 +1,49 @@
+"""Something as a whole, if the budget allows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.task.nodes.base import GivenUp, Meaning, PlanNode, SayPlace, Span
+from fieldhand.task.requests import Offer
+
+if TYPE_CHECKING:
+    from fieldhand.task.plan import Node
+    from fieldhand.task.run import Run
+
+
+@dataclass(frozen=True, kw_only=True)
+class Optional(PlanNode):
+    """``body`` as a whole, if the budget allows. What it binds is known inside it alone.
+
+    It is offered once, when it is reached. Not to do it, or to give it up half-way, is no failure.
+
+    Attributes:
+        reward: What it is worth.
+    """
+
+    id: str
+    body: Node
+    reward: float = 1.0
+    said: tuple[Span, ...] = ()
+
+    def meaning(self, run: Run) -> Meaning:
+        if not (yield Offer(node=self)):
+            return
+        try:
+            yield from run.do(self.body)
+        except GivenUp as given_up:
+            if given_up.node != self.id:
+                raise
+
+    def say(self, place: SayPlace) -> str:  # noqa: ARG002
+        return "if the budget allows"
+
+    @property
+    def children(self) -> tuple[Node, ...]:
+        return (self.body,)
+
+    @property
+    def is_optional(self) -> bool:
+        return True

@@ -1,0 +1,45 @@
+"""Something a number of times."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.task.nodes.base import Meaning, PlanNode, SayPlace, Span
+from fieldhand.task.requests import Decide, Round
+from fieldhand.task.words import say_times
+
+if TYPE_CHECKING:
+    from fieldhand.task.conditions import Condition
+    from fieldhand.task.plan import Node
+    from fieldhand.task.run import Run
+
+
+@dataclass(frozen=True, kw_only=True)
+class Repeat(PlanNode):
+    """``body`` a number of times, or until a condition holds after a round, whichever comes first."""
+
+    id: str
+    times: int
+    body: Node
+    until: Condition | None = None
+    said: tuple[Span, ...] = ()
+
+    def meaning(self, run: Run) -> Meaning:
+        for left in reversed(range(self.times)):
+            run.frame.rounds = left
+            yield Round(node=self, left=left)
+            yield from run.do(self.body)
+            if self.until is not None and (yield Decide(node=self, condition=self.until)):
+                break
+
+    def say(self, place: SayPlace) -> str:  # noqa: ARG002
+        return f"{'until it holds, at most ' if self.until else ''}{say_times(self.times)}"
+
+    @property
+    def children(self) -> tuple[Node, ...]:
+        return (self.body,)
+
+    @property
+    def tested(self) -> Condition | None:
+        return self.until

@@ -1,0 +1,27 @@
+"""The end of a mission, as the plan has it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+from fieldhand.task.nodes.base import Meaning, PlanNode, SayPlace, Span, Stopped
+
+if TYPE_CHECKING:
+    from fieldhand.task.run import Run
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stop(PlanNode):
+    """End the mission here and take an exit. Nothing around it goes on, no ``Try`` either."""
+
+    id: str
+    exit: Literal["nominal", "faulted"] = "nominal"
+    said: tuple[Span, ...] = ()
+
+    def meaning(self, run: Run) -> Meaning:  # noqa: ARG002
+        yield from ()
+        raise Stopped(self)
+
+    def say(self, place: SayPlace) -> str:  # noqa: ARG002
+        return f"stop ({self.exit} exit)"

@@ -1,0 +1,147 @@
+"""A plan under way: which nodes are in hand, one inside the other, and how far each of them is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+from fieldhand.task.nodes.base import Failed, GivenUp, Meaning
+
+if TYPE_CHECKING:
+    from fieldhand.task.plan import Node
+    from fieldhand.task.requests import Request, Tour
+
+Outcome = Literal["done", "failed", "cut"]
+
+
+@dataclass(kw_only=True)
+class Frame:
+    """A node in hand.
+
+    Attributes:
+        left: Steps of it that come after the one in hand, in their order.
+        rounds: Further rounds of a repeat.
+        tour: The visits of a for-each.
+        made: How many visits of it were made.
+        catches: A failure inside goes on here.
+    """
+
+    node: Node
+    left: tuple[Node, ...] = ()
+    rounds: int = 0
+    tour: Tour | None = None
+    made: int = 0
+    catches: bool = False
+
+
+class Run:
+    """One time through a plan.
+
+    Args:
+        plan: The root.
+        entered, left: Told of every node that is reached and that is over; ``cut`` where it was given up or the plan
+            ended inside it.
+
+    Attributes:
+        frames: The nodes in hand, outermost first.
+    """
+
+    def __init__(
+        self,
+        plan: Node,
+        *,
+        entered: Callable[[Node], None] | None = None,
+        left: Callable[[Node, Outcome], None] | None = None,
+    ) -> None:
+        self.plan = plan
+        self.frames: list[Frame] = []
+        self._entered, self._left = entered, left
+
+    def program(self) -> Meaning:
+        """The meaning of the whole plan."""
+        return self.do(self.plan)
+
+    def do(self, node: Node) -> Meaning:
+        """Carry out one node inside the one in hand."""
+        self.frames.append(Frame(node=node))
+        depth = len(self.frames)
+        outcome: Outcome = "cut"
+        if self._entered is not None:
+            self._entered(node)
+        try:
+            yield from node.meaning(self)
+            outcome = "done"
+        except Failed:
+            outcome = "failed"
+            raise
+        finally:
+            del self.frames[depth - 1 :]
+            if self._left is not None:
+                self._left(node, outcome)
+
+    @property
+    def frame(self) -> Frame:
+        """The innermost node in hand."""
+        return self.frames[-1]
+
+    @property
+    def rounds(self) -> dict[str, int]:
+        """Further rounds of each repeat in hand, by node id."""
+        from fieldhand.task.nodes.repeat import Repeat
+
+        return {frame.node.id: frame.rounds for frame in self.frames if isinstance(frame.node, Repeat)}
+
+    def outwards(self) -> Iterator[Frame]:
+        """The frames, innermost first."""
+        return reversed(self.frames)
+
+    @property
+    def optional(self) -> Frame | None:
+        """The optional visit or step in hand; there is at most one."""
+        return next((frame for frame in self.outwards() if frame.node.is_optional), None)
+
+    @property
+    def is_caught(self) -> bool:
+        """Whether a ``Try`` goes on if the node in hand fails."""
+        return any(frame.catches for frame in self.frames)
+
+
+def carry_out(program: Meaning, answer: Callable[[Request], Any]) -> None:
+    """Carry a plan out to its end.
+
+    Args:
+        program: The meaning of a node.
+        answer: Answers each request, or raises :class:`Failed` or :class:`GivenUp`, which is thrown into the program.
+            Whatever else it raises ends the program and comes out of here.
+
+    Raises:
+        Failed: Nothing in the plan catches the failure.
+        Stopped: The plan came to a ``Stop``.
+    """
+    try:
+        request = next(program, None)
+        while request is not None:
+            try:
+                found = answer(request)
+            except (Failed, GivenUp) as thrown:
+                request = _thrown(program, thrown)
+            else:
+                request = _sent(program, found)
+    finally:
+        program.close()
+
+
+def _sent(program: Meaning, found: Any) -> Request | None:
+    """The next request; None where there is none."""
+    try:
+        return program.send(found)
+    except StopIteration:
+        return None
+
+
+def _thrown(program: Meaning, thrown: Exception) -> Request | None:
+    try:
+        return program.throw(thrown)
+    except StopIteration:
+        return None
