@@ -82,7 +82,7 @@ def test_every_node_is_a_behavior_named_by_its_id() -> None:
         drives=drives_for(rig.site, rig.robot),
         emit=lambda event: None,
     )
-    root = compile_tree(task, attempt)
+    root = compile_tree(attempt)
     names = [behavior.name for behavior in root.iterate()]
     for node in walk(task.composition.plan):
         assert any(name.startswith(f"{node.id} ") for name in names)

@@ -32,6 +32,7 @@ from fieldhand.site.places import resolve, resolve_one
 from fieldhand.task.build import exit_of
 from fieldhand.task.frames import Fault, Task, Then
 from fieldhand.task.results import ClockSet, Driving, Event, Faulted, MissionStatus
+from fieldhand.task.run import Run
 from fieldhand.task.selectors import Selector
 
 #: Metres within which the robot counts as standing at a place.
@@ -76,9 +77,8 @@ class Attempt:
         time_of_day: When the mission began, and whether the wall clock was set since.
         driven: The path of the last drive, in local metres.
         readings: For each reading that is bound, its value by quantity.
-        rounds: Further rounds of each repeat that is under way, by node id.
+        run: The plan: which nodes are in hand.
         ending: Set when the plan is over before its last node: the tree is ticked no more.
-        giving_up: Id of the optional for-each or step whose work in hand is given up; it takes that back.
         fault: What the failure in hand is to the exits of the Task.
     """
 
@@ -117,11 +117,10 @@ class Attempt:
         self.visited: list[str] = []
         self.bound: dict[str, tuple[Place, ...]] = {}
         self.readings: dict[str, Mapping[str, float]] = {}
-        self.rounds: dict[str, int] = {}
+        self.run = Run(task.composition.plan)
         self.travelled_m = 0.0
         self.driven: tuple[tuple[float, float], ...] = ()
         self.ending: Ending | None = None
-        self.giving_up = ""
         self.fault: Fault = "action_failed"
         self.what = ""
         self.halted = False
@@ -213,7 +212,7 @@ class Attempt:
             context=self._context(self.standing),
             spent=self.spent,
             charge_percent=self.driver.charge_percent(),
-            rounds=dict(self.rounds),
+            rounds=self.run.rounds,
         )
 
     def bind(self, label: str, places: tuple[Place, ...]) -> None:

@@ -14,10 +14,11 @@ from shapely.geometry import LineString, Point, Polygon
 
 from fieldhand.errors import BlockedFault, DriveFault
 from fieldhand.execution.attempt import Attempt
-from fieldhand.execution.waiting import Steps, wait
+from fieldhand.execution.waiting import wait
 from fieldhand.language import message
 from fieldhand.site.model import Place
 from fieldhand.task.results import Event, Obstructed, Waited
+from fieldhand.task.run import Steps
 
 #: Metres along its way to which a robot that was stopped looks ahead.
 _AHEAD_M = 0.5

@@ -18,7 +18,6 @@ from fieldhand.execution.interrupts import ctrl_c_as_request
 from fieldhand.execution.journal.records import Tape
 from fieldhand.execution.mission_clock import MissionClock
 from fieldhand.execution.orders import Order
-from fieldhand.execution.waiting import Steps
 from fieldhand.execution.watch import Lookout, NoLookout
 from fieldhand.execution.witness import Patience
 from fieldhand.forecast.limits import reserve_percent
@@ -31,9 +30,10 @@ from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.exceeded import exceeded, final_status, reason_with
 from fieldhand.task.frames import Then
 from fieldhand.task.results import Ended, Event, Exited, MissionStatus, Started
+from fieldhand.task.run import Steps
 
 if TYPE_CHECKING:
-    from py_trees.behaviour import Behaviour
+    from fieldhand.execution.tree import MissionTree
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -197,7 +197,7 @@ def _carry_out_plan(bridge: Bridge) -> Ending:
     from fieldhand.execution.tree import compile_tree
 
     attempt = bridge.attempt
-    tree = compile_tree(attempt.task, attempt)
+    tree = compile_tree(attempt)
     try:
         while True:
             order = bridge.order() or _stopped(attempt)
@@ -216,7 +216,7 @@ def _carry_out_plan(bridge: Bridge) -> Ending:
         tree.stop(Status.INVALID)
 
 
-def _over(tree: Behaviour, attempt: Attempt) -> Ending | None:
+def _over(tree: MissionTree, attempt: Attempt) -> Ending | None:
     """Return the end of the plan; None while it goes on."""
     from py_trees.common import Status
 
@@ -233,15 +233,11 @@ def _over(tree: Behaviour, attempt: Attempt) -> Ending | None:
     return None
 
 
-def _alarmed(tree: Behaviour, attempt: Attempt) -> Ending:
+def _alarmed(tree: MissionTree, attempt: Attempt) -> Ending:
     """Break off what the robot is at: it stops for good, or gives up all that is left of the plan and turns home.
 
     A goal that is over by now is done: the plan goes on to what it would begin next, and gives that up.
     """
-    from py_trees.common import Status
-
-    from fieldhand.execution.behaviors.surroundings import give_up_rest
-
     why = attempt.watch.why
     if attempt.watch.alarm == "stop":
         return _settled(attempt, _stood(attempt, why))
@@ -252,15 +248,14 @@ def _alarmed(tree: Behaviour, attempt: Attempt) -> Ending:
         if not attempt.driver.poll().over:
             return broken_off
         result = attempt.driver.poll()
-    while result.state in ("idle", "succeeded") and tree.tip() is not None:
+    while result.state in ("idle", "succeeded"):
         tree.tick_once()
         if (ending := _over(tree, attempt)) is not None:
             return ending
-        tip = tree.tip()
-        if tip is not None and tip.status == Status.RUNNING:
+        if not tree.between:
             break
     attempt.halted = False
-    give_up_rest(tree.tip(), attempt, Verdict(go=False, reason=why))
+    tree.give_up(Verdict(go=False, reason=why))
     return Ending(status="returned", exit="faulted", then=attempt.watch.exit, reason=why)
 
 

@@ -1,89 +1,104 @@
-"""A Task's plan as a behavior tree: every node becomes a behavior that is named by the node's id and what it does."""
+"""A Task's plan as a behavior tree: one behavior for each plan node, named by the node's id and what it does.
+
+The tree shows the mission and is what ticks it. What a node means is said in :mod:`fieldhand.task.nodes`; the node that
+is in hand takes the mission a step further, and each behavior has the status of its node.
+"""
 
 from __future__ import annotations
 
-from typing import assert_never
+from collections.abc import Iterator
 
 from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+from py_trees.composites import Composite
 
 from fieldhand.execution.attempt import Attempt
-from fieldhand.execution.behaviors.choices import ChooseBranch, DoInBestOrder, DoInOrder, TryElse
-from fieldhand.execution.behaviors.leaves import DoAction, EndMission, GoToPlace
-from fieldhand.execution.behaviors.loops import ForEachPlace, RepeatBody
-from fieldhand.execution.behaviors.shedding import DoIfItFits
-from fieldhand.task.frames import Task
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Optional, Repeat, Sequence, Stop, Try
+from fieldhand.execution.giving_up import give_up_rest
+from fieldhand.execution.performing import Performer
+from fieldhand.forecast.state import Verdict
+from fieldhand.task.plan import Node
+from fieldhand.task.run import Outcome
 from fieldhand.task.selectors import Selector
-from fieldhand.task.words import say_action, say_times
+
+_STATUS: dict[Outcome, Status] = {"done": Status.SUCCESS, "failed": Status.FAILURE, "cut": Status.INVALID}
 
 
-def compile_tree(task: Task, attempt: Attempt) -> Behaviour:
+def compile_tree(attempt: Attempt) -> MissionTree:
     """The behavior tree of a Task.
 
     Args:
-        task: What is to be done.
         attempt: The state that the behaviors share. A tree serves one attempt.
 
     Returns:
         The root. Tick it until it succeeds or fails, or until the attempt has an ending.
     """
-    return _compile(task.composition.plan, attempt)
+    return MissionTree(attempt)
 
 
-def _compile(node: Node, attempt: Attempt) -> Behaviour:
-    name = f"{node.id} {say_node(node)}"
-    match node:
-        case Sequence(steps=steps):
-            return DoInOrder(name, node, [_compile(s, attempt) for s in steps])
-        case AnyOrder(steps=steps):
-            return DoInBestOrder(name, node, attempt, [_compile(s, attempt) for s in steps])
-        case ForEach(body=body):
-            return ForEachPlace(name, node, attempt, _compile(body, attempt))
-        case Repeat(body=body):
-            return RepeatBody(name, node, attempt, _compile(body, attempt))
-        case If(then=then, otherwise=otherwise):
-            branches = [then] if otherwise is None else [then, otherwise]
-            return ChooseBranch(name, node, attempt, [_compile(b, attempt) for b in branches])
-        case Try(body=body, otherwise=otherwise):
-            return TryElse(name, node, _compile(body, attempt), _compile(otherwise, attempt))
-        case Optional(body=body):
-            return DoIfItFits(name, node, attempt, _compile(body, attempt))
-        case GoTo():
-            return GoToPlace(name, node, attempt)
-        case Act():
-            return DoAction(name, node, attempt)
-        case Stop():
-            return EndMission(name, node, attempt)
-        case _:
-            assert_never(node)
+class NodeBehavior(Composite):
+    """A plan node as it stands.
+
+    Args:
+        node: The node.
+    """
+
+    def __init__(self, node: Node) -> None:
+        super().__init__(f"{node.id} {node.say(_say_selector)}", [NodeBehavior(child) for child in node.children])
+        self.node = node
+
+    def tick(self) -> Iterator[Behaviour]:
+        """Tick the node inside that is in hand; the mission itself goes on at the root."""
+        if self.current_child is not None and self.current_child.status == Status.RUNNING:
+            yield from self.current_child.tick()
+        yield self
 
 
-def say_node(node: Node) -> str:
-    """What a node does, in a few words; a place by the kind of its selector."""
-    match node:
-        case Sequence():
-            return "in order"
-        case AnyOrder():
-            return "in the best order"
-        case ForEach(select=select, optional=optional):
-            return f"{'as many as fit of' if optional else 'at each of'} {_say_selector(select)}"
-        case Repeat(times=times):
-            return f"{'until it holds, at most ' if node.until else ''}{say_times(times)}"
-        case If():
-            return "if"
-        case Try():
-            return "try"
-        case Optional():
-            return "if the budget allows"
-        case GoTo(place=place):
-            return f"go to {_say_selector(place)}"
-        case Act(at=at):
-            there = "" if at is None else f" at {_say_selector(at)}"
-            return f"{say_action(node.action, node.count)}{there}"
-        case Stop(exit=leave):
-            return f"stop ({leave} exit)"
-        case _:
-            assert_never(node)
+class MissionTree(NodeBehavior):
+    """The root: it takes the mission further.
+
+    Args:
+        attempt: The state of the mission.
+    """
+
+    def __init__(self, attempt: Attempt) -> None:
+        super().__init__(attempt.task.composition.plan)
+        self.attempt = attempt
+        self._performer = Performer(attempt)
+        self._program = self._performer.program()
+        self._behavior: dict[str, NodeBehavior] = {b.node.id: b for b in self.iterate() if isinstance(b, NodeBehavior)}
+        attempt.run.entered, attempt.run.left = self._entered, self._left
+
+    def tick(self) -> Iterator[Behaviour]:
+        """Go on until the robot is busy, a round is over, or the plan is."""
+        next(self._program, None)
+        yield from super().tick()
+
+    def stop(self, new_status: Status = Status.INVALID) -> None:
+        """End the plan where it is; a robot that is at something stops."""
+        if new_status == Status.INVALID:
+            self._program.close()
+            self.attempt.stop_driver()
+        super().stop(new_status)
+
+    @property
+    def between(self) -> bool:
+        """Whether one round or visit is over and the next has not begun."""
+        return self._performer.between
+
+    def give_up(self, verdict: Verdict) -> None:
+        """Say that the work in hand and all that would come after it is given up, and why."""
+        give_up_rest(self.attempt, self._performer.place, verdict)
+
+    def _entered(self, node: Node) -> None:
+        behavior = self._behavior[node.id]
+        for inner in behavior.iterate():
+            inner.status = Status.INVALID
+        behavior.status = Status.RUNNING
+        if isinstance(behavior.parent, NodeBehavior):
+            behavior.parent.current_child = behavior
+
+    def _left(self, node: Node, outcome: Outcome) -> None:
+        self._behavior[node.id].status = _STATUS[outcome]
 
 
 def _say_selector(selector: Selector) -> str:

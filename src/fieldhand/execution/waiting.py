@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator
+from collections.abc import Callable
 
 from fieldhand.errors import LostFault
 from fieldhand.execution.attempt import Attempt
 from fieldhand.language import joined, message
 from fieldhand.task.results import Faulted, Waited
-
-Steps = Generator[None, None, None]
+from fieldhand.task.run import Steps
 
 #: Seconds within which two moments are one: clocks add floating-point numbers.
 _SAME_S = 1e-6

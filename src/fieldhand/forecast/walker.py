@@ -43,7 +43,7 @@ from fieldhand.task.requests import (
     Request,
     Round,
 )
-from fieldhand.task.run import Run, carry_out
+from fieldhand.task.run import carry_out
 
 if TYPE_CHECKING:
     from fieldhand.forecast.expected import Expected
@@ -116,7 +116,7 @@ class Walker(Trail):
         self._kept = {} if kept is None else kept
         #: What optional visits may still add to the chance of running short; None before the first of them.
         self.allowance: Allowance | None = None
-        self.plan = Run(task.composition.plan, entered=self._entered)
+        self.plan.entered = self._entered
 
     def run(self, nodes: Sequence[Node]) -> Walk:
         """Walk nodes one after the other, then the exit."""

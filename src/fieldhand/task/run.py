@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     from fieldhand.task.requests import Request, Tour
 
 Outcome = Literal["done", "failed", "cut"]
+
+#: What takes its time: it yields until it is done.
+Steps = Generator[None, None, None]
 
 
 @dataclass(kw_only=True)
@@ -35,28 +38,27 @@ class Frame:
     catches: bool = False
 
 
+def _unheard(*_: object) -> None:
+    """Nobody is told."""
+
+
 class Run:
     """One time through a plan.
 
     Args:
         plan: The root.
-        entered, left: Told of every node that is reached and that is over; ``cut`` where it was given up or the plan
-            ended inside it.
 
     Attributes:
         frames: The nodes in hand, outermost first.
+        entered, left: Told of every node that is reached and that is over; ``cut`` where it was given up or the plan
+            ended inside it.
     """
 
-    def __init__(
-        self,
-        plan: Node,
-        *,
-        entered: Callable[[Node], None] | None = None,
-        left: Callable[[Node, Outcome], None] | None = None,
-    ) -> None:
+    def __init__(self, plan: Node) -> None:
         self.plan = plan
         self.frames: list[Frame] = []
-        self._entered, self._left = entered, left
+        self.entered: Callable[[Node], None] = _unheard
+        self.left: Callable[[Node, Outcome], None] = _unheard
 
     def program(self) -> Meaning:
         """The meaning of the whole plan."""
@@ -67,8 +69,7 @@ class Run:
         self.frames.append(Frame(node=node))
         depth = len(self.frames)
         outcome: Outcome = "cut"
-        if self._entered is not None:
-            self._entered(node)
+        self.entered(node)
         try:
             yield from node.meaning(self)
             outcome = "done"
@@ -77,8 +78,7 @@ class Run:
             raise
         finally:
             del self.frames[depth - 1 :]
-            if self._left is not None:
-                self._left(node, outcome)
+            self.left(node, outcome)
 
     @property
     def frame(self) -> Frame:
@@ -124,6 +124,26 @@ def carry_out(program: Meaning, answer: Callable[[Request], Any]) -> None:
         while request is not None:
             try:
                 found = answer(request)
+            except (Failed, GivenUp) as thrown:
+                request = _thrown(program, thrown)
+            else:
+                request = _sent(program, found)
+    finally:
+        program.close()
+
+
+def carry_out_in_steps(program: Meaning, perform: Callable[[Request], Generator[None, None, Any]]) -> Steps:
+    """:func:`carry_out` by somebody whose answers take their time: it yields whenever an answer is waited for.
+
+    Args:
+        program: The meaning of a node.
+        perform: Gives the answer to a request in steps, or raises as there.
+    """
+    try:
+        request = next(program, None)
+        while request is not None:
+            try:
+                found = yield from perform(request)
             except (Failed, GivenUp) as thrown:
                 request = _thrown(program, thrown)
             else:

@@ -1,1 +1,0 @@
-"""Plan nodes as py_trees behaviours, grouped by idea: leaves that work, loops, choices between branches."""

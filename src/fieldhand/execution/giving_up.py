@@ -1,0 +1,174 @@
+"""What is not done: work that the guard forbids or that no way leads to, and all that would have come after it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Literal
+
+from fieldhand.errors import PlaceError
+from fieldhand.execution.attempt import Attempt, Ending
+from fieldhand.forecast.service import service_of
+from fieldhand.forecast.state import Choice, Verdict, Visit
+from fieldhand.language import message
+from fieldhand.site.model import Place
+from fieldhand.task import plan
+from fieldhand.task.nodes.base import GivenUp
+from fieldhand.task.plan import Node
+from fieldhand.task.results import Shed
+from fieldhand.task.run import Frame
+from fieldhand.task.selectors import is_relative
+
+
+class Over(Exception):
+    """The plan is over before its last node; :attr:`Attempt.ending` says how."""
+
+
+def visit_to(attempt: Attempt, place: Place, work: Node) -> Visit:
+    """A mandatory visit as the guard sees it."""
+    seconds, joules = service_of(work, attempt.robot)
+    return Visit(place=place, service_s=seconds, service_j=joules)
+
+
+def to_come(attempt: Attempt) -> list[Visit]:
+    """The mandatory visits that are still to come of the loops in hand, innermost first."""
+    tours = [frame.tour for frame in attempt.run.outwards() if frame.tour is not None and not frame.node.is_optional]
+    return [visit for tour in tours for visit in tour.still_to_come()]
+
+
+def admit(attempt: Attempt, visit: Visit, *, refused: Sequence[Place]) -> None:
+    """Ask the guard about work that must be done; where it says no, do what follows from that.
+
+    Inside an optional visit or step only that is given up. Else the mission turns home, and all that it will not do is
+    said.
+
+    Args:
+        attempt: The state of the mission; the node in hand is about to drive or act.
+        visit: The drive and the work that it is about.
+        refused: Places of the node that stay undone if the guard says no.
+
+    Raises:
+        GivenUp: The optional visit or step in hand is given up.
+        Over: The mission turns home.
+    """
+    verdict = attempt.guard.admit(attempt.state(attempt.run.frame.node.id), visit, to_come(attempt))
+    if verdict.go:
+        return
+    optional = attempt.run.optional
+    if optional is not None:
+        at = optional.tour.place if optional.tour is not None else None
+        shed(attempt, optional.node.id, [at or visit.place], verdict, optional=True)
+        raise GivenUp(optional.node.id)
+    shed(attempt, attempt.run.frame.node.id, refused, verdict, optional=False)
+    _miss(attempt, attempt.run.frames[:-1], verdict)
+    attempt.end(Ending(status="returned", exit="faulted", then=attempt.exit_for("low_budget"), reason=verdict.reason))
+    raise Over
+
+
+def give_up_unreachable(attempt: Attempt, why: str) -> str:
+    """Give up the optional visit or step in hand, to which no way is left.
+
+    Returns:
+        Id of the optional node; empty where none is in hand, or a try/otherwise nearer than that catches the fault.
+    """
+    for frame in attempt.run.outwards():
+        if frame.catches:
+            return ""
+        if frame.node.is_optional:
+            places = [] if frame.tour is None or frame.tour.place is None else [frame.tour.place]
+            never = Choice(index=None, reason=why)
+            shed(attempt, frame.node.id, places, never, optional=True, cause="unreachable")
+            return frame.node.id
+    return ""
+
+
+def give_up_rest(attempt: Attempt, place: Place | None, verdict: Verdict) -> None:
+    """Say that the work in hand and all that would come after it is given up.
+
+    Args:
+        attempt: The state of the mission.
+        place: Of the drive or the action in hand, if there is one.
+        verdict: Why.
+    """
+    frames = attempt.run.frames
+    if not frames:
+        return
+    optional = attempt.run.optional
+    if optional is not None:
+        tour = optional.tour
+        places = [] if tour is None else [*([] if tour.place is None else [tour.place]), *tour.undone()]
+        shed(attempt, optional.node.id, places, verdict, optional=True)
+        frames = frames[: frames.index(optional)]
+    else:
+        shed(attempt, frames[-1].node.id, [] if place is None else [place], verdict, optional=False)
+    _miss(attempt, frames, verdict)
+
+
+def _miss(attempt: Attempt, frames: Sequence[Frame], verdict: Verdict) -> None:
+    """Say what stands after the node in hand and will not be reached."""
+    why = message("not reached: {why}", context="log", why=verdict.reason)
+    missed = Verdict(go=False, reason=why, chance_short=verdict.chance_short)
+    for node, places, optional in _left_undone(attempt, frames):
+        shed(attempt, node.id, places, missed, optional=optional)
+
+
+def _left_undone(attempt: Attempt, frames: Iterable[Frame]) -> Iterator[tuple[Node, Sequence[Place], bool]]:
+    """What the nodes in hand still had before them: (node, places as far as they are known, whether optional)."""
+    for frame in reversed(list(frames)):
+        if frame.tour is not None and (undone := frame.tour.undone()):
+            yield frame.node, undone, frame.node.is_optional
+        if frame.rounds:
+            yield frame.node, (), False
+        for later in frame.left:
+            yield from _work_of(later, attempt)
+
+
+def _work_of(node: Node, attempt: Attempt) -> Iterator[tuple[Node, Sequence[Place], bool]]:
+    match node:
+        case plan.Sequence(steps=steps) | plan.AnyOrder(steps=steps):
+            for step in steps:
+                yield from _work_of(step, attempt)
+        case plan.Stop():
+            return
+        case plan.Optional():
+            yield node, first_places_of(node, attempt), True
+        case _:
+            yield node, _places_of(node, attempt), node.is_optional
+
+
+def first_places_of(node: plan.Optional, attempt: Attempt) -> tuple[Place, ...]:
+    """Where an optional step begins, as far as that is known now."""
+    first = next((inner for inner in plan.walk(node.body) if inner.selector is not None), node)
+    return _places_of(first, attempt)
+
+
+def _places_of(node: Node, attempt: Attempt) -> tuple[Place, ...]:
+    selector = node.selector
+    if selector is None or is_relative(selector):
+        return ()
+    try:
+        return attempt.resolve(selector)
+    except PlaceError:
+        return ()
+
+
+def shed(
+    attempt: Attempt,
+    node: str,
+    places: Sequence[Place],
+    verdict: Verdict | Choice,
+    *,
+    optional: bool,
+    cause: Literal["budget", "unreachable"] = "budget",
+) -> None:
+    """Say what is given up, and why."""
+    attempt.emit(
+        Shed(
+            t=attempt.t,
+            node=node,
+            places=tuple(p.id for p in places),
+            optional=optional,
+            reason=verdict.reason,
+            chance_short=verdict.chance_short,
+            cause=cause,
+        )
+    )

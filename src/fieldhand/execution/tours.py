@@ -1,0 +1,218 @@
+"""The visits of a for-each on the robot: which are left, which are cut off, which comes next."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from fieldhand.errors import BlockedFault
+from fieldhand.execution.attempt import Attempt
+from fieldhand.execution.giving_up import admit, shed, to_come, visit_to
+from fieldhand.execution.obstacles import no_way
+from fieldhand.forecast.routes import home_if_last, order_visits, reachable, standing, visits_in_order
+from fieldhand.forecast.state import Choice, Visit
+from fieldhand.language import message
+from fieldhand.site.model import Place
+from fieldhand.task.plan import ForEach
+from fieldhand.task.results import Visiting
+from fieldhand.task.words import listed
+
+#: So many places are named in a message.
+_NAMED = 8
+
+
+@dataclass(frozen=True, kw_only=True)
+class OneVisit:
+    """The visit of an optional step: the whole of it.
+
+    Attributes:
+        place: Where it begins.
+    """
+
+    place: Place
+
+    def undone(self) -> tuple[Place, ...]:
+        """None comes after it."""
+        return ()
+
+
+class Tour:
+    """The visits of a for-each that was reached.
+
+    A place that the robot finds no way to, because of what stands in its way, is put off to the end. What is then still
+    out of reach is given up: where the visits were mandatory, the loop has failed when all others are made.
+
+    Args:
+        attempt: The state of the mission.
+        node: The for-each. Its selector is resolved now.
+
+    Attributes:
+        left: Visits that are still to be made, in the order planned.
+        cut_off: Those to which no way is left.
+        place: The place of the visit in hand.
+
+    Raises:
+        PlaceError: The selector gives no place.
+        DriveFault: A place that must be visited can never be reached.
+    """
+
+    def __init__(self, attempt: Attempt, node: ForEach) -> None:
+        self.node, self.attempt = node, attempt
+        self.place: Place | None = None
+        self.left: list[Visit] = []
+        self.cut_off: list[Visit] = []
+        self._missed: list[Place] = []
+        self._made = 0
+        self._why = ""
+        self._ways = attempt.blockages.version
+        places = attempt.resolve(node.select)
+        closed: tuple[Place, ...] = ()
+        cut_off: tuple[Place, ...] = ()
+        if node.optional:
+            places, closed = reachable(attempt.drives, places)
+            ordered = standing(attempt.drives, attempt.standing, places)
+            self.left = list(attempt.visits.of_places(node, ordered, attempt.state(node.id).context))
+        else:
+            places, cut_off = self._parted(places)
+            ordered = visits_in_order(node, attempt.drives, attempt.standing, places, self._home())
+            self.left = [visit_to(attempt, place, node.body) for place in ordered]
+            self.cut_off = [visit_to(attempt, place, node.body) for place in cut_off]
+        ids = tuple(place.id for place in (*ordered, *cut_off))
+        attempt.emit(Visiting(t=attempt.t, node=node.id, places=ids, optional=node.optional))
+        if closed:
+            why = f"{closed[0].kind} {closed[0].id} is {attempt.drives.problem(closed[0])}"
+            self._give_up(closed, f"cannot be reached: {why}")
+
+    def next(self, made: int) -> Place | None:
+        """Choose the next visit, which then is the one in hand.
+
+        Args:
+            made: How many visits were made.
+
+        Returns:
+            Its place; None where no visit comes any more.
+
+        Raises:
+            BlockedFault: All others are made, and one that had to be made could not be reached.
+            GivenUp, Over: As :func:`~fieldhand.execution.giving_up.admit`.
+        """
+        self.place, self._made = None, made
+        if self._ways != self.attempt.blockages.version:
+            self._look_again()
+        if self.left:
+            self.place = self._chosen() if self.node.optional else self._in_order()
+        elif self.cut_off:
+            self.place = self.cut_off[0].place
+        elif self._missed:
+            raise BlockedFault(f"{_missed(self._missed)}: {self._why}")
+        return self.place
+
+    def undone(self) -> tuple[Place, ...]:
+        """The places of the visits that are still to be made."""
+        return tuple(v.place for v in (*self.left, *self.cut_off))
+
+    def still_to_come(self) -> list[Visit]:
+        """The visits after the one in hand, as the guard sees them."""
+        if self.node.at_most is None:
+            return list(self.left)
+        return self.left[: max(0, self.node.at_most - self._made - 1)]
+
+    @property
+    def is_last_resort(self) -> bool:
+        """Whether the visit in hand is one that was put off: now it is worth waiting for."""
+        return bool(self.cut_off) and self.place == self.cut_off[0].place
+
+    def permit(self, place: Place) -> None:
+        """Ask the guard about a visit.
+
+        Raises:
+            GivenUp, Over: As :func:`~fieldhand.execution.giving_up.admit`.
+        """
+        visit = visit_to(self.attempt, place, self.node.body)
+        admit(self.attempt, visit, refused=[place, *self.undone()])
+
+    def arrived(self) -> None:
+        """The robot has come to the place in hand."""
+        if self.is_last_resort:
+            self.cut_off.pop(0)
+
+    def cannot_reach(self, fault: BlockedFault) -> None:
+        """Put the visit in hand off or, where that was done, give it up with all to which no way is left either."""
+        place = self.place
+        assert place is not None  # noqa: S101  a visit is in hand
+        if self.node.optional:
+            self._give_up([place], fault.what)
+        elif not self.is_last_resort and no_way(self.attempt, [place])[0]:
+            self.cut_off.append(visit_to(self.attempt, place, self.node.body))
+        else:
+            off = [v.place for v in self.cut_off]
+            gone = [p for p, cut in zip(off, no_way(self.attempt, off), strict=True) if cut]
+            given_up = [place, *(p for p in gone if p != place)] if self.is_last_resort else [place]
+            self.cut_off = [v for v in self.cut_off if v.place not in given_up]
+            self._missed += given_up
+            self._give_up(given_up, fault.what)
+
+    def _home(self) -> Place | None:
+        return home_if_last(self.attempt.task, self.attempt.site, self.node.id, self.attempt.here)
+
+    def _give_up(self, places: Sequence[Place], why: str) -> None:
+        self._why = why
+        choice, optional = Choice(index=None, reason=why), self.node.optional
+        shed(self.attempt, self.node.id, places, choice, optional=optional, cause="unreachable")
+
+    def _parted(self, places: Sequence[Place]) -> tuple[tuple[Place, ...], tuple[Place, ...]]:
+        """Those to which there is a way from where the robot stands, and those that what it found cuts off."""
+        gone = no_way(self.attempt, places)
+        return (
+            tuple(p for p, cut in zip(places, gone, strict=True) if not cut),
+            tuple(p for p, cut in zip(places, gone, strict=True) if cut),
+        )
+
+    def _look_again(self) -> None:
+        """The ways have changed: which places are cut off, from which side the others are reached, in which order."""
+        attempt, node = self.attempt, self.node
+        self._ways = attempt.blockages.version
+        if not attempt.blockages.stretches and not self.cut_off:
+            return
+        visits = {(v.place.kind, v.place.id): v for v in (*self.left, *self.cut_off)}
+        near, far = self._parted([v.place for v in visits.values()])
+        if node.optional and far:
+            self._give_up(far, "no way to it is left: what the robot found in its way closes it off")
+            far = ()
+        open_ = [replace(p, stand=None) if p.kind == "tree" else p for p in near]
+        ordered = standing(attempt.drives, attempt.standing, open_)
+        if node.order == "best" and not node.optional:
+            ordered = tuple(ordered[k] for k in order_visits(attempt.drives, attempt.standing, ordered, self._home()))
+        self.left = [replace(visits[p.kind, p.id], place=p) for p in ordered]
+        self.cut_off = [replace(visits[p.kind, p.id], place=replace(p, stand=None)) for p in far]
+
+    def _in_order(self) -> Place:
+        """The next visit in the order planned, if the guard permits it."""
+        visit = self.left.pop(0)
+        self.place = visit.place
+        admit(self.attempt, visit, refused=[visit.place, *self.undone()])
+        return visit.place
+
+    def _chosen(self) -> Place | None:
+        """Ask the guard which optional visit comes next, and say which are given up."""
+        attempt, node = self.attempt, self.node
+        at_most = None if node.at_most is None else node.at_most - self._made
+        state = attempt.state(node.id)
+        choice = attempt.guard.choose(state, list(self.left), at_most=at_most, still_to_come=to_come(attempt))
+        given_up = set(range(len(self.left))) if choice.index is None else set(choice.shed) - {choice.index}
+        if given_up:
+            places = [self.left[i].place for i in sorted(given_up)]
+            shed(attempt, node.id, places, choice, optional=True)
+        chosen = None if choice.index is None else self.left[choice.index].place
+        self.left = [v for i, v in enumerate(self.left) if i not in given_up and i != choice.index]
+        return chosen
+
+
+def _ids(places: Sequence[Place]) -> str:
+    return listed([p.id for p in places[:_NAMED]]) + (" and others" if len(places) > _NAMED else "")
+
+
+def _missed(places: Sequence[Place]) -> str:
+    if len(places) == 1:
+        return message("1 place could not be reached ({ids})", context="log", ids=_ids(places))
+    return message("{count} places could not be reached ({ids})", context="log", count=len(places), ids=_ids(places))
