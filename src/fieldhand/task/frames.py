@@ -104,9 +104,11 @@ class Budget:
 
 @dataclass(frozen=True, kw_only=True)
 class Constraints:
-    """Budgets, and the charge in percent that must be left at the end (None: the profile's own reserve).
+    """Limits of the whole mission.
 
     Attributes:
+        reserve_percent: The charge that must be left at the end; else the profile's own reserve.
+        speed_m_s: Drive no faster.
         reserve_said: Ranges of the request that ask for the reserve.
     """
 

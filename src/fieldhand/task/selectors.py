@@ -64,7 +64,7 @@ class GateIs:
 
 @dataclass(frozen=True, kw_only=True)
 class Here:
-    """The place in hand: where the robot last stopped."""
+    """The place in hand."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -98,7 +98,7 @@ class Corners:
 
 @dataclass(frozen=True, kw_only=True)
 class Extreme:
-    """The ``count`` trees farthest to one side ("the northernmost tree", "the 3 most eastern trees")."""
+    """The ``count`` trees farthest to one side ("the 3 most eastern trees")."""
 
     side: Side
     count: int = 1
@@ -152,7 +152,7 @@ class Quarter:
 
 @dataclass(frozen=True, kw_only=True)
 class Edge:
-    """Trees of ``of`` on the outermost line of one side of its ground: no tree stands beyond them within a spacing."""
+    """Trees of ``of`` on the outermost line of one side of its ground: no tree stands right beyond them."""
 
     side: Side
     of: Selector = Trees()
@@ -162,10 +162,9 @@ class Edge:
 class Nearest:
     """The ``count`` trees of ``of`` nearest to ``to`` that are not ``to``.
 
-    ``adjacent`` asks for neighbours ("next to"): the same row is preferred. ``fresh`` passes over trees that this
-    mission has visited already ("nearby"). ``side`` keeps those that lie in that direction from ``to`` ("its neighbour
-    on the east"), whatever half of the site they stand in. :class:`InZone` as ``to`` is the zone itself ("nearest to
-    the pond").
+    ``adjacent`` asks for neighbours ("next to"): the same row is preferred. ``fresh`` passes over trees that were
+    visited already ("nearby"). ``side`` keeps those that lie in that direction from ``to`` ("its neighbour
+    on the east"). :class:`InZone` as ``to`` is the zone itself ("nearest to the pond").
     """
 
     to: Selector
@@ -196,7 +195,7 @@ class Adjacent:
 
 @dataclass(frozen=True, kw_only=True)
 class Other:
-    """Trees that this mission has not visited ("another", "a different tree")."""
+    """Trees that this mission has not visited."""
 
     of: Selector = Trees()
 
@@ -279,10 +278,12 @@ class InBlock:
 
 @dataclass(frozen=True, kw_only=True)
 class Rows:
-    """Trees of row ``first`` (empty: the first) to row ``last`` (empty: the last), of every ``every``-th of these.
+    """Trees of row ``first`` (left out: the first) to row ``last`` (the last), or of each ``every``-th of these, from
+    ``first`` on.
 
     A row is called by its name, or by its number in the block; -1 is the last row. Numbers count from west, or from
-    north where rows run east-west, or from the side ``counted_from``. Of several blocks, ``of`` says which (InBlock).
+    north where rows run east-west, or from the side ``counted_from``. Of several blocks, ``of`` says which
+    (:class:`InBlock`).
     """
 
     first: str = ""
@@ -317,7 +318,8 @@ class InRow:
 
 @dataclass(frozen=True, kw_only=True)
 class EveryNth:
-    """Every ``nth`` tree along each row of ``of``, from the ``start``-th on; row by row where no row has ``nth``."""
+    """Every ``nth`` tree along each row of ``of``, from tree ``start`` on (1, 4, 7 for 3); they count as for
+    :class:`InRow`, on from row to row where no row has ``nth``."""
 
     nth: int
     start: int = 1
@@ -347,7 +349,8 @@ class Across:
 
 @dataclass(frozen=True, kw_only=True)
 class Successive:
-    """``count`` trees of one row, one after the other: of the rows that have as many, the nearest to ``near``."""
+    """``count`` trees of one row, one after the other: of the rows that have as many the nearest to ``near``, where it
+    is nearest, from the end that is nearer to it."""
 
     count: int
     near: Selector = Here()
@@ -375,8 +378,9 @@ class Nth:
 
 @dataclass(frozen=True, kw_only=True)
 class Spaced:
-    """``count`` free points ``apart_m`` metres apart (0: as many as fit) on a line beside a row of ``of``, the row
-    nearest to ``near``; without rows, or inside a ``zone``, on a straight line. Points are not trees."""
+    """``count`` free points ``apart_m`` metres apart, else as many as fit, on a line beside the row of ``of`` nearest
+    to ``near``, from its end nearer to that; without rows, or inside a ``zone``, on a straight line. Points are no
+    trees."""
 
     apart_m: float
     count: int = 0
@@ -387,7 +391,8 @@ class Spaced:
 
 @dataclass(frozen=True, kw_only=True)
 class Apart:
-    """``count`` trees of ``of``, each about ``apart_m`` metres from the one before it, or ``least`` so far from all."""
+    """``count`` trees of ``of``, each about ``apart_m`` metres from the one before it; with ``least``, at least so far
+    from all."""
 
     apart_m: float
     count: int
@@ -397,7 +402,7 @@ class Apart:
 
 @dataclass(frozen=True, kw_only=True)
 class PointsIn:
-    """``count`` free points spread evenly over a zone; one point is its middle. Points are not trees."""
+    """``count`` free points spread evenly over a zone; one point is its middle."""
 
     zone: str
     count: int = 1

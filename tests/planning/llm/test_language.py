@@ -8,13 +8,18 @@ from itertools import pairwise
 from typing import get_args
 
 import pytest
+from lxml import etree
 
 from fieldhand.errors import ModelError
 from fieldhand.planning.llm import language
 from fieldhand.planning.llm.language import DERIVED, describe_language
 from fieldhand.planning.llm.prompt import instructions
+from fieldhand.planning.llm.review import read_draft
+from fieldhand.robot.capabilities import capabilities_of
+from fieldhand.robot.loader import load_robot
 from fieldhand.task import plan
 from fieldhand.task.capabilities import Capabilities
+from fieldhand.task.codec import Draft
 from fieldhand.task.codec_shapes import all_shapes, element_name, shape_of
 from fieldhand.task.conditions import Condition
 from fieldhand.task.plan import Node
@@ -22,6 +27,10 @@ from fieldhand.task.schema import schema_xsd
 from fieldhand.task.selectors import Selector
 from strategies import ROVER
 
+HUSKY, AMIGA = capabilities_of(load_robot("husky")), capabilities_of(load_robot("amiga"))
+#: Parts of a draft that the program writes.
+UNSHOWN = {"resources", "resource", "state", "variable", "goals", "goal", "warnings", "warning", "read-as", "request"}
+UNWRITTEN = DERIVED | {"expected", "node", "conditional", "value-as", "sha256", "action"}
 EVERY = [*get_args(Node), *get_args(Condition), *get_args(Selector)]
 
 
@@ -43,8 +52,8 @@ def test_every_element_that_is_named_stands_in_the_schema() -> None:
 
 
 def test_a_default_that_changes_the_meaning_is_shown() -> None:
-    assert 'count="int (2)"' in paragraphs()["adjacent"][0]
-    assert 'count="int (1)"' in paragraphs()["nearest"][0]
+    assert '[count="2"]' in paragraphs()["adjacent"][0]
+    assert '[count="1"]' in paragraphs()["nearest"][0]
 
 
 def test_nothing_of_python_is_left() -> None:
@@ -75,6 +84,57 @@ def test_what_stands_for_a_selector_that_is_left_out_is_shown() -> None:
     for name in ("along-row", "across"):
         assert "[S = origin (<here/>)]" in forms[name]
     assert forms["half"].endswith(">[S]")
+
+
+def filled(form: str, *, whole: bool) -> str:
+    """A form of the prompt as an element: one value for each placeholder, optional parts in it or left out."""
+    form = re.sub(r"\[((?:[^\[\]]|\[[^\]]*\])*)\]", r"\1" if whole else "", form)
+    form = re.sub(r"\bOF\b", "<of>S</of>", form).replace(" = origin", "").replace(" (<here/>)", "")
+    form = re.sub(r"<(budget|faulted)/>", lambda m: filled(paragraphs()[m[1]][0], whole=whole), form)
+    for short, one in (("SIDE", "north"), ("TEST", "lt"), ("some of: ", ""), ("int", "1"), ("number", "0.5")):
+        form = form.replace(f'"{short}', f'"{one}')
+    form = re.sub(r'"([^"|]*)\|[^"]*"', r'"\1"', form)
+    name, heads = re.split(r"[\s>/]", form[1:])[0], {"ACTION": "drive", "QUANTITY": "height"}
+    for letter, inner in (("S", "<trees/>"), ("N", "<stop/>"), ("C", '<tree-has attribute="a" test="eq" value="1"/>')):
+        form = re.sub(rf"(?<=>)\s*{letter}(\.\.\.)?|(?<=> ){letter}(\.\.\.)?", inner, form)
+    form = form.replace("...", "")
+    for placeholder, head in heads.items():
+        form = form.replace(placeholder, head)
+    return form if form.rstrip().endswith("/>") and form.count("<") == 1 else f"{form}</{name}>"
+
+
+@pytest.mark.parametrize("whole", [True, False], ids=["whole", "least"])
+@pytest.mark.parametrize("cls", EVERY, ids=lambda cls: cls.__name__)
+def test_every_form_that_is_shown_is_valid_with_all_that_may_be_left_out_and_without(cls: type, whole: bool) -> None:
+    action, quantity = next(iter(HUSKY.actions)), "co2"
+    element = filled(paragraphs()[element_name(cls)][0], whole=whole).replace("<drive/>", f"<{action}/>")
+    element = (
+        element.replace("<height ", f"<{quantity} ")
+        .replace('unit="name"', 'unit="ppm"')
+        .replace('level="name"', 'level="low"')
+    )
+    if cls in get_args(Selector):
+        element = f"<go-to>{element}</go-to>"
+    elif cls in get_args(Condition):
+        element = f"<if><condition>{element}</condition><then><stop/></then></if>"
+    document = f"<task><task-composition><plan>{element}</plan></task-composition></task>"
+    draft = read_draft(document, HUSKY)
+    assert isinstance(draft, Draft), (element, draft)
+
+
+def test_every_element_and_attribute_of_the_schema_is_in_the_prompt() -> None:
+    schema = etree.fromstring(schema_xsd(AMIGA, draft=True))
+    xs = "{http://www.w3.org/2001/XMLSchema}"
+    own = {*AMIGA.actions, *AMIGA.quantities}
+    heads = [e for e in schema.iter(f"{xs}element") if e.get("name") in own]
+    parameters = {a.get("name") for head in heads for a in head.iter(f"{xs}attribute")}
+    text = instructions()
+    for element in schema.iter(f"{xs}element"):
+        name = element.get("name")
+        assert name is None or name in own | UNSHOWN or re.search(rf"<{name}[\s>/]", text), name
+    for attribute in schema.iter(f"{xs}attribute"):
+        name = attribute.get("name")
+        assert name is None or name in UNWRITTEN | parameters or f'{name}="' in text, name
 
 
 def test_every_element_and_attribute_that_the_rules_and_examples_write_is_of_the_language() -> None:

@@ -9,15 +9,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fieldhand import mission
 from fieldhand.planning.llm.answer import QuestionAnswer, RefusalAnswer, TaskAnswer, read_answer
 from fieldhand.planning.llm.chat import Reply
 from fieldhand.planning.llm.examples import EXAMPLES, ROBOT
 from fieldhand.planning.llm.prompt import LONGEST_LINE, MOST_DATA, fenced, instructions, opening, repair, robot_lines
 from fieldhand.planning.llm.review import read_draft, review
+from fieldhand.planning.planner import Planned
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import builtin_names, load_robot
 from fieldhand.site.model import Site
 from fieldhand.task.codec import Draft
+from scripted_chat import ScriptedChat, planner_of
 from site_grids import LAT, LON, grid
 from sites import area, point, read
 
@@ -138,6 +141,17 @@ def test_every_example_is_a_good_answer_for_the_robot_that_it_names(request_: st
     assert isinstance(draft, Draft), draft
     assert review(draft, grid(6, 8), capabilities) == ()
     assert request_ in instructions()
+
+
+@pytest.mark.parametrize(("request_", "answer"), EXAMPLES)
+def test_every_plan_of_the_examples_passes_every_check_and_quotes_every_word(request_: str, answer: str) -> None:
+    if "<task" not in answer:
+        return
+    site, robot, chat = grid(6, 8), load_robot(ROBOT), ScriptedChat(answer)
+    planned = planner_of(chat).plan(request_, site, robot)
+    assert isinstance(planned, Planned)
+    assert len(chat.told) == 1
+    assert mission.review(planned.task, site, robot).warnings == ()
 
 
 def test_the_examples_show_each_kind_of_answer() -> None:

@@ -52,7 +52,7 @@ def describe_language() -> str:
         f"## {title}\n" + "\n".join(_paragraph(shape_of(cls)) for cls in classes) for title, classes in sections
     ]
     short = "; ".join(f"{word} is {choices}" for word, choices in ABBREVIATED.items())
-    return "\n\n".join([f"In these forms {short}.", *rendered, f"## How nodes behave\n{_behaviour()}"])
+    return "\n\n".join([f"In these forms {short}.", *rendered])
 
 
 def _paragraph(shape: Shape) -> str:
@@ -83,8 +83,8 @@ def _attribute(attribute: Attribute) -> str:
             value = f"some of: {' '.join(attribute.choices)}"
         case kind:
             value = _KINDS.get(kind, kind)
-    if attribute.kind == "integer" and isinstance(attribute.default, int):
-        value = f"{value} ({attribute.default})"
+    if attribute.kind == "integer" and isinstance(attribute.default, int) and attribute.default:
+        value = str(attribute.default)
     written = f'{attribute.name}="{value}"'
     return written if attribute.default is MISSING else f"[{written}]"
 
@@ -95,6 +95,8 @@ def _child(child: Child) -> str:
     part = letter or "".join(f"<{element_name(option)}/>" for option in child.options)
     many = f"{part}..." if child.kind == "many" else part
     whole = many if child.direct else f"<{child.name}>{many}</{child.name}>"
+    if child.name == "of" and not child.direct:
+        whole = "OF"
     return whole if child.default is MISSING else f"[{whole}]"
 
 
@@ -109,6 +111,8 @@ def _unless_given(child: Child) -> str:
 def _meaning(shape: Shape) -> str:
     """The docstring on one line, its attributes after it."""
     text, _, attributes = inspect.cleandoc(shape.cls.__doc__ or "").partition("\n\nAttributes:\n")
+    if shape.cls in get_args(Node):  # how it is carried out is for whoever does it
+        text = text.partition("\n\n")[0]
     shown = {a.field for a in shape.attributes if a.name not in DERIVED} | {child.field for child in shape.children}
     attributes = "\n".join(line for line in _entries(attributes) if _named(line) & shown)
     attributes = re.sub(r"(?m)^ {4}(\w+(?:, \w+)*):", lambda m: f"{m[1].replace('_', '-')}:", attributes)
@@ -122,13 +126,6 @@ def _entries(attributes: str) -> list[str]:
 
 def _named(entry: str) -> set[str]:
     return set(re.findall(r"\w+", entry.partition(":")[0]))
-
-
-def _behaviour() -> str:
-    """What the module of the plan nodes says about how they behave."""
-    _, _, behaviour = inspect.cleandoc(plan.__doc__ or "").partition("How they behave")
-    bullets = behaviour.partition("\n\n")[2].split("\n* ")
-    return "\n".join(f"- {_plain(bullet.removeprefix('* '))}" for bullet in bullets)
 
 
 def _plain(text: str) -> str:

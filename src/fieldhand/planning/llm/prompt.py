@@ -32,7 +32,7 @@ from fieldhand.task.selectors import Selector
 MOST_DATA = 4_000
 LONGEST_LINE = 400
 #: Most tokens of the first two messages, without the request; a site gets what the rest leaves of them, within bounds.
-MOST_TOKENS = 5_960
+MOST_TOKENS = 5_970
 SITE_TOKENS = (250, 800)
 #: Words that are shown for one action or quantity.
 SAID_WORDS = 5

@@ -17,16 +17,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Act(PlanNode):
-    """An atomic task: one action of the robot's profile.
+    """One action of the robot.
 
     It drives to its place, which the selector must give alone, binds that, and makes its captures there. Without a
     place of its own it is work at the place in hand: a robot that a failed drive left elsewhere drives back there.
     What an earlier round read is forgotten first, so that it decides nothing if this one fails.
 
     Attributes:
-        at: Where; else at the place in hand.
+        at: Where; else the place in hand.
         at_said: Those of its ranges of the request that say where.
-        count: How many captures at that place.
+        count: Captures at that place.
         parameters: Name and value of each parameter that the profile declares for the action.
         label: Binds the place for later nodes.
         reading: Binds what the action measures, of several captures the last.

@@ -25,11 +25,11 @@ class ForEach(PlanNode):
     Afterwards the label means every place that was visited.
 
     Attributes:
-        label: Name under which ``body`` finds the place (``Bound(label=...)``).
+        label: Names the place for ``Bound(label=...)`` in ``body``.
         order: ``best`` drives least; ``given`` keeps the order of the selector.
-        optional: Visits may be shed by the budget guard, least worth first ("as many as you can").
+        optional: Visits, in no given order, may be shed by the budget guard, least worth first ("as many as you can").
         at_most: Stop after that many visits ("up to 6").
-        reward: Attribute that says what a visit is worth; else every visit is worth 1.
+        reward: Attribute that a visit is worth; else each is worth 1.
         until: Stop once this holds after a visit.
     """
 
