@@ -14,6 +14,7 @@ from typing import Literal
 
 from fieldhand.clock import Clock, WallClock
 from fieldhand.errors import ActionFault, BlockedFault, DriveFault, FieldhandError, LostFault, PlaceError
+from fieldhand.execution.battery import BatteryMeter
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, Progress
 from fieldhand.execution.guard import Guard
 from fieldhand.execution.recording import OpenCapture, OpenDrive, end_capture, end_drive, joules_done
@@ -125,6 +126,13 @@ class Attempt:
         self.what = ""
         self.halted = False
         self.watch = Watch(self, lookout or NoLookout())
+        self._battery = BatteryMeter(
+            self._full,
+            clock.now(),
+            hold_s=robot.energy.hold_s,
+            fastest=self.watch.fastest,
+            levels=self.watch.charge_levels(self._full),
+        )
 
     @property
     def t(self) -> float:
@@ -141,7 +149,7 @@ class Attempt:
                 metres += progress.metres
             else:
                 joules += joules_done(self.robot.action[goal.action], progress)
-        percent = self._full - self.driver.charge_percent()
+        percent = self._full - self.charge_percent()
         return Spent(metres=metres, seconds=self.t, percent=percent, joules=joules)
 
     @property
@@ -158,6 +166,14 @@ class Attempt:
     def facts(self) -> Facts:
         """What a condition is tested against now."""
         return Facts(site=self.site, robot=self.robot, here=self.here, readings=self.readings)
+
+    def charge_percent(self) -> float:
+        """Return the charge that counts: what the driver says, without single false readings."""
+        return self._battery.read(self.driver.charge_percent(), self.clock.now())
+
+    def next_reading_in(self) -> float:
+        """Return seconds until the battery's meter is to be read again, after a reading that surprised."""
+        return self._battery.next_reading_in(self.clock.now())
 
     def emit(self, event: Event) -> None:
         """Record what happened; first that the wall clock was set, if it was."""
@@ -211,7 +227,7 @@ class Attempt:
             node=node,
             context=self._context(self.standing),
             spent=self.spent,
-            charge_percent=self.driver.charge_percent(),
+            charge_percent=self.charge_percent(),
             rounds=self.run.rounds,
         )
 

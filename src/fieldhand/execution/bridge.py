@@ -123,7 +123,7 @@ class Bridge:
         self._cuts = self.witness.cuts
         attempt = self.attempt
         at = attempt.driver.position()
-        attempt.emit(Resumed(t=attempt.t, lat=at.lat, lon=at.lon, charge_percent=attempt.driver.charge_percent()))
+        attempt.emit(Resumed(t=attempt.t, lat=at.lat, lon=at.lon, charge_percent=attempt.charge_percent()))
 
     def _tell_way(self, way: DriveGoal) -> None:
         attempt, doing = self.attempt, self.attempt.doing
@@ -156,6 +156,6 @@ class Bridge:
                 lon=goal.place.lon,
                 attempt=doing.number if isinstance(doing, OpenCapture) else 1,
                 what=progress.what,
-                charge_percent=attempt.driver.charge_percent(),
+                charge_percent=attempt.charge_percent(),
             )
         )

@@ -183,7 +183,7 @@ def _arrive_in_place(attempt: Attempt, node: str, place: Place) -> None:
             lon=position.lon,
             leg_m=0.0,
             travelled_m=attempt.travelled_m,
-            charge_percent=attempt.driver.charge_percent(),
+            charge_percent=attempt.charge_percent(),
         )
     )
 

@@ -52,7 +52,7 @@ def end_drive(attempt: Attempt, open_: OpenDrive, progress: Progress) -> None:
             lon=position.lon,
             leg_m=progress.metres,
             travelled_m=attempt.travelled_m,
-            charge_percent=attempt.driver.charge_percent(),
+            charge_percent=attempt.charge_percent(),
         )
     )
 
@@ -87,7 +87,7 @@ def end_capture(attempt: Attempt, open_: OpenCapture, progress: Progress) -> Pro
             readings={q: progress.readings[q] for q in measures} if done else {},
             units={q: attempt.robot.quantity[q].unit for q in measures} if done else {},
             what=progress.what,
-            charge_percent=attempt.driver.charge_percent(),
+            charge_percent=attempt.charge_percent(),
         )
     )
     return progress

@@ -178,7 +178,7 @@ def _start(attempt: Attempt) -> None:
             site=attempt.site.name,
             lat=position.lat,
             lon=position.lon,
-            charge_percent=attempt.driver.charge_percent(),
+            charge_percent=attempt.charge_percent(),
             seed=attempt.driver.seed,
             at=attempt.time_of_day.began_at,
             reserve_percent=reserve_percent(attempt.task.constraints, attempt.robot),
@@ -378,7 +378,7 @@ def _end(attempt: Attempt, ending: Ending) -> Result:
         lat=position.lat,
         lon=position.lon,
         travelled_m=attempt.travelled_m,
-        charge_percent=attempt.driver.charge_percent(),
+        charge_percent=attempt.charge_percent(),
         reason=ending.reason if ending.status != "completed" else "",
     )
     found = exceeded(attempt.task.constraints, [*attempt.events, ended])

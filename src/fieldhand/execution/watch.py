@@ -126,7 +126,15 @@ class Watch:
         self._crossed: set[_Level] = set()
         self._homes: tuple[tuple[tuple[float, float], ...], float, float] | None = None
         self._foreseen: set[Phase] = set()
-        self._fastest = FASTEST * _fastest_percent_per_s(attempt)
+        #: Percent a second that a battery loses at most.
+        self.fastest = FASTEST * _fastest_percent_per_s(attempt)
+
+    def charge_levels(self, full: float) -> tuple[float, ...]:
+        """Return the percents of charge at which something follows, of a mission that begins with ``full``."""
+        return (
+            *(level.threshold for level in self._levels if level.quantity == "charge_percent"),
+            *(full - level.threshold for level in self._levels if level.quantity == "energy_percent"),
+        )
 
     def turn(self, phase: Phase) -> None:
         """Begin a phase of the mission; what the alarm asked for is done."""
@@ -134,7 +142,7 @@ class Watch:
 
     def look(self) -> None:
         """Take a look at the robot: write down what was crossed, and raise the alarm where something follows."""
-        spent, charge = self._attempt.spent, self._attempt.driver.charge_percent()
+        spent, charge = self._attempt.spent, self._attempt.charge_percent()
         values: dict[Crossable, float] = {
             "charge_percent": charge,
             "distance_m": spent.metres,
@@ -160,16 +168,18 @@ class Watch:
         """
         seconds = self._attempt.t + now - self._attempt.clock.now()
         values: dict[Crossable, float] = {"charge_percent": charge, "duration_s": seconds}
+        if self._attempt.next_reading_in() > 0.0 and math.isfinite(self._attempt.next_reading_in()):
+            del values["charge_percent"]  # it was read a moment ago
         open_ = (level for level in self._levels if level not in self._crossed and level.quantity in values)
         return any(level.is_crossed(values[level.quantity]) for level in open_)
 
     def next_look_in(self) -> float:
         """Return seconds until something could be crossed, at the earliest."""
-        spent, charge = self._attempt.spent, self._attempt.driver.charge_percent()
-        speed, found = _SPEED * self._attempt.robot.speed_m_s, [math.inf]
+        spent, charge = self._attempt.spent, self._attempt.charge_percent()
+        speed, found = _SPEED * self._attempt.robot.speed_m_s, [self._attempt.next_reading_in()]
         pace: dict[Crossable, float] = {
-            "charge_percent": self._fastest,
-            "energy_percent": self._fastest,
+            "charge_percent": self.fastest,
+            "energy_percent": self.fastest,
             "distance_m": speed,
             "duration_s": 1.0,
         }
@@ -211,7 +221,7 @@ class Watch:
             metres = attempt.drives.between(attempt.standing, home).length_m
         except DriveFault:
             return False
-        return self._ask(attempt.spent, attempt.driver.charge_percent(), (metres, 0.0, 0.0)).alarm == "none"
+        return self._ask(attempt.spent, attempt.charge_percent(), (metres, 0.0, 0.0)).alarm == "none"
 
     # --- crossings -----------------------------------------------------------------------------------------------
 
@@ -257,7 +267,7 @@ class Watch:
             lat=at.lat,
             lon=at.lon,
             travelled_m=attempt.spent.metres,
-            charge_percent=attempt.driver.charge_percent(),
+            charge_percent=attempt.charge_percent(),
         )
         attempt.emit(event)
         if then != "go_on" and self.alarm != "stop":

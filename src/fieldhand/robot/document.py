@@ -13,7 +13,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from fieldhand.robot.bindings_document import Ros2Document
 from fieldhand.robot.fields import Keyed, Name, NotNegative, Number, Positive, Unit, each_once, no_bool
-from fieldhand.robot.model import InDoubtPolicy
+from fieldhand.robot.model import HOLD_S, InDoubtPolicy
 from fieldhand.task.capabilities import RESERVED_ACTIONS
 
 
@@ -160,6 +160,7 @@ class EnergyDocument(Keyed):
     warn_percent: Annotated[Number, Field(ge=0, le=100)] | None = None
     return_percent: Annotated[Number, Field(ge=0, le=100)] | None = None
     stop_percent: Annotated[Number, Field(ge=0, lt=100)] | None = None
+    hold_s: Annotated[Number, Field(ge=0, le=60)] = HOLD_S
 
     @model_validator(mode="after")
     def _levels(self) -> EnergyDocument:

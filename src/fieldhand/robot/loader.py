@@ -194,6 +194,7 @@ def _profile(document: ProfileDocument, *, sha256: str, source: str) -> RobotPro
             warn_percent=energy.warn_percent,
             return_percent=energy.return_percent,
             stop_percent=energy.stop_percent,
+            hold_s=energy.hold_s,
         ),
         leg_cost=LegCost(alpha=document.leg_cost.alpha),
         retries=document.retries,

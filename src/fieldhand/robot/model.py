@@ -129,6 +129,10 @@ class BatteryLevels:
     stop: float
 
 
+#: Seconds for which a surprising charge has to be read before it counts, unless the profile says otherwise.
+HOLD_S = 3.0
+
+
 @dataclass(frozen=True, kw_only=True)
 class Energy:
     """Energy store and what empties it.
@@ -140,6 +144,7 @@ class Energy:
         reserve_percent: Charge that must be left at the end of a mission unless the Task says otherwise.
         warn_percent, return_percent, stop_percent: Levels of the charge; None for those that follow from the reserve
             (:meth:`levels`).
+        hold_s: Seconds for which a charge that surprises has to be read before it counts.
     """
 
     capacity_j: float
@@ -149,6 +154,7 @@ class Energy:
     warn_percent: float | None = None
     return_percent: float | None = None
     stop_percent: float | None = None
+    hold_s: float = HOLD_S
 
     def levels(self, reserve_percent: float) -> BatteryLevels:
         """Return the levels of a mission that has to leave so much charge.

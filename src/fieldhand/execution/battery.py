@@ -1,0 +1,96 @@
+"""The charge that a mission acts on and records: the battery's meter, without its single false readings.
+
+A meter may say for one moment that the battery is empty, or full. Like the battery failsafe of a flight controller, a
+reading that the battery's model does not explain, or that would cross a level, counts once readings have stayed on that
+side for a short time; then the mildest of them counts. Every other reading counts at once.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+#: Readings at different times that a surprise takes before it counts.
+LEAST_READINGS = 3
+#: Percent by which a sound meter may jump at once: the steps in which most of them count.
+STEP_PERCENT = 1.0
+#: Seconds within which two times are one: clocks add floating-point numbers.
+_SAME_S = 1e-9
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Surprise:
+    """A reading that does not count yet; ``explained`` where the battery can have come to it, past a level."""
+
+    at: float
+    percent: float
+    explained: bool
+
+
+class BatteryMeter:
+    """Takes the readings of a battery's meter as they come.
+
+    Args:
+        percent: The first reading.
+        now: Of the mission's clock, in seconds.
+        hold_s: Seconds for which a surprise has to last, 0 to believe every reading at once. A charge that the battery
+            can have come to lasts for no longer than it takes to lose :data:`STEP_PERCENT`.
+        fastest: Percent that the battery loses in a second, at most, however bad it is.
+        levels: Percents at which something follows.
+
+    Attributes:
+        percent: The charge that counts.
+    """
+
+    def __init__(
+        self, percent: float, now: float, *, hold_s: float, fastest: float, levels: Sequence[float] = ()
+    ) -> None:
+        self.percent = percent
+        self._at, self._hold_s, self._fastest, self._levels = now, hold_s, fastest, tuple(levels)
+        self._explained_s = min(hold_s, STEP_PERCENT / fastest) if fastest > 0.0 else hold_s
+        self._odd: deque[_Surprise] = deque()
+        self._falls = False
+
+    def read(self, percent: float, now: float) -> float:
+        """Take a reading; return the charge that counts. A reading that is no number says nothing."""
+        if not math.isfinite(percent):
+            return self.percent
+        explained = self._is_explained(percent, now)
+        if self._hold_s <= 0.0 or (explained and not any(percent <= level < self.percent for level in self._levels)):
+            self.percent, self._at = percent, now
+            self._odd.clear()
+            return percent
+        self._keep(_Surprise(at=now, percent=percent, explained=explained))
+        if len(self._odd) >= LEAST_READINGS and now - self._odd[0].at >= self._lasts_s - _SAME_S:
+            held = [odd.percent for odd in self._odd]
+            self.percent, self._at = max(held) if self._falls else min(held), now
+            while now - self._odd[0].at > self._lasts_s:
+                self._odd.popleft()
+        return self.percent
+
+    def next_reading_in(self, now: float) -> float:
+        """Return seconds until the next reading is wanted: soon after a surprise, else never (infinity)."""
+        if not self._odd:
+            return math.inf
+        return max(0.0, self._odd[-1].at + self._lasts_s / (LEAST_READINGS - 1) - now)
+
+    @property
+    def _lasts_s(self) -> float:
+        """Seconds for which the surprise in hand has to last."""
+        return self._explained_s if all(odd.explained for odd in self._odd) else self._hold_s
+
+    def _is_explained(self, percent: float, now: float) -> bool:
+        """Return True if the battery can have come to that charge since the last one that counts."""
+        fell = self.percent - percent
+        return -STEP_PERCENT <= fell <= STEP_PERCENT + self._fastest * max(0.0, now - self._at)
+
+    def _keep(self, odd: _Surprise) -> None:
+        falls = odd.percent < self.percent
+        if falls != self._falls:
+            self._odd.clear()
+        elif self._odd and self._odd[-1].at >= odd.at:
+            self._odd.pop()  # several looks at one moment are one reading
+        self._falls = falls
+        self._odd.append(odd)
