@@ -19,6 +19,8 @@ sys.path.insert(0, str(SOURCE.parent))
 
 from fieldhand.language.message import Message  # noqa: E402
 from fieldhand.language.po import Entry, read_entries  # noqa: E402
+from fieldhand.planning.english.languages import known_languages  # noqa: E402
+from fieldhand.planning.english.vocabulary import vocabulary  # noqa: E402
 from fieldhand.robot.loader import builtin_names, load_robot  # noqa: E402
 from fieldhand.site.places.attribute_words import say_attribute, say_with_article  # noqa: E402
 from fieldhand.task.words import say_action, say_captures, say_name  # noqa: E402
@@ -27,6 +29,17 @@ from fieldhand.task.words import say_action, say_captures, say_name  # noqa: E40
 ATTRIBUTES = (
     *("variety", "cultivar", "species", "rootstock", "age_years", "yield_kg", "reward", "leaf_color", "color"),
     *("height_m", "diameter_cm", "health", "status", "condition", "planted", "priority", "row", "block"),
+)
+#: Why a file is not read (`fieldhand.files`, which knows no language), and what the system says of files.
+FILE_FAULTS = (
+    "cannot be read: {reason}",
+    "is larger than {most} bytes",
+    "is not a file",
+    "there is no such file",
+)
+SYSTEM_REASONS = (
+    *("No such file or directory", "Permission denied", "Is a directory", "Not a directory"),
+    *("No space left on device", "Read-only file system", "Input/output error"),
 )
 COLOURS = ("yellow", "green", "brown", "red", "healthy", "sick", "dead", "young", "old")
 
@@ -93,6 +106,29 @@ def _of_data() -> Iterator[Entry]:
         yield Entry(template=role, context="role", said=())
     for way in ("return to end", "return to start", "stay"):
         yield Entry(template=way, context="way", said=())
+    for state in ("running", "paused", "interrupted", "ended"):
+        yield Entry(template=state, context="state", said=())
+    for ending in ("completed", "returned", "exceeded", "faulted", "aborted"):
+        yield Entry(template=ending, context="ending", said=())
+    for outcome in ("success", "failure", "indeterminate"):
+        yield Entry(template=outcome, context="outcome", said=())
+    for order in ("pause", "continue", "return", "abort"):
+        yield Entry(template=order, context="order", said=())
+    for fault in FILE_FAULTS:
+        yield Entry(template=fault, context="file", said=())
+    for reason in SYSTEM_REASONS:
+        yield Entry(template=reason, context="reason", said=())
+    for unit in ("metres", "seconds", "percent"):
+        yield Entry(template=unit, context="unit", said=())
+    for language in known_languages():
+        yield Entry(template=language, context="language", said=())
+    for hint in sorted(
+        {known["attribute"] for part in ("superlatives", "compare_attribute") for known in vocabulary()[part]}
+    ):
+        if hint:
+            yield Entry(template=hint, context="attribute hint", said=())
+    for advice in (known["advice"] for part in ("unheld", "not_yet") for known in vocabulary()[part]):
+        yield Entry(template=advice, context="advice", said=())
 
 
 def _entry(said: str) -> Entry:

@@ -33,7 +33,7 @@ A message says what is wrong, where, and what to do. ``exit_status`` is what a c
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from fieldhand.visible import visible
 
@@ -93,9 +93,17 @@ class FieldhandError(Exception):
         super().__init__(str(self))
 
     def __str__(self) -> str:
-        at = f"{self.where}: " if self.where else ""
-        todo = f"; {self.advice}" if self.advice else ""
-        return f"{at}{self.what}{todo}"
+        return self.said(str)
+
+    def said(self, say: Callable[[str], str]) -> str:
+        """Return the line that a person reads.
+
+        Args:
+            say: Says each part, in some language.
+        """
+        at = f"{say(self.where)}: " if self.where else ""
+        todo = f"; {say(self.advice)}" if self.advice else ""
+        return f"{at}{say(self.what)}{todo}"
 
 
 def _cut(text: str, longest: int) -> str:
@@ -184,13 +192,14 @@ class NotConfirmedError(NotApprovedError):
     """A Task has warnings that nobody has confirmed.
 
     Args:
+        what: Which ones, in words.
         warnings: Each as it was shown, and as it has to be confirmed.
         advice: What to do.
     """
 
-    def __init__(self, warnings: tuple[str, ...], *, advice: str) -> None:
+    def __init__(self, what: str, warnings: tuple[str, ...], *, advice: str) -> None:
         self.warnings = warnings
-        super().__init__(f"not confirmed: {'; '.join(warnings)}", advice=advice)
+        super().__init__(what, advice=advice)
 
 
 class NotTrustedError(NotApprovedError):

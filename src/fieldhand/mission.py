@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from fieldhand.brief import brief_repr
 from fieldhand.errors import InputError, RequestError
 from fieldhand.files import state_folder
+from fieldhand.language import message
 from fieldhand.planning.planner import Answer, Outcome, Planner
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -111,7 +112,11 @@ def make_planner(
         ModelError: ``llm`` was asked for and no model is configured, or one is configured wrongly.
     """
     if name not in PLANNERS:
-        raise InputError(f"no planner '{name}'", where="--planner", advice=f"choose one of {', '.join(PLANNERS)}")
+        raise InputError(
+            message("no planner '{name}'", name=name),
+            where="--planner",
+            advice=message("choose one of {planners}", planners=", ".join(PLANNERS)),
+        )
     from fieldhand.planning.auto import AutoPlanner
     from fieldhand.planning.english.planner import EnglishPlanner
 
@@ -148,12 +153,18 @@ def plan(request: str, site: Site, robot: RobotProfile, planner: Planner, answer
         ModelError: A language model was needed and could not be used.
     """
     if not request.strip():
-        raise RequestError("the request is empty", advice="say what the robot should do, and at which trees")
-    for what, said in (("request", request), *(("answer", answer.answer) for answer in answers)):
+        raise RequestError(
+            message("the request is empty"), advice=message("say what the robot should do, and at which trees")
+        )
+    for what, said in ((message("request"), request), *((message("answer"), answer.answer) for answer in answers)):
         hidden = find_hidden(said, lines=True)
         if hidden is not None:
-            where = f"the {what}, character {hidden.at + 1}"
-            raise RequestError(f"nobody can see the character {hidden.name}", where=where, advice="leave it out")
+            where = message("the {what}, character {number}", what=what, number=hidden.at + 1)
+            raise RequestError(
+                message("nobody can see the character {name}", name=hidden.name),
+                where=where,
+                advice=message("leave it out"),
+            )
     return planner.plan(request, site, robot, answers)
 
 
@@ -165,7 +176,7 @@ def read_task(path: Path, robot: RobotProfile) -> tuple[Task, bytes]:
     """
     from fieldhand.task.codec_xml import read_xml
 
-    document = read_xml(path, advice="give a Task document that fieldhand plan wrote")
+    document = read_xml(path, advice=message("give a Task document that fieldhand plan wrote"))
     return decode_task(document, robot, source=str(path)), document
 
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from fieldhand import mission
 from fieldhand.errors import InputError, OutputError
 from fieldhand.files import state_folder
+from fieldhand.language import message
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
@@ -61,7 +62,9 @@ def read_log(path: Path) -> Log:
 
     events = read_mcap(path) if is_mcap(path) else read_events(path, whole=False)
     if not events:
-        raise InputError("holds no event", where=str(path), advice="give a log that fieldhand run wrote")
+        raise InputError(
+            message("holds no event"), where=str(path), advice=message("give a log that fieldhand run wrote")
+        )
     return Log(events=events, where=str(path), sha256=hashlib.sha256(path.read_bytes()).hexdigest())
 
 

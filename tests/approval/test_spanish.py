@@ -51,7 +51,7 @@ def _catalogue_words() -> tuple[set[str], set[str]]:
         if entry.template:
             english |= words_of(entry.template) | words_of(entry.many)
             for said in entry.said:
-                spanish |= words_of(said)
+                spanish |= words_of(re.sub("«[^»]*»", "", said))  # what is quoted is to be typed, in English
     return english, spanish
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from importlib import resources
 
 import pytest
 
@@ -12,27 +11,11 @@ from faulted_flights import Flown, fly
 from fieldhand.evaluation.outcome import judge_end
 from fieldhand.evaluation.standing import standing
 from fieldhand.evaluation.telling import Teller, goal_names
-from fieldhand.language import Language, kept_in_log, open_language
-from fieldhand.language.catalogue import _translations
-from fieldhand.language.po import Entry, read_entries
+from fieldhand.language import kept_in_log, open_language
+from silent_language import silent_language
 
 SPANISH = open_language("es")
 SEEDS = range(16)
-
-
-def silent() -> Language:
-    """A language that has every sentence and says it without its words: only what fills it is left."""
-    file = resources.files("fieldhand.language") / "locale" / "es" / "LC_MESSAGES" / "fieldhand.po"
-    entries = [
-        Entry(
-            template=e.template,
-            many=e.many,
-            context=e.context,
-            said=tuple(" ".join(re.findall(r"\{\w+\}", text)) or " " for text in e.said) if e.template else e.said,
-        )
-        for e in read_entries(file.read_text(encoding="utf-8"))
-    ]
-    return Language(code="xx", name="", translations=_translations(entries), melts={}, patterns=SPANISH.patterns)
 
 
 def printed(flown: Flown) -> Iterator[str]:
@@ -63,13 +46,13 @@ def test_no_sentence_of_a_mission_with_faults_is_without_translation(seed: int) 
     flown = fly(seed, demo=False)
     known, left = names(flown), []
     for line in printed(flown):
-        said = silent_language.say(line)
+        said = SILENT.say(line)
         if words := [word for word in re.findall(r"[^\W\d]{2,}", said.replace("…", "")) if word not in known]:
             left.append((str(line), words))
     assert not left
 
 
-silent_language = silent()
+SILENT = silent_language()
 
 
 @pytest.mark.parametrize(

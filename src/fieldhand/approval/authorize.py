@@ -8,7 +8,7 @@ from datetime import datetime
 
 from fieldhand.approval.checks import check
 from fieldhand.errors import NotApprovedError, NotConfirmedError
-from fieldhand.language import open_language
+from fieldhand.language import joined, message, open_language
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.authorization import Authorization, AuthorizedTask
@@ -49,12 +49,12 @@ def approve(
         NotApprovedError: A check fails, nobody approves, or ``at`` is no moment.
     """
     if not by.strip():
-        raise NotApprovedError("nobody approves", where="by", advice="say who approves")
+        raise NotApprovedError(message("nobody approves"), where="by", advice=message("say who approves"))
     _require_moment(at)
     problems = check(task, site, robot)
-    errors = [str(p) for p in problems if p.severity == "error"]
+    errors = [p for p in problems if p.severity == "error"]
     if errors:
-        raise NotApprovedError("; ".join(errors), advice="mend this and approve again")
+        raise NotApprovedError(joined("; ", map(str, errors)), advice=message("mend this and approve again"))
     warnings = open_language(language).read(tuple(p.line() for p in problems if p.severity == "warning"))
     _require_confirmed(warnings, confirmed)
     authorization = Authorization(
@@ -79,7 +79,7 @@ def uphold(task: Task, authorization: Authorization) -> AuthorizedTask:
         NotApprovedError: It was given for another Task.
     """
     if hashlib.sha256(encode(task)).hexdigest() != authorization.task_sha256:
-        raise NotApprovedError("another Task was approved", advice="approve this one")
+        raise NotApprovedError(message("another Task was approved"), advice=message("approve this one"))
     return AuthorizedTask(task=task, authorization=authorization)
 
 
@@ -96,14 +96,19 @@ def approved_before(
         NotApprovedError: Task, site or profile are not those that were approved.
     """
     for kind, given, wanted in (
-        ("Task", hashlib.sha256(document).hexdigest(), authorization.task_sha256),
-        ("site", site.sha256, authorization.site_sha256),
-        ("robot profile", robot.sha256, authorization.robot_sha256),
+        (message("Task"), hashlib.sha256(document).hexdigest(), authorization.task_sha256),
+        (message("site"), site.sha256, authorization.site_sha256),
+        (message("robot profile"), robot.sha256, authorization.robot_sha256),
     ):
         if given != wanted:
             raise NotApprovedError(
-                f"the {kind} is not the one that was approved (SHA-256 {given[:12]}, approved {wanted[:12]})",
-                advice="approve the Task again",
+                message(
+                    "the {kind} is not the one that was approved (SHA-256 {given}, approved {wanted})",
+                    kind=kind,
+                    given=given[:12],
+                    wanted=wanted[:12],
+                ),
+                advice=message("approve the Task again"),
             )
     return AuthorizedTask(task=task, authorization=authorization)
 
@@ -111,7 +116,11 @@ def approved_before(
 def _require_confirmed(warnings: tuple[str, ...], confirmed: Container[str]) -> None:
     left = tuple(warning for warning in warnings if warning not in confirmed)
     if left:
-        raise NotConfirmedError(left, advice="confirm each if the plan is right in spite of it, or plan it anew")
+        raise NotConfirmedError(
+            message("not confirmed: {warnings}", warnings=joined("; ", left)),
+            left,
+            advice=message("confirm each if the plan is right in spite of it, or plan it anew"),
+        )
 
 
 def _require_moment(at: str) -> None:
@@ -121,5 +130,7 @@ def _require_moment(at: str) -> None:
         moment = None
     if moment is None or moment.tzinfo is None:
         raise NotApprovedError(
-            f"'{at}' is no moment", where="at", advice="give date, time and time zone, as in 2026-05-01T08:00:00+02:00"
+            message("'{at}' is no moment", at=at),
+            where="at",
+            advice=message("give date, time and time zone, as in 2026-05-01T08:00:00+02:00"),
         )

@@ -22,6 +22,7 @@ from fieldhand.approval.keys.rights import make_folder, read_guarded, replace
 from fieldhand.approval.keys.trust import TrustSeen, TrustStore
 from fieldhand.errors import KeyFileError, NotApprovedError, OutputError
 from fieldhand.files import config_folder, state_folder
+from fieldhand.language import message
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.manifest import Manifest
@@ -90,9 +91,13 @@ class ApprovalMemory:
             before = seen.get(manifest.task.id)
             if before is not None and manifest.number < before.number:
                 raise NotApprovedError(
-                    f"is approval number {manifest.number} of this mission, and number {before.number} was seen here",
+                    message(
+                        "is approval number {number} of this mission, and number {seen} was seen here",
+                        number=manifest.number,
+                        seen=before.number,
+                    ),
                     where=source,
-                    advice="run the later one, or have this one approved again",
+                    advice=message("run the later one, or have this one approved again"),
                 )
             keep_until = (manifest.approved_at + LONGEST_VALID).timestamp()
             if before is None or manifest.number > before.number:
@@ -154,9 +159,11 @@ class ApprovalMemory:
                 found = _Remembered.model_validate_json(read_guarded(file, private=False, most=64_000_000))
             except (ValidationError, ValueError, RecursionError):
                 raise KeyFileError(
-                    "what was remembered of approvals is damaged",
+                    message("what was remembered of approvals is damaged"),
                     where=str(file),
-                    advice="bring it back; if you remove it, look at the trusted keys with fieldhand keys confirm",
+                    advice=message(
+                        "bring it back; if you remove it, look at the trusted keys with fieldhand keys confirm"
+                    ),
                 ) from None
             merged.latest = max(merged.latest, found.latest)
             merged.trusted = max(merged.trusted, found.trusted)
@@ -206,10 +213,17 @@ def require_unexpired(manifest: Manifest, now: datetime, clock: datetime, source
         until, said = manifest.until.isoformat(timespec="seconds"), now.isoformat(timespec="seconds")
         behind = clock < now
         raise NotApprovedError(
-            f"could be begun until {until}, and it is {said}{' by what this machine has seen' if behind else ''}",
+            message(
+                "could be begun until {until}, and it is {now} by what this machine has seen", until=until, now=said
+            )
+            if behind
+            else message("could be begun until {until}, and it is {now}", until=until, now=said),
             where=source,
-            advice="have it approved again"
-            + ("; if that time was never true, set the clock and give fieldhand keys confirm" if behind else ""),
+            advice=message(
+                "have it approved again; if that time was never true, set the clock and give fieldhand keys confirm"
+            )
+            if behind
+            else message("have it approved again"),
         )
 
 

@@ -11,7 +11,7 @@ from fieldhand.approval.panel import draw_panel
 from fieldhand.approval.readback import ReadBack, read_back
 from fieldhand.approval.stops import Plan, plan_of
 from fieldhand.forecast.estimate import Estimate
-from fieldhand.language import ENGLISH, Language
+from fieldhand.language import ENGLISH, Language, message
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.drawing import draw_site, site_figure
 from fieldhand.site.drawing.ground import draw_ground, draw_scale
@@ -50,7 +50,7 @@ def save_map(
     words = read_back(task, site, robot, estimate)
     plan = plan_of(task, [b.walk for b in estimate.branches], words.lines)
     figure = draw_map(task, site, plan, words, language)
-    save_figure(figure, path, what="map")
+    save_figure(figure, path, what=message("map", context="file"))
 
 
 def draw_map(task: Task, site: Site, plan: Plan, words: ReadBack, language: Language = ENGLISH) -> Figure:

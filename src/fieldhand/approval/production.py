@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from fieldhand.errors import InputError, NotTrustedError
+from fieldhand.language import message
 
 #: The environment variable that puts a machine in production mode.
 VARIABLE = "FIELDHAND_PRODUCTION"
@@ -22,7 +23,11 @@ def in_production(environ: Mapping[str, str]) -> bool:
         return True
     if said in _NO:
         return False
-    raise InputError(f"'{said[:40]}' is neither yes nor no", where=VARIABLE, advice="set it to 1, or unset it")
+    raise InputError(
+        message("'{said}' is neither yes nor no", said=said[:40]),
+        where=VARIABLE,
+        advice=message("set it to 1, or unset it"),
+    )
 
 
 def require_unsigned_allowed(environ: Mapping[str, str], *, asked: bool = False) -> None:
@@ -38,6 +43,8 @@ def require_unsigned_allowed(environ: Mapping[str, str], *, asked: bool = False)
     """
     if in_production(environ) or asked:
         raise NotTrustedError(
-            "in production only signed missions run, and this is none",
-            advice="have it approved (fieldhand approve) with a key that is trusted here, and run the .mission file",
+            message("in production only signed missions run, and this is none"),
+            advice=message(
+                "have it approved (fieldhand approve) with a key that is trusted here, and run the .mission file"
+            ),
         )

@@ -5,7 +5,10 @@ from __future__ import annotations
 import io
 import sys
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from fieldhand.language import Language
 
 
 def main(*others: Callable[..., None]) -> None:
@@ -18,6 +21,7 @@ def main(*others: Callable[..., None]) -> None:
 
     from fieldhand.cli.app import assemble
     from fieldhand.errors import FieldhandError
+    from fieldhand.language import message
 
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
@@ -31,7 +35,7 @@ def main(*others: Callable[..., None]) -> None:
             raise KeyboardInterrupt
         sys.exit(status if isinstance(status, int) else 0)
     except FieldhandError as error:
-        _say(str(error))
+        _say(error.said(_language().say))
         sys.exit(error.exit_status)
     except misused as error:
         line = _usage(error)
@@ -40,10 +44,10 @@ def main(*others: Callable[..., None]) -> None:
         sys.exit(2)
     except typer.Abort:
         sys.stderr.write("\n")  # behind the question
-        _say("no answer was given")
+        _say(_language().say(message("no answer was given")))
         sys.exit(1)
     except KeyboardInterrupt:
-        _say("interrupted")
+        _say(_language().say(message("interrupted")))
         sys.exit(_INTERRUPTED)
     except BrokenPipeError:
         # Whoever read our output has gone (a pager, head); say nothing more, not even at exit.
@@ -79,6 +83,7 @@ def _show_traceback() -> None:
 def _usage(error: Any) -> str:
     """What is wrong with how a command was called, as any other error; empty where its help was shown instead."""
     from fieldhand.errors import InputError
+    from fieldhand.language import message
 
     what = error.format_message().strip().rstrip(".")
     if not what:
@@ -86,4 +91,22 @@ def _usage(error: Any) -> str:
     context = error.ctx
     words = context.command_path.removeprefix(context.find_root().command_path).split() if context else []
     help_of = " ".join(["fieldhand", *words, "--help"])
-    return str(InputError(what[0].lower() + what[1:], where=" ".join(words), advice=f"{help_of} says more"))
+    advice = message("{command} says more", command=help_of)
+    return InputError(what[0].lower() + what[1:], where=" ".join(words), advice=advice).said(_language().say)
+
+
+def _language() -> Language:
+    """Return the language that the command line asks for, read as it stands: what failed may be the reading of it."""
+    import os
+    from itertools import pairwise
+
+    from fieldhand.errors import InputError
+    from fieldhand.language import ENGLISH, spoken
+
+    words = sys.argv[1:]
+    asked = [after for word, after in pairwise(words) if word == "--lang"]
+    asked += [word.removeprefix("--lang=") for word in words if word.startswith("--lang=")]
+    try:
+        return spoken(asked[-1] if asked else None, os.environ)
+    except InputError:
+        return ENGLISH

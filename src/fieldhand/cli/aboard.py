@@ -12,7 +12,7 @@ import typer
 
 from fieldhand.errors import InputError
 from fieldhand.execution.drivers.ros2.domain import MOST_DOMAIN
-from fieldhand.language import Number, message
+from fieldhand.language import ENGLISH, Language, Number, message
 
 if TYPE_CHECKING:
     from fieldhand.cli.approving import Consent
@@ -59,14 +59,18 @@ def connection_of(
         for given, option in ((domain is not None, "--domain"), (namespace is not None, "--namespace"),
                               (sim_time, "--sim-time")):  # fmt: skip
             if given:
-                raise InputError(f"the simulation has no {option[2:]}", where=option, advice="give --on dds with it")
+                raise InputError(
+                    message("the simulation has no {option}", option=option[2:]),
+                    where=option,
+                    advice=message("give --on dds with it"),
+                )
         return None
     transport = next((name for name in get_args(TransportName) if name == on), None)
     if transport is None:
         raise InputError(
-            f"a mission cannot be carried out on '{on}'",
+            message("a mission cannot be carried out on '{on}'", on=on),
             where="--on",
-            advice=f"choose one of {', '.join((SIMULATION, *get_args(TransportName)))}",
+            advice=message("choose one of {what}", what=", ".join((SIMULATION, *get_args(TransportName)))),
         )
     return Connection(
         transport=transport,
@@ -124,20 +128,22 @@ def refuse_simulation_options(connection: Connection | None, *, world: Path | No
         return
     if world is not None:
         raise InputError(
-            "a world file is for the simulation; a robot reads its own sensors",
+            message("a world file is for the simulation; a robot reads its own sensors"),
             where="--world",
-            advice=f"leave it out, or leave out --on {connection.transport}",
+            advice=message("leave it out, or leave out --on {transport}", transport=connection.transport),
         )
     if speed is not None:
         raise InputError(
-            "a robot cannot be driven faster than time passes",
+            message("a robot cannot be driven faster than time passes"),
             where="--speed",
-            advice="leave it out; --sim-time follows a robot that is a simulation",
+            advice=message("leave it out; --sim-time follows a robot that is a simulation"),
         )
 
 
 @contextmanager
-def boarded(ground: Ground, task: Task, connection: Connection | None, *, quiet: bool) -> Iterator[Vehicle | None]:
+def boarded(
+    ground: Ground, task: Task, connection: Connection | None, *, quiet: bool, language: Language = ENGLISH
+) -> Iterator[Vehicle | None]:
     """The robot as long as it is needed for a Task; None for the simulation.
 
     Raises:
@@ -152,7 +158,8 @@ def boarded(ground: Ground, task: Task, connection: Connection | None, *, quiet:
     from fieldhand.execution.drivers.ros2.boarding import board
 
     if not quiet:
-        note(f"looking for {ground.robot.name} over ROS 2 ({connection})")
+        looking = message("looking for {robot} over ROS 2 ({way})", robot=ground.robot.name, way=str(connection))
+        note(looking, language)
     with board(ground.site, ground.robot, task, connection) as vehicle:
         yield vehicle
 

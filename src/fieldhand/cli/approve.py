@@ -23,6 +23,7 @@ from fieldhand.cli.options import (
     TranscriptOption,
 )
 from fieldhand.cli.outputs import to_whole_file
+from fieldhand.language import message
 
 if TYPE_CHECKING:
     from datetime import timedelta
@@ -83,8 +84,10 @@ def approve(
     language = spoken(lang, os.environ)
     own = SigningKeys(config_folder(os.environ))
     chosen = own.choose(key)
-    ground, files = read_ground(site, robot, lenient=lenient)
-    replies = Replies(given=tuple(answer or ()), assume=assume, ask=not json, progress=None if json else language)
+    ground, files = read_ground(site, robot, lenient=lenient, language=language)
+    replies = Replies(
+        given=tuple(answer or ()), assume=assume, ask=not json, progress=None if json else language, language=language
+    )
     task, document, planned_by = plan_or_read(request, ground, planner, transcript, replies)
     consent = _Consent(ask=not yes, confirm=confirm, by=by or chosen.public.name, quiet=json, language=language)
     review = review_plan(ground, task, document, consent)
@@ -137,8 +140,8 @@ def parse_validity(text: str) -> timedelta:
     lasting = timedelta(minutes=int(found[1]) * {"m": 1, "h": 60, "d": 1440}[found[2]]) if found else None
     if lasting is None or lasting > LONGEST_VALID:
         raise InputError(
-            f"'{text[:40]}' is no time for which a mission may be begun",
+            message("'{text}' is no time for which a mission may be begun", text=text[:40]),
             where="--valid-for",
-            advice=f"give minutes, hours or days: 30m, 12h, 90d; at most {LONGEST_VALID.days}d",
+            advice=message("give minutes, hours or days: 30m, 12h, 90d; at most {days}d", days=LONGEST_VALID.days),
         )
     return lasting

@@ -10,9 +10,10 @@ from fieldhand import mission
 from fieldhand.cli import show
 from fieldhand.cli.console import working
 from fieldhand.cli.inputs import Ground, may_ask
-from fieldhand.errors import NotApprovedError, NotConfirmedError, few
-from fieldhand.language import Language, Message, counted, message
+from fieldhand.errors import NotApprovedError, NotConfirmedError
+from fieldhand.language import Language, Message, counted, joined, message
 from fieldhand.task.frames import Task
+from fieldhand.task.words import some_names
 
 if TYPE_CHECKING:
     from fieldhand.task.authorization import AuthorizedTask
@@ -58,9 +59,9 @@ def review_plan(ground: Ground, task: Task, document: bytes | None, consent: Con
     if not consent.quiet:
         show.show_review(review, consent.language)
         if review.errors:
-            raise NotApprovedError("not approved: mend the errors above first")
+            raise NotApprovedError(message("not approved: mend the errors above first"))
     elif review.errors:
-        raise NotApprovedError(few([consent.language.say(p.line()) for p in review.errors], 3, "; "))
+        raise NotApprovedError(some_names([p.line() for p in review.errors], 3, "; "))
     return review
 
 
@@ -78,11 +79,13 @@ def approve_plan(ground: Ground, review: mission.Review, consent: Consent, quest
         NotApprovedError: The person says no, or nobody is there.
     """
     if consent.ask and not may_ask():
-        raise NotApprovedError("nobody is here to approve", advice="give --yes if you have read the plan")
+        raise NotApprovedError(
+            message("nobody is here to approve"), advice=message("give --yes if you have read the plan")
+        )
     if review.warnings and not consent.confirm:
         _confirm(consent.language.read(review.warnings), consent)
     if consent.ask:
-        _ask(consent.language.say(question))
+        _ask(question, consent.language)
     return mission.authorize(
         review.task,
         ground.site,
@@ -102,20 +105,39 @@ def _confirm(warnings: tuple[str, ...], consent: Consent) -> None:
         NotApprovedError: The operator says no.
     """
     if not consent.ask:
-        raise NotConfirmedError(warnings, advice="give --confirm, too, if the plan is right in spite of that")
+        raise NotConfirmedError(
+            message("not confirmed: {warnings}", warnings=joined("; ", warnings)),
+            warnings,
+            advice=message("give --confirm, too, if the plan is right in spite of that"),
+        )
     question = counted(
         "Is the plan right in spite of the warning above?",
         "Is the plan right in spite of the {count} warnings above?",
         len(warnings),
     )
-    _ask(consent.language.say(question))
+    _ask(question, consent.language)
 
 
-def _ask(question: str) -> None:
+def _ask(question: str, language: Language) -> None:
+    """Ask a question until it is answered with yes or no, in that language or in English; nothing typed is no.
+
+    Raises:
+        NotApprovedError: The answer is no.
+        Abort: The input has ended.
+    """
     import typer
 
-    if not typer.confirm(f"\n{question}"):
-        raise NotApprovedError("not approved, nothing was done")
+    yes, no = message("yes"), message("no")
+    short = message("y/N", context="yes or no")
+    letters = zip(language.say(short).lower().split("/"), short.lower().split("/"), strict=True)
+    agreed, declined = ({*both, language.say(said), said} for both, said in zip(letters, (yes, no), strict=True))
+    while True:
+        said = typer.prompt(f"\n{language.say(question)} [{language.say(short)}]", default="", show_default=False)
+        if said.strip().lower() in agreed:
+            return
+        if said.strip().lower() in declined | {""}:
+            raise NotApprovedError(message("not approved, nothing was done"))
+        show.err.print(language.say(message("answer yes or no")))
 
 
 def user_name() -> str:

@@ -14,11 +14,12 @@ from fieldhand.cli.bundles import is_bundle
 from fieldhand.cli.console import Words, err, working
 from fieldhand.cli.inputs import Ground, may_ask
 from fieldhand.cli.show import fail_outcome, show_question
-from fieldhand.errors import InputError, RequestError, few
+from fieldhand.errors import InputError, RequestError
 from fieldhand.files import STANDARD, FileFault, read_file
-from fieldhand.language import Language, message
+from fieldhand.language import ENGLISH, Language, message, recalled
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Planner
 from fieldhand.task.frames import Task
+from fieldhand.task.words import some_names
 
 #: A planner that has asked so often about one request goes round in circles.
 MOST_QUESTIONS = 12
@@ -38,6 +39,7 @@ class Replies:
         ask: Ask the person at the terminal where there is one.
         draw: Draws a question that is put to a person, or that nobody answers.
         progress: In which language a terminal is told that the program is planning; None to say nothing.
+        language: In which questions are asked and refusals said.
     """
 
     given: tuple[str, ...] = ()
@@ -45,6 +47,7 @@ class Replies:
     ask: bool = True
     draw: Callable[[Clarify], None] = lambda _: None
     progress: Language | None = None
+    language: Language = ENGLISH
 
 
 def plan_and_ask(request: str, ground: Ground, planner: Planner, replies: Replies) -> tuple[str, Outcome]:
@@ -66,8 +69,8 @@ def plan_and_ask(request: str, ground: Ground, planner: Planner, replies: Replie
             outcome = mission.plan(request, ground.site, ground.robot, planner, answers)
         if not isinstance(outcome, Clarify):
             if given and isinstance(outcome, Planned):
-                what = f"nothing was asked that '{given[0]}' answers"
-                raise RequestError(what, where="--answer", advice="leave it out, or say it in the request")
+                what = message("nothing was asked that '{given}' answers", given=given[0])
+                raise RequestError(what, where="--answer", advice=message("leave it out, or say it in the request"))
             return request, outcome
         assumed = False
         if given:
@@ -76,24 +79,27 @@ def plan_and_ask(request: str, ground: Ground, planner: Planner, replies: Replie
             said, assumed = outcome.choices[0], True
         elif replies.ask and may_ask():
             replies.draw(outcome)
-            said = _asked(outcome, sys.stdin.readline)
+            said = _asked(outcome, sys.stdin.readline, replies.language)
         else:
             replies.draw(outcome)
             return request, outcome
-        choice = _choice(said, outcome)
+        choice = _choice(said, outcome, replies.language)
         if choice is not None or outcome.free:
             answers = (*answers, Answer(question=outcome.question, answer=choice or said, assumed=assumed))
         elif replies.given:
             raise RequestError(
-                f"'{said}' does not answer '{outcome.question}'",
+                message("'{said}' does not answer '{question}'", said=said, question=outcome.question),
                 where="--answer",
-                advice=f"give one of: {few(outcome.choices, sign='; ')}"
+                advice=message("give one of: {choices}", choices=some_names(outcome.choices, 12, "; "))
                 if outcome.choices
-                else "say it in the request",
+                else message("say it in the request"),
             )
         else:
             request, answers = said, ()
-    raise RequestError(f"no plan after {MOST_QUESTIONS} questions", advice="say the request in other words")
+    raise RequestError(
+        message("no plan after {count} questions", count=MOST_QUESTIONS),
+        advice=message("say the request in other words"),
+    )
 
 
 def plan_or_read(
@@ -111,15 +117,17 @@ def plan_or_read(
             return mission.decode_task(document, ground.robot, source="standard input"), document, "file"
         words = typed
     if is_bundle(words):
-        what = "is a signed mission, neither a request nor a Task"
-        raise InputError(what, where=words, advice="say what is in it with fieldhand inspect, carry it out with run")
+        what = message("is a signed mission, neither a request nor a Task")
+        raise InputError(
+            what, where=words, advice=message("say what is in it with fieldhand inspect, carry it out with run")
+        )
     if words.lower().endswith(".xml") and "\n" not in words:
         require_no_answer(replies.given, words)
         task, document = mission.read_task(Path(words), ground.robot)
         return task, document, "file"
     words, outcome = plan_and_ask(words, ground, mission.make_planner(planner, os.environ, transcript), replies)
     if not isinstance(outcome, Planned):
-        fail_outcome(words, outcome)
+        fail_outcome(words, outcome, replies.language)
     return outcome.task, None, outcome.planner
 
 
@@ -134,8 +142,8 @@ def given_words(words: str) -> str:
     try:
         return read_file(STANDARD, _MOST).decode().strip()
     except (FileFault, UnicodeDecodeError) as fault:
-        what = fault.what if isinstance(fault, FileFault) else "is not UTF-8 text"
-        raise RequestError(what, where="standard input", advice="write a request or a Task to it") from None
+        what = recalled(fault.what, "file") if isinstance(fault, FileFault) else message("is not UTF-8 text")
+        raise RequestError(what, where="standard input", advice=message("write a request or a Task to it")) from None
 
 
 def require_no_answer(given: Sequence[str], words: str) -> None:
@@ -145,8 +153,10 @@ def require_no_answer(given: Sequence[str], words: str) -> None:
         InputError: There are some.
     """
     if given:
-        what = f"{words} is planned already, nothing is asked that '{given[0]}' answers"
-        raise InputError(what, where="--answer", advice="leave it out")
+        what = message(
+            "{words} is planned already, nothing is asked that '{given}' answers", words=words, given=given[0]
+        )
+        raise InputError(what, where="--answer", advice=message("leave it out"))
 
 
 def _require_words(request: str) -> None:
@@ -165,36 +175,47 @@ def _require_words(request: str) -> None:
         return  # no name that a file can have, or none that may be read: words, then
     if begins.startswith(b"PK"):
         what, advice = (
-            "a zip file, perhaps a signed mission",
-            "give a signed mission, whose name ends in .mission, to run",
+            message("is a zip file, perhaps a signed mission, not what the robot should do"),
+            message("give a signed mission, whose name ends in .mission, to run"),
         )
     elif begins.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<"):
-        what, advice = "an XML file", "give a Task, whose name ends in .xml, to check, approve or run"
+        what = message("is an XML file, not what the robot should do")
+        advice = message("give a Task, whose name ends in .xml, to check, approve or run")
     elif begins.lstrip().startswith(b"{"):
-        what, advice = "a JSON file", "give a site with --site, an event log to fieldhand report"
+        what = message("is a JSON file, not what the robot should do")
+        advice = message("give a site with --site, an event log to fieldhand report")
     else:
-        what, advice = "a file", f'give the words that stand in it: "$(cat {shlex.quote(request)})"'
-    raise RequestError(f"is {what}, not what the robot should do", where=request, advice=advice)
+        what, advice = (
+            message("is a file, not what the robot should do"),
+            message('give the words that stand in it: "$(cat {file})"', file=shlex.quote(request)),
+        )
+    raise RequestError(what, where=request, advice=advice)
 
 
-def _asked(asked: Clarify, read: Callable[[], str]) -> str:
+def _asked(asked: Clarify, read: Callable[[], str], language: Language) -> str:
     """One question at the terminal, and what was typed."""
-    show_question(asked)
-    other = "other words" if asked.free else "the whole request in other words"
-    numbers = f"1 to {len(asked.choices)}, or " if len(asked.choices) > 1 else "1, or " if asked.choices else ""
-    err.print(Words(f"{numbers}{other}: "), end="")
+    show_question(asked, language)
+    other = message("other words") if asked.free else message("the whole request in other words")
+    if len(asked.choices) > 1:
+        wanted = message("1 to {count}, or {other}: ", count=len(asked.choices), other=other)
+    else:
+        wanted = message("1, or {other}: ", other=other) if asked.choices else message("{other}: ", other=other)
+    err.print(Words(language.say(wanted)), end="")
     try:
         said = read().strip()
     except KeyboardInterrupt:
         said = ""
     if not said:
-        raise RequestError("no answer was given, nothing was planned", advice="answer, or say it in the request")
+        raise RequestError(
+            message("no answer was given, nothing was planned"), advice=message("answer, or say it in the request")
+        )
     return said
 
 
-def _choice(said: str, asked: Clarify) -> str | None:
+def _choice(said: str, asked: Clarify, language: Language) -> str | None:
     """The choice that a number or its own words name. Words come first: a choice may be a number itself."""
-    named = [choice for choice in asked.choices if choice.lower() == said.strip().lower()]
+    typed = said.strip().lower()
+    named = [choice for choice in asked.choices if typed in (choice.lower(), language.say(choice).lower())]
     if named:
         return named[0]
     number = int(said) if said.strip().isdecimal() else 0

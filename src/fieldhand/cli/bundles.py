@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from fieldhand import mission
 from fieldhand.errors import BundleError, InputError
 from fieldhand.files import STANDARD
+from fieldhand.language import message
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle, Content
@@ -98,9 +99,11 @@ def read_unverified(data: bytes, source: str) -> Unverified:
     fingerprint = sealed.signature.public.fingerprint
     key = trust_store(os.environ).known().get(fingerprint)
     if key is None:
-        signed = f"a key that is not trusted here ({fingerprint})"
+        signed: str = message("a key that is not trusted here ({fingerprint})", fingerprint=fingerprint)
+    elif key.revoked is None:
+        signed = key.in_words
     else:
-        signed = key.in_words + ("" if key.revoked is None else f", revoked on {key.revoked}")
+        signed = message("{key}, revoked on {date}", key=key.in_words, date=str(key.revoked))
     content = content_of(sealed, now=datetime.now(UTC), stranger=key is None or key.state != "trusted")
     return Unverified(content=content, document=sealed.members[TASK], sha256=sealed.hashes["bundle"], signed=signed)
 
@@ -113,7 +116,11 @@ def require_ending(path: Path) -> None:
     """
     if path != STANDARD and path.suffix.lower() != ENDING:
         better = path.with_suffix(ENDING) if path.name else f"a file such as mission{ENDING}"
-        raise InputError("a signed mission ends in .mission", where=str(path), advice=f"write it to {better}")
+        raise InputError(
+            message("a signed mission ends in .mission"),
+            where=str(path),
+            advice=message("write it to {better}", better=str(better)),
+        )
 
 
 def signed_record(path: Path, data: bytes, authorization: Authorization, public: PublicKey) -> dict[str, Any]:
@@ -141,7 +148,12 @@ def signer_record(bundle: Bundle) -> dict[str, Any]:
 def tell_signer(bundle: Bundle) -> str:
     """Who approved a mission, and with which key, in a line."""
     approved = bundle.manifest.approved
-    return f"Approved by {approved.by} at {approved.at}, signed with {bundle.signer.in_words}"
+    return message(
+        "Approved by {who} at {moment}, signed with {key}",
+        who=approved.by,
+        moment=approved.at,
+        key=bundle.signer.in_words,
+    )
 
 
 def require_site(site: str | None) -> str:
@@ -151,13 +163,21 @@ def require_site(site: str | None) -> str:
         InputError: None was given.
     """
     if site is None:
-        raise InputError("no site is given", where="--site", advice="give its file, or demo for the built-in orchard")
+        raise InputError(
+            message("no site is given"),
+            where="--site",
+            advice=message("give its file, or demo for the built-in orchard"),
+        )
     return site
 
 
 def _another(where: str, given: str, approved: str) -> BundleError:
     return BundleError(
-        f"{given} is not what the mission was approved for ({approved}, byte by byte)",
+        message(
+            "{given} is not what the mission was approved for ({approved}, byte by byte)",
+            given=given,
+            approved=approved,
+        ),
         where=where,
-        advice="leave it out, and what was approved is used; or approve the mission for this one",
+        advice=message("leave it out, and what was approved is used; or approve the mission for this one"),
     )

@@ -32,7 +32,7 @@ def check(
     from fieldhand.language import spoken
 
     language = spoken(lang, os.environ)
-    ground = open_ground(site, robot, lenient=lenient)
+    ground = open_ground(site, robot, lenient=lenient, language=language)
     read, document = mission.read_task(task, ground.robot)
     review = mission.review(read, ground.site, ground.robot, document=document, charge_percent=charge)
     if picture is not None:
@@ -43,7 +43,7 @@ def check(
         show.print_json(show.review_record(review, language, every=True))
     else:
         show.show_review(review, language)
-        show_forecast(review, ground.robot)
+        show_forecast(review, ground.robot, language)
         show.out.print()
         show.out.print(language.say(_verdict(len(review.errors), len(review.warnings))))
     if review.errors:

@@ -43,14 +43,14 @@ def demo(
     from fieldhand.execution.world import World
     from fieldhand.language import message, spoken
 
+    language = spoken(lang, os.environ)
     require_unsigned_allowed(os.environ)
     connection = connection_of(on, domain, namespace, sim_time=sim_time, environ=os.environ)
-    ground = open_ground("demo", "husky")
-    task, document, planner = plan_or_read(REQUEST, ground, "english", None, Replies())
+    ground = open_ground("demo", "husky", language=language)
+    task, document, planner = plan_or_read(REQUEST, ground, "english", None, Replies(language=language))
     # Nobody is there to read the warning that the budget is tight; it is shown, and the report says it was confirmed.
-    language = spoken(lang, os.environ)
     orders = Orders(ask=False, confirm=True, by="demo", world=World(), seed=seed, folder=output, language=language)
-    with boarded(ground, task, connection, quiet=False) as vehicle:
+    with boarded(ground, task, connection, quiet=False, language=language) as vehicle:
         status = fly(ground, task, document, replace(orders, vehicle=vehicle), planner=planner)
     show.heading(language.say(message("Try next")))
     if shutil.which("fieldhand") is None:

@@ -125,7 +125,9 @@ def parse_speed(text: str | None) -> float | None:
         speed = math.nan
     if not 0 < speed < math.inf:
         raise InputError(
-            f"'{text}' is no speed", where="--speed", advice="give max, or a number above 0 (1 is real time)"
+            message("'{text}' is no speed", text=text),
+            where="--speed",
+            advice=message("give max, or a number above 0 (1 is real time)"),
         )
     return speed
 

@@ -9,76 +9,113 @@ from rich.table import Table
 from fieldhand.cli import show
 from fieldhand.cli.console import Words
 from fieldhand.clock import clock_time
+from fieldhand.language import ENGLISH, Language, Number, counted, joined, message
 
 if TYPE_CHECKING:
-    from fieldhand.forecast.estimate import BranchEstimate
+    from fieldhand.forecast.estimate import BranchEstimate, Estimate
     from fieldhand.mission import Review
     from fieldhand.robot.model import RobotProfile
 
 #: Branches beside the worst that are shown.
 _MOST = 9
-_COVERAGE = {
-    "enumerated": "{count} branches, all there are",
-    "bounded": "{count} branches; of conditions that only decide work on the spot the extremes, of all others each",
-    "sampled": "{count} branches of more than could be looked at: the extremes, and others by chance",
-}
 
 
-def show_forecast(review: Review, robot: RobotProfile) -> None:
+def show_forecast(review: Review, robot: RobotProfile, language: Language = ENGLISH) -> None:
     """The distributions of every branch, half of the missions below the first figure and nine in ten below the second.
 
     Args:
         review: With its estimate; nothing is shown without.
         robot: For the words of conditions.
+        language: In which it is said.
     """
     from fieldhand.approval.paths import say_branch
 
     forecast = review.estimate
     if forecast is None:
         return
-    show.heading("Forecast")
+    say = language.say
+    show.heading(say(message("Forecast")))
     worst = forecast.worst
     others = sorted((b for b in forecast.branches if b is not worst), key=lambda b: (-b.short, -b.seconds.mean))
     shown = (worst, *others[:_MOST], *forecast.faulted)
     table = Table(box=None, pad_edge=False, header_style="dim", show_edge=False)
-    for name in ("", "metres p50", "p90", "time p50", "p90", "left p50", "p90", "short of"):
-        table.add_column(name, justify="left" if name == "short of" else "right", no_wrap=True)
+    for name in ("", message("metres p50"), "p90", message("time p50"), "p90", message("left p50"), "p90"):
+        table.add_column(say(name), justify="right", no_wrap=True)
+    table.add_column(say(message("short of")), justify="left", no_wrap=True)
     for number, branch in enumerate(shown, start=1):
-        table.add_row(f"{number}", *_figures(branch))
+        table.add_row(f"{number}", *map(say, _figures(branch)))
     show.out.print(table)
     for number, branch in enumerate(shown, start=1):
         words = say_branch(branch, review.task, robot)
-        show.out.print(Words(f"  {number}: {words}" if number > 1 else f"  1, the worst: {words}"))
+        named = message("1, the worst: {branch}", branch=words) if number == 1 else joined(": ", (str(number), words))
+        show.out.print(Words(f"  {say(named)}"))
     if len(others) > _MOST:
-        show.out.print(Words(f"and {len(others) - _MOST} more branches; --json has them all", style="dim"))
-    count = str(len(forecast.branches))
-    said = "1 branch, the only one" if count == "1" else _COVERAGE[forecast.explored.coverage].format(count=count)
-    draws = worst.chances[-1].draws
-    show.out.print(Words(f"{said}; {draws:,} missions drawn along each. Time is in minutes and seconds.", style="dim"))
+        more = counted(
+            "and {count} more branch; --json has them all",
+            "and {count} more branches; --json has them all",
+            len(others) - _MOST,
+        )
+        show.out.print(Words(say(more), style="dim"))
+    drawn = message(
+        "{branches}; {count} missions drawn along each. Time is in minutes and seconds.",
+        branches=_covered(forecast),
+        count=Number(f"{worst.chances[-1].draws:,}"),
+    )
+    show.out.print(Words(say(drawn), style="dim"))
     exits = forecast.exits
     if exits.looked_at:
-        some = "each" if exits.looked_at == exits.places else f"{exits.looked_at}"
-        show.out.print(Words(f"Ways home after a fault: driven from {some} of {exits.places} places.", style="dim"))
+        ways = message("Ways home after a fault: driven from each of {places} places.", places=exits.places)
+        if exits.looked_at != exits.places:
+            ways = message(
+                "Ways home after a fault: driven from {count} of {places} places.",
+                count=exits.looked_at,
+                places=exits.places,
+            )
+        show.out.print(Words(say(ways), style="dim"))
+
+
+def _covered(forecast: Estimate) -> str:
+    """Say how many branches were looked at, and which."""
+    count = len(forecast.branches)
+    if count == 1:
+        return message("1 branch, the only one")
+    match forecast.explored.coverage:
+        case "enumerated":
+            return message("{count} branches, all there are", count=count)
+        case "bounded":
+            return message(
+                "{count} branches; of conditions that only decide work on the spot the extremes, of all others each",
+                count=count,
+            )
+        case "sampled":
+            return message(
+                "{count} branches of more than could be looked at: the extremes, and others by chance", count=count
+            )
 
 
 def _figures(branch: BranchEstimate) -> tuple[str, ...]:
     metres, seconds = branch.metres, branch.seconds
-    shares = [f"{_NAMES[c.kind]} {_share(c.chance)}" for c in branch.chances]
+    shares = [joined(" ", (_NAMES[c.kind], _share(c.chance))) for c in branch.chances]
     return (
         f"{metres.p50:.0f}",
         f"{metres.p90:.0f}",
         clock_time(seconds.p50),
         clock_time(seconds.p90),
-        f"{branch.left[0]:.1f} %",
-        f"{branch.left[1]:.1f} %",
-        ", ".join(shares),
+        Number(f"{branch.left[0]:.1f} %"),
+        Number(f"{branch.left[1]:.1f} %"),
+        joined(", ", shares),
     )
 
 
-_NAMES = {"distance_m": "distance", "duration_s": "time", "energy_percent": "energy", "reserve": "reserve"}
+_NAMES: dict[str, str] = {
+    "distance_m": message("distance"),
+    "duration_s": message("time"),
+    "energy_percent": message("energy"),
+    "reserve": message("reserve"),
+}
 
 
 def _share(chance: float) -> str:
     if chance == 0.0:
         return "0 %"
-    return f"{100 * chance:.1f} %" if chance >= 0.001 else "< 0.1 %"
+    return Number(f"{100 * chance:.1f} %" if chance >= 0.001 else "< 0.1 %")

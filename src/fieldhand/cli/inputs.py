@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from fieldhand import files
 from fieldhand.cli.outputs import unwritable
 from fieldhand.cli.show import note
+from fieldhand.language import ENGLISH, Language
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
@@ -40,16 +41,18 @@ class GroundFiles:
     lenient: bool
 
 
-def open_ground(site: str, robot: str, *, lenient: bool = False) -> Ground:
+def open_ground(site: str, robot: str, *, lenient: bool = False, language: Language = ENGLISH) -> Ground:
     """Open both; of a leniently read site say what was left out.
 
     Raises:
         SiteError, ProfileError: One of them cannot be used.
     """
-    return read_ground(site, robot, lenient=lenient)[0]
+    return read_ground(site, robot, lenient=lenient, language=language)[0]
 
 
-def read_ground(site: str, robot: str, *, lenient: bool = False) -> tuple[Ground, GroundFiles]:
+def read_ground(
+    site: str, robot: str, *, lenient: bool = False, language: Language = ENGLISH
+) -> tuple[Ground, GroundFiles]:
     """Open both as :func:`open_ground`, and return the bytes from which they were read, too: each file is read once.
 
     Raises:
@@ -60,16 +63,16 @@ def read_ground(site: str, robot: str, *, lenient: bool = False) -> tuple[Ground
 
     files = site_files(site)
     opened = site_of(files, lenient=lenient)
-    tell_left_out(opened, lenient=lenient)
+    tell_left_out(opened, lenient=lenient, language=language)
     profile, source = profile_bytes(robot)
     ground = Ground(site=opened, robot=parse_profile(profile, source=source))
     return ground, GroundFiles(site=files, profile=profile, lenient=lenient)
 
 
-def tell_left_out(site: Site, *, lenient: bool) -> None:
+def tell_left_out(site: Site, *, lenient: bool, language: Language = ENGLISH) -> None:
     """Say of a leniently read site what was left out."""
     for said in site.notes if lenient else ():
-        note(said)
+        note(said, language)
 
 
 def write_file(path: Path, data: bytes) -> None:

@@ -15,6 +15,7 @@ import typer
 
 from fieldhand.errors import OutputError
 from fieldhand.files import STANDARD
+from fieldhand.language import message, named
 
 _OPTIONS = "fieldhand.outputs"
 
@@ -113,8 +114,8 @@ def require_folder(path: Path, where: str) -> None:
         folder = Path(os.path.realpath(path))
         there = next(f for f in (folder, *folder.parents) if f.exists())
         if not there.is_dir():
-            what = f"cannot write: {there.name} is a file, not a folder"
-            raise OutputError(what, where=where, advice="choose a folder that you may write to")
+            what = message("cannot write: {name} is a file, not a folder", name=there.name)
+            raise OutputError(what, where=where, advice=message("choose a folder that you may write to"))
         with tempfile.TemporaryFile(dir=there):  # rights alone do not say it on every system
             pass
     except OSError as error:
@@ -124,7 +125,9 @@ def require_folder(path: Path, where: str) -> None:
 def unwritable(where: str, error: OSError) -> OutputError:
     """What is said of what cannot be written."""
     return OutputError(
-        f"cannot write: {error.strerror or error}", where=where, advice="choose a folder that you may write to"
+        message("cannot write: {why}", why=named(error.strerror or str(error), "reason")),
+        where=where,
+        advice=message("choose a folder that you may write to"),
     )
 
 
@@ -139,7 +142,10 @@ def _take_standard_output(ctx: typer.Context, param: typer.CallbackParam) -> Non
     option = _name(param)
     other = "--json" if "--json" in sys.argv else ctx.meta.setdefault(_OPTIONS, {}).setdefault(str(STANDARD), option)
     if other != option:
-        raise OutputError(f"standard output is asked for by {other} and by {option}", advice="name a file for one")
+        raise OutputError(
+            message("standard output is asked for by {other} and by {option}", other=other, option=option),
+            advice=message("name a file for one"),
+        )
     out.stderr = True
     ctx.call_on_close(lambda: setattr(out, "stderr", False))
 
@@ -151,7 +157,9 @@ def refuse_standard_output(path: Path | None, option: str) -> None:
         OutputError: It is standard output.
     """
     if path == STANDARD:
-        raise OutputError("cannot go to standard output", where=f"{option} -", advice="give it a name")
+        raise OutputError(
+            message("cannot go to standard output"), where=f"{option} -", advice=message("give it a name")
+        )
 
 
 def _require_file(path: Path, where: str) -> None:
@@ -170,7 +178,9 @@ def _require_file(path: Path, where: str) -> None:
 
 def _require_no_folder(path: Path, where: str) -> None:
     if path.is_dir():
-        raise OutputError("is a folder, not a file", where=where, advice="give the name of a file in it")
+        raise OutputError(
+            message("is a folder, not a file"), where=where, advice=message("give the name of a file in it")
+        )
 
 
 def _require_own(ctx: typer.Context, param: typer.CallbackParam, path: Path) -> None:
@@ -184,7 +194,11 @@ def _require_own(ctx: typer.Context, param: typer.CallbackParam, path: Path) -> 
     option = _name(param)
     other = ctx.meta.setdefault(_OPTIONS, {}).setdefault(os.path.realpath(path), option)
     if other != option:
-        raise OutputError(f"is given for {other} and for {option}", where=str(path), advice="give each its own")
+        raise OutputError(
+            message("is given for {other} and for {option}", other=other, option=option),
+            where=str(path),
+            advice=message("give each its own"),
+        )
 
 
 def _name(param: typer.CallbackParam) -> str:

@@ -52,9 +52,11 @@ def plan(
     from fieldhand.task.codec import encode
 
     language = spoken(lang, os.environ)
-    ground = open_ground(site, robot, lenient=lenient)
+    ground = open_ground(site, robot, lenient=lenient, language=language)
     chosen = mission.make_planner(planner, os.environ, transcript)
-    replies = Replies(given=tuple(answer or ()), assume=assume, ask=not json, progress=None if json else language)
+    replies = Replies(
+        given=tuple(answer or ()), assume=assume, ask=not json, progress=None if json else language, language=language
+    )
     if picture is not None:
         replies = replace(replies, draw=lambda asked: draw_question(picture, asked, ground))
     request, outcome = plan_and_ask(given_words(request), ground, chosen, replies)
@@ -62,7 +64,7 @@ def plan(
         if json:
             show.print_json(show.outcome_record(outcome))
             raise SystemExit(2)
-        show.fail_outcome(request, outcome)
+        show.fail_outcome(request, outcome, language)
     review = mission.review(outcome.task, ground.site, ground.robot)
     document = encode(outcome.task)
     if output is not None:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from fieldhand.cli.bundles import is_bundle, read_unverified, require_site
 from fieldhand.cli.inputs import Ground, open_ground
 from fieldhand.errors import InputError
+from fieldhand.language import ENGLISH, Language, message
 
 if TYPE_CHECKING:
     from fieldhand.past import Log
@@ -48,8 +49,8 @@ def folder_of(given: str | None, under: Path | None) -> Path | None:
 
     path = Path(given or "")
     if given is not None and path.suffix and not path.exists():
-        advice = "give the event log of a mission, or the name or folder of a mission"
-        raise InputError("there is no such file", where=given, advice=advice)
+        advice = message("give the event log of a mission, or the name or folder of a mission")
+        raise InputError(message("there is no such file"), where=given, advice=advice)
     if given is not None and (path.is_file() or (path.suffix and not path.is_dir())):
         return None
     return missions.find(under or missions.missions_folder(os.environ), given)
@@ -87,11 +88,15 @@ def log_of_folder(folder: Path) -> Log:
 
     events = missions.events_of(folder)
     if not events:
-        raise InputError("the mission has done nothing yet", where=str(folder), advice="give one that has begun")
+        raise InputError(
+            message("the mission has done nothing yet"), where=str(folder), advice=message("give one that has begun")
+        )
     return Log(events=events, where=str(folder))
 
 
-def plan_of_files(task: Path, site: str | None, robot: str | None, *, lenient: bool) -> Plan:
+def plan_of_files(
+    task: Path, site: str | None, robot: str | None, *, lenient: bool, language: Language = ENGLISH
+) -> Plan:
     """A Task document with site and robot, or a signed mission, which has its own.
 
     Raises:
@@ -102,7 +107,7 @@ def plan_of_files(task: Path, site: str | None, robot: str | None, *, lenient: b
     if is_bundle(str(task)):
         require_nothing_beside(task, site=site, robot=robot)
         return plan_of_bundle(task)
-    ground = ground_of(require_site(site), robot, lenient=lenient)
+    ground = ground_of(require_site(site), robot, lenient=lenient, language=language)
     read, document = mission.read_task(task, ground.robot)
     return Plan(task=read, document=document, ground=ground)
 
@@ -127,7 +132,7 @@ def plan_of_bundle(file: Path) -> Plan:
     )
 
 
-def ground_of(site: str, robot: str | None, *, lenient: bool) -> Ground:
+def ground_of(site: str, robot: str | None, *, lenient: bool, language: Language = ENGLISH) -> Ground:
     """Site and robot; those of a signed mission, where one is given for the site.
 
     Raises:
@@ -136,7 +141,7 @@ def ground_of(site: str, robot: str | None, *, lenient: bool) -> Ground:
     if is_bundle(site):
         require_nothing_beside(Path(site), robot=robot)
         return plan_of_bundle(Path(site)).ground
-    return open_ground(site, robot or "husky", lenient=lenient)
+    return open_ground(site, robot or "husky", lenient=lenient, language=language)
 
 
 def require_nothing_beside(brings: Path, **given: object) -> None:
@@ -147,4 +152,6 @@ def require_nothing_beside(brings: Path, **given: object) -> None:
     """
     for option, value in given.items():
         if value is not None:
-            raise InputError(f"{brings.name} brings its own", where=f"--{option}", advice="leave it out")
+            raise InputError(
+                message("{name} brings its own", name=brings.name), where=f"--{option}", advice=message("leave it out")
+            )

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from fieldhand.cli.options import JsonOption, LenientOption, MissionsOption, RecordedSiteOption
+from fieldhand.cli.options import JsonOption, LangOption, LenientOption, MissionsOption, RecordedSiteOption
 from fieldhand.cli.outputs import to_folder
 
 
@@ -29,30 +29,38 @@ def report(
         "report"
     ),
     lenient: LenientOption = False,
+    lang: LangOption = None,
     kept: MissionsOption = None,
     json: JsonOption = False,
 ) -> None:
     """Judge a mission and report it; exit status 1 unless it completed with every goal met and no limit exceeded."""
+    import os
+
     from fieldhand import past
     from fieldhand.cli import show
     from fieldhand.cli.recorded import folder_of, log_of_folder, plan_of_files, plan_of_folder, require_nothing_beside
     from fieldhand.errors import InputError
     from fieldhand.evaluation.report_facts import end_of
     from fieldhand.evaluation.telling import goal_names
+    from fieldhand.language import message, spoken
     from fieldhand.task.exceeded import say_status
 
+    language = spoken(lang, os.environ)
     folder = folder_of(given, kept)
     if folder is not None:
         require_nothing_beside(folder, task=task, site=site, robot=robot)
         plan, log = plan_of_folder(folder), log_of_folder(folder)
     elif task is None:
         raise InputError(
-            "what was carried out is not given",
+            message("what was carried out is not given"),
             where="--task",
-            advice="give the Task document or the signed mission; or the mission by its name",
+            advice=message("give the Task document or the signed mission; or the mission by its name"),
         )
     else:
-        plan, log = plan_of_files(task, site, robot, lenient=lenient), past.read_log(Path(given or ""))
+        plan, log = (
+            plan_of_files(task, site, robot, lenient=lenient, language=language),
+            past.read_log(Path(given or "")),
+        )
     files, assessment = past.report_log(
         output,
         log,
@@ -71,10 +79,11 @@ def report(
         approved = None if plan.authorization is None else asdict(plan.authorization)
         show.print_json(record | {"authorization": approved, "signed": plan.signed})
         raise SystemExit(status)
-    show.show_outcomes(assessment, goal_names(plan.task, plan.ground.robot))
+    show.show_outcomes(assessment, goal_names(plan.task, plan.ground.robot), language)
     how = None if assessment.status is None else say_status(assessment.status)
-    show.out.print_lines("", f"Mission {how}." if how else "The log ends before the mission does.")
-    show.heading("Where to look")
+    said = message("Mission {how}.", how=how) if how else message("The log ends before the mission does.")
+    show.out.print_lines("", language.say(said))
+    show.heading(language.say(message("Where to look")))
     for path in files.paths:
         show.out.print(f"  {path}")
     raise SystemExit(status)

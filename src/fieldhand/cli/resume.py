@@ -45,12 +45,13 @@ def resume(
     from fieldhand.cli.flight import Orders, conclude, go_on, leave_plan, parse_speed
     from fieldhand.cli.inputs import Ground
     from fieldhand.cli.tell import tell
-    from fieldhand.language import spoken
+    from fieldhand.language import message, spoken
 
+    language = spoken(lang, os.environ)
     pace = parse_speed(speed)
     folder = missions.find(kept or missions.missions_folder(os.environ), mission)
     if missions.is_running(folder):
-        tell(str(folder), folder.parent, "continue", "the operator", "goes on", json=json)
+        tell(str(folder), folder.parent, "continue", "the operator", message("goes on"), json=json, language=language)
         return
     contents = missions.read_folder(folder)
     connection = connection_again(
@@ -61,7 +62,7 @@ def resume(
         require_unsigned_allowed(os.environ, asked=production)
     given = contents.mission(verify)
     if given.bundle is not None and not json:
-        show.out.print(tell_signer(given.bundle))
+        show.out.print(language.say(tell_signer(given.bundle)))
     if missions.last_order(folder) == "pause":
         missions.order(folder, "continue", "resumed by the operator")
     orders = Orders(
@@ -75,12 +76,12 @@ def resume(
         folder=output,
         history=past.history_folder(os.environ),
         quiet=json,
-        language=spoken(lang, os.environ),
+        language=language,
         bundle=given.bundle,
     )
     ground = Ground(site=given.site, robot=given.robot)
     review = steps.review(given.authorized.task, given.site, given.robot)
-    with boarded(ground, given.authorized.task, connection, quiet=json) as vehicle:
+    with boarded(ground, given.authorized.task, connection, quiet=json, language=language) as vehicle:
         if vehicle is not None:
             missions.require_in_place(given.site, given.robot, vehicle.driver)
         leave_plan(ground, review, None, orders)

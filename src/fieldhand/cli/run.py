@@ -89,17 +89,23 @@ def run(
     bundle = open_mission(request, site, robot, lenient=lenient) if is_bundle(request) else None
     if bundle is None:
         require_unsigned_allowed(os.environ, asked=production)
-        ground, files = read_ground(require_site(site), robot or "husky", lenient=lenient)
+        ground, files = read_ground(require_site(site), robot or "husky", lenient=lenient, language=language)
     else:
         ground = Ground(site=bundle.site, robot=bundle.robot)
         files = GroundFiles(site=bundle.files, profile=bundle.profile, lenient=bundle.manifest.site.lenient)
         if not json:
-            show.out.print(tell_signer(bundle))
+            show.out.print(language.say(tell_signer(bundle)))
     given = World() if world is None else load_world(world)
     mission.check_world(given, ground.site, ground.robot)
     authorized = None if bundle is None else bundle.authorized
     if bundle is None:
-        replies = Replies(given=tuple(answer or ()), assume=assume, ask=not json, progress=None if json else language)
+        replies = Replies(
+            given=tuple(answer or ()),
+            assume=assume,
+            ask=not json,
+            progress=None if json else language,
+            language=language,
+        )
         task, document, planned_by = plan_or_read(request, ground, planner, transcript, replies)
     else:
         require_no_answer(answer or (), request)
@@ -120,6 +126,6 @@ def run(
         kept=Kept(under=under, files=files),
         bundle=bundle,
     )
-    with boarded(ground, task, connection, quiet=json) as vehicle:
+    with boarded(ground, task, connection, quiet=json, language=language) as vehicle:
         given_to = replace(orders, vehicle=vehicle)
         raise SystemExit(fly(ground, task, document, given_to, planner=planned_by, authorized=authorized))

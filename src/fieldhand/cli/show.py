@@ -16,6 +16,7 @@ from fieldhand.cli.console import out as out
 from fieldhand.language import ENGLISH, Language, message
 from fieldhand.planning.planner import Clarify, Planned, Reason, Refused
 from fieldhand.task.account import NAMES, Piece, Role, account, has_ranges
+from fieldhand.task.words import say_count, say_place
 from fieldhand.visible import json_text, visible
 
 if TYPE_CHECKING:
@@ -55,38 +56,42 @@ def print_json(value: Any) -> None:
     sys.stdout.write(json_text(value, indent=2) + "\n")
 
 
-def fail_outcome(request: str, outcome: Clarify | Refused) -> NoReturn:
+def fail_outcome(request: str, outcome: Clarify | Refused, language: Language = ENGLISH) -> NoReturn:
     """Say what was not understood or what is asked back, and end the program with status 2."""
     if isinstance(outcome, Clarify):
-        show_question(outcome)
-        err.print("Say it in the request and plan again, or give --answer.")
+        show_question(outcome, language)
+        err.print(language.say(message("Say it in the request and plan again, or give --answer.")))
         raise SystemExit(2)
     spans = [span for reason in outcome.reasons for span in reason.said]
     if spans:
         err.print(underlined(request, spans))
     for reason in outcome.reasons:
-        err.print(Words("fieldhand: ", style="bold") + Words(sentence(reason)))
+        err.print(Words("fieldhand: ", style="bold") + Words(sentence(reason, language)))
     raise SystemExit(2)
 
 
-def show_question(asked: Clarify) -> None:
+def show_question(asked: Clarify, language: Language = ENGLISH) -> None:
     """A question with its choices, and where each of them leads."""
-    err.print(Words("A question first: ", style="bold") + Words(asked.question))
+    say = language.say
+    err.print(Words(say(message("A question first: ")), style="bold") + Words(say(asked.question)))
     led = asked.places or tuple(() for _ in asked.choices)
     for number, (choice, places) in enumerate(zip(asked.choices, led, strict=True), start=1):
-        err.print(Words(f"  {number}. {choice}") + Words(_where(places), style="dim"))
+        err.print(Words(f"  {number}. {say(choice)}") + Words(_where(places, say), style="dim"))
 
 
-def _where(places: Sequence[Place]) -> str:
+def _where(places: Sequence[Place], say: Callable[[str], str]) -> str:
     """Places in a few words, behind a choice."""
+    if not places:
+        return ""
     if len(places) == 1:
-        return f" ({places[0].kind} {places[0].id})"
-    return f" ({len(places)} {'trees' if all(p.kind == 'tree' for p in places) else 'places'})" if places else ""
+        return f" ({say(say_place(places[0].kind, places[0].id))})"
+    trees = all(place.kind == "tree" for place in places)
+    return f" ({say(say_count(len(places), 'tree' if trees else 'place'))})"
 
 
-def sentence(reason: Reason) -> str:
+def sentence(reason: Reason, language: Language = ENGLISH) -> str:
     """A reason with its advice as one line."""
-    return reason.what + (f"; {reason.advice}" if reason.advice else "")
+    return language.say(reason.what) + (f"; {language.say(reason.advice)}" if reason.advice else "")
 
 
 def underlined(request: str, spans: Sequence[tuple[int, int]]) -> Text:

@@ -3,22 +3,42 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from dataclasses import asdict
 from typing import TYPE_CHECKING
 
-from fieldhand.cli.options import JsonOption, MissionArgument, MissionsOption
+from fieldhand.cli.options import JsonOption, LangOption, MissionArgument, MissionsOption
+from fieldhand.language import Number, joined, message, named
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldhand.language import Language
     from fieldhand.missions import Status
 
-_UNITS = {"distance_m": "m", "duration_s": "s", "energy_percent": "% of the battery"}
+
+#: Columns of a line's name at least.
+_LEAST_WIDE = 9
+#: How each kind of limit is said.
+_ALLOWED: dict[str, Callable[[str], str]] = {
+    "distance_m": lambda limit: joined(" ", (limit, "m")),
+    "duration_s": lambda limit: joined(" ", (limit, "s")),
+    "energy_percent": lambda limit: message("{percent} % of the battery", percent=limit),
+}
 
 
-def status(mission: MissionArgument = None, kept: MissionsOption = None, json: JsonOption = False) -> None:
+def status(
+    mission: MissionArgument = None,
+    lang: LangOption = None,
+    kept: MissionsOption = None,
+    json: JsonOption = False,
+) -> None:
     """Say how a mission stands: running, paused, interrupted or ended; where it is, what is done and what is left."""
     from fieldhand import missions
     from fieldhand.cli import show
+    from fieldhand.language import spoken
 
+    language = spoken(lang, os.environ)
     under = kept or missions.missions_folder(os.environ)
     folder = missions.find(under, mission)
     found = missions.status(folder)
@@ -27,38 +47,61 @@ def status(mission: MissionArgument = None, kept: MissionsOption = None, json: J
             {"folder": str(folder), **{k: v for k, v in asdict(found).items() if k != "now"}, **asdict(found.now)}
         )
     else:
-        _show(found)
+        _show(found, language)
 
 
-def _show(found: Status) -> None:
+def _show(found: Status, language: Language) -> None:
     from fieldhand.cli import show
-    from fieldhand.clock import clock_time
 
     now = found.now
-    print_ = show.out.print
-    show.heading(f"Mission {found.mission}: {now.state}{f' ({now.status})' if now.status else ''}")
-    print_(f"  asked     {found.request}")
+    state = named(now.state, "state")
+    title = message("Mission {id}: {state}", id=found.mission, state=state)
     if now.status:
-        print_(f"  reason    {now.reason}" if now.reason else "  reason    all is done")
+        how = named(now.status, "ending")
+        title = message("Mission {id}: {state} ({how})", id=found.mission, state=state, how=how)
+    show.heading(language.say(title))
+    lines = tuple(_lines(found))
+    wide = max(_LEAST_WIDE, *(len(language.say(name)) for name, _ in lines))
+    for name, what in lines:
+        show.out.print(f"  {language.say(name):<{wide}} {language.say(what)}")
+
+
+def _lines(found: Status) -> Iterator[tuple[str, str]]:
+    """Yield each line that says how a mission stands, with its name."""
+    from fieldhand.clock import clock_time
+    from fieldhand.language import kept_in_log
+
+    now = found.now
+    yield message("asked", context="status"), found.request
+    if now.status:
+        yield message("reason", context="status"), kept_in_log(now.reason) if now.reason else message("all is done")
+    elif now.state == "interrupted":
+        yield message("before", context="status"), now.doing
     else:
-        print_(f"  {'before' if now.state == 'interrupted' else 'now':<9} {now.doing}")
+        yield message("now", context="status"), now.doing
     if now.lat is not None and now.lon is not None:
-        print_(f"  where     {now.lat:.6f}, {now.lon:.6f}{f', {now.near}' if now.near else ''}")
+        at = f"{now.lat:.6f}, {now.lon:.6f}"
+        yield message("where", context="status"), joined(", ", (at, now.near)) if now.near else at
     for goal in now.goals:
-        print_(f"  {goal.goal:<9} {goal.outcome + ': ' if now.status else ''}{goal.why}")
-    charge = "" if now.charge_percent is None else f", battery at {now.charge_percent:.0f} %"
-    print_(f"  used      {now.travelled_m:.0f} m, {clock_time(now.seconds)}{charge}")
+        outcome = named(goal.outcome, "outcome")
+        yield goal.goal, message("{what}: {why}", what=outcome, why=goal.why) if now.status else goal.why
+    used = joined(", ", (Number(f"{now.travelled_m:.0f} m"), clock_time(now.seconds)))
+    if now.charge_percent is not None:
+        used = message("{used}, battery at {charge} %", used=used, charge=f"{now.charge_percent:.0f}")
+    yield message("used", context="status"), used
     for kind, limit in now.limits.items():
-        print_(f"  allowed   {limit:g} {_UNITS[kind]}")
+        yield message("allowed", context="status"), _ALLOWED[kind](Number(f"{limit:g}"))
     for one in now.exceeded:
-        print_(f"  exceeded  {one.why}")
+        yield message("exceeded", context="status"), kept_in_log(one.why)
     if now.in_doubt:
-        print_(f"  in doubt  {now.in_doubt}")
+        yield message("in doubt", context="status"), str(now.in_doubt)
     if found.last_event_at:
-        print_(f"  last      event {now.events} at {found.last_event_at}")
+        last = message("event {count} at {moment}", count=now.events, moment=found.last_event_at)
+        yield message("last", context="status"), last
     if found.report:
-        print_(f"  report    {found.report}")
+        yield message("report", context="status"), found.report
     if found.order:
-        print_(f"  order     {found.order}, not heard yet")
+        heard = message("{order}, not heard yet", order=named(found.order, "order"))
+        yield message("order", context="status"), heard
     if now.state == "interrupted":
-        print_(f"  next      fieldhand resume {found.mission}")
+        yield message("next", context="status"), f"fieldhand resume {found.mission}"

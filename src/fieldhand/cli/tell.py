@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fieldhand.cli.options import JsonOption, MissionArgument, MissionsOption
+from fieldhand.cli.options import JsonOption, LangOption, MissionArgument, MissionsOption
+from fieldhand.language import Language, message, spoken
 
 if TYPE_CHECKING:
     from fieldhand.execution.journal.desk import Said
@@ -22,34 +23,39 @@ BecauseOption = Annotated[str, typer.Option("--because", help="Why, in words; th
 def pause(
     mission: MissionArgument = None,
     because: BecauseOption = "paused by the operator",
+    lang: LangOption = None,
     kept: MissionsOption = None,
     json: JsonOption = False,
 ) -> None:
     """Let the robot stand still, as soon as the capture in hand is made; `fieldhand resume` lets it go on."""
-    tell(mission, kept, "pause", because, "paused", json=json)
+    tell(mission, kept, "pause", because, message("paused"), json=json, language=spoken(lang, os.environ))
 
 
 def abort(
     mission: MissionArgument = None,
     because: BecauseOption = "stopped by the operator",
+    lang: LangOption = None,
     kept: MissionsOption = None,
     json: JsonOption = False,
 ) -> None:
     """Stop here, at once; the mission is over."""
-    tell(mission, kept, "abort", because, "stopped", json=json)
+    tell(mission, kept, "abort", because, message("stopped"), json=json, language=spoken(lang, os.environ))
 
 
 def come_home(
     mission: MissionArgument = None,
     because: BecauseOption = "called home by the operator",
+    lang: LangOption = None,
     kept: MissionsOption = None,
     json: JsonOption = False,
 ) -> None:
     """Leave the rest and come home; the mission is over when the robot is there."""
-    tell(mission, kept, "return", because, "coming home", json=json)
+    tell(mission, kept, "return", because, message("coming home"), json=json, language=spoken(lang, os.environ))
 
 
-def tell(name: str | None, under: Path | None, said: Said, because: str, done: str, *, json: bool) -> None:
+def tell(
+    name: str | None, under: Path | None, said: Said, because: str, done: str, *, json: bool, language: Language
+) -> None:
     """Tell a mission something, and say whether it has heard it: exit status 1 where not, or not yet.
 
     Raises:
@@ -71,9 +77,11 @@ def tell(name: str | None, under: Path | None, said: Said, because: str, done: s
     if json:
         show.print_json({"mission": folder.name, "order": said, "heard": heard})
     elif heard:
-        show.out.print(f"mission {folder.name}: {done}")
+        show.out.print(language.say(message("mission {id}: {done}", id=folder.name, done=done)))
     elif missions.is_running(folder):
-        show.out.print(f"mission {folder.name} has not answered yet; the order stands")
+        waits = message("mission {id} has not answered yet; the order stands", id=folder.name)
+        show.out.print(language.say(waits))
     else:
-        show.out.print(f"mission {folder.name} is cut off; the order stands, and holds when it is resumed")
+        cut = message("mission {id} is cut off; the order stands, and holds when it is resumed", id=folder.name)
+        show.out.print(language.say(cut))
     raise SystemExit(0 if heard else 1)

@@ -14,6 +14,7 @@ from typing import Any
 
 from fieldhand.errors import WorldError
 from fieldhand.files import FileFault, read_file
+from fieldhand.language import message, recalled
 
 #: A world of a value for each of 3,000 trees is 200 kB; a file beyond this is something else.
 MAX_BYTES = 5_000_000
@@ -187,8 +188,10 @@ def load_world(path: Path) -> World:
     try:
         return decode_world(read_file(path, MAX_BYTES), source=str(path))
     except FileFault as fault:
-        advice = "is it a world file?" if fault.kind == "too large" else "give the path of a YAML file"
-        raise WorldError(fault.what, where=str(path), advice=advice) from None
+        advice = message("give the path of a YAML file")
+        if fault.kind == "too large":
+            advice = message("is it a world file?")
+        raise WorldError(recalled(fault.what, "file"), where=str(path), advice=advice) from None
 
 
 def decode_world(data: bytes, *, source: str) -> World:

@@ -41,6 +41,8 @@ _MISSING = "\x00"
 _FIGURES = frozenset({"metres", "least", "most"})
 
 
+#: Contexts of sentences that are known again in text from a file, or from a room that knows no language.
+_RECALLED = frozenset({"assumption", "question", "answer", "file", LOG})
 #: Sentences in a log that are longer than this are not known again.
 _LONGEST_RETOLD = 600
 _FIGURE = r"[-\N{MINUS SIGN}]?\d[\d,]*(?:\.\d+)?"
@@ -254,8 +256,8 @@ def open_language(code: str) -> Language:
     """
     if code == SOURCE:
         return ENGLISH
-    file = _locale() / code / "LC_MESSAGES" / f"{_DOMAIN}.po"
-    if not re.fullmatch(r"[a-z]{2,3}", code) or not file.is_file():
+    file = _file(code)
+    if not file.is_file():
         there = ", ".join(languages())
         raise InputError(f"there is no language '{code[:40]}'", where="--lang", advice=f"choose one of {there}")
     entries = read_entries(file.read_text(encoding="utf-8"))
@@ -281,7 +283,12 @@ def spoken(wanted: str | None, environ: Mapping[str, str]) -> Language:
         return open_language(wanted.strip().lower())
     said = next((environ[name] for name in ("LC_ALL", "LC_MESSAGES", "LANG") if environ.get(name)), "")
     code = re.split(r"[_.@-]", said.lower())[0]
-    return open_language(code if code in languages() else SOURCE)
+    return open_language(code if code == SOURCE or _file(code).is_file() else SOURCE)
+
+
+def _file(code: str) -> Any:
+    """Return the catalogue of a code, which may not be there."""
+    return _locale() / (code if re.fullmatch(r"[a-z]{2,3}", code) else "none") / "LC_MESSAGES" / f"{_DOMAIN}.po"
 
 
 def _locale() -> Any:
@@ -318,12 +325,15 @@ def _patterns(entries: Iterable[Entry]) -> dict[str, tuple[tuple[re.Pattern[str]
     """Sentences of a context as patterns, those with the most words of their own first."""
     found: dict[str, list[tuple[re.Pattern[str], str]]] = {}
     for entry in entries:
-        if entry.context in ("assumption", LOG):
+        if entry.context in _RECALLED:
             shapes = _SHAPES if entry.context == LOG else {}
-            parts = re.split(r"\{(\w+)\}", entry.template)
-            pattern = "".join(
-                re.escape(p) if k % 2 == 0 else f"(?P<{p}>{shapes.get(p, '.*?')})" for k, p in enumerate(parts)
-            )
+            pattern, known = "", set[str]()
+            for k, part in enumerate(re.split(r"\{(\w+)\}", entry.template)):
+                if k % 2 == 0:
+                    pattern += re.escape(part)
+                else:
+                    pattern += f"(?P={part})" if part in known else f"(?P<{part}>{shapes.get(part, '.*?')})"
+                    known.add(part)
             found.setdefault(entry.context, []).append((re.compile(pattern, re.DOTALL), entry.template))
     return {
         context: tuple(sorted(pairs, key=lambda p: -len(re.sub(r"\{\w+\}", "", p[1]))))

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from fieldhand import mission
 from fieldhand.errors import ExecutionError, NotApprovedError, NotConfirmedError
+from fieldhand.language import Number, joined, kept_in_log, message
 
 if TYPE_CHECKING:
     from fieldhand.execution.drivers.protocol import Driver
@@ -37,9 +38,17 @@ def require_in_place(site: Site, robot: RobotProfile, driver: Driver) -> float:
     from fieldhand.site.model import Place
 
     driver.poll()
-    for what, why in (("will not move", driver.stopped()), ("does not know where it is", driver.lost())):
-        if why is not None:
-            raise ExecutionError(f"the robot {what}: {why}", advice="mend that, then try again")
+    stopped, lost = driver.stopped(), driver.lost()
+    if stopped is not None:
+        raise ExecutionError(
+            message("the robot will not move: {why}", why=kept_in_log(stopped)),
+            advice=message("mend that, then try again"),
+        )
+    if lost is not None:
+        raise ExecutionError(
+            message("the robot does not know where it is: {why}", why=kept_in_log(lost)),
+            advice=message("mend that, then try again"),
+        )
     at, drives = driver.position(), drives_for(site, robot)
     start = beginning(drives)
     away_m = math.dist((at.x, at.y), start.stand or start.xy)
@@ -53,9 +62,15 @@ def require_in_place(site: Site, robot: RobotProfile, driver: Driver) -> float:
         why = drives.problem(here)
     if why:
         raise ExecutionError(
-            f"the robot stands {away_m:,.0f} m from the start, at {at.lat:.6f}, {at.lon:.6f}, and that is {why}",
+            message(
+                "the robot stands {metres} m from the start, at {lat}, {lon}, and that is {why}",
+                metres=Number(f"{away_m:,.0f}"),
+                lat=Number(f"{at.lat:.6f}"),
+                lon=Number(f"{at.lon:.6f}"),
+                why=why,
+            ),
             where=site.name,
-            advice="drive it into an aisle, onto a headland or to the start; or give the site where it is",
+            advice=message("drive it into an aisle, onto a headland or to the start; or give the site where it is"),
         )
     return away_m
 
@@ -83,11 +98,18 @@ def require_charged(
     known = {problem.line() for problem in promised.problems}
     seen = mission.review(promised.task, site, robot, charge_percent=charge_percent)
     new = [problem for problem in seen.problems if problem.line() not in known]
-    lines = tuple(f"with the battery at {charge_percent:.0f} %, {problem.line()}" for problem in new)
+    charge = f"{charge_percent:.0f}"
+    lines = tuple(
+        message("with the battery at {charge} %, {problem}", charge=charge, problem=problem.line()) for problem in new
+    )
     if any(problem.severity == "error" for problem in new):
-        raise NotApprovedError("; ".join(lines), advice="charge it first")
+        raise NotApprovedError(joined("; ", lines), advice=message("charge it first"))
     if lines and not confirm:
-        raise NotConfirmedError(lines, advice="charge it first, or give --confirm if it shall set out nevertheless")
+        raise NotConfirmedError(
+            message("not confirmed: {warnings}", warnings=joined("; ", lines)),
+            lines,
+            advice=message("charge it first, or give --confirm if it shall set out nevertheless"),
+        )
 
 
 def _elsewhere(site: Site, xy: XY) -> str:
@@ -97,7 +119,9 @@ def _elsewhere(site: Site, xy: XY) -> str:
 
     if boundaries := site.zones_of("boundary"):
         within = any(shapely.intersects_xy(zone.polygon, *xy) for zone in boundaries)
-        return "" if within else "outside the boundary"
+        return "" if within else message("outside the boundary")
     places = np.vstack([site.xy, *(np.array([marker.xy]) for marker in site.markers.values())])
     nearest = float(np.hypot(*(places - np.array(xy)).T).min())
-    return f"{nearest:,.0f} m from the nearest tree of the site" if nearest > FAR_M else ""
+    if nearest <= FAR_M:
+        return ""
+    return message("{metres} m from the nearest tree of the site", metres=Number(f"{nearest:,.0f}"))

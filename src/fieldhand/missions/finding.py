@@ -8,6 +8,7 @@ from pathlib import Path
 
 from fieldhand.errors import JournalError
 from fieldhand.files import named_folder, state_folder
+from fieldhand.language import message, named
 from fieldhand.missions.folder import ABOUT
 
 
@@ -30,10 +31,12 @@ def find(under: Path, name: str | None) -> Path:
         for folder in (under / name, Path(name)):
             if exists(folder):
                 return folder
-        raise JournalError(f"no mission '{name}'", where=str(under), advice=_known(under))
+        raise JournalError(message("no mission '{name}'", name=name), where=str(under), advice=_known(under))
     folders = all_missions(under)
     if not folders:
-        raise JournalError("no mission was begun", where=str(under), advice="fieldhand run begins one")
+        raise JournalError(
+            message("no mission was begun"), where=str(under), advice=message("fieldhand run begins one")
+        )
     return folders[-1]
 
 
@@ -71,12 +74,12 @@ def begun_at(folder: Path) -> datetime:
 
 def _closed(folder: Path, error: OSError) -> JournalError:
     return JournalError(
-        f"cannot be looked into: {error.strerror or error}",
+        message("cannot be looked into: {why}", why=named(error.strerror or str(error), "reason")),
         where=str(folder),
-        advice="see to its rights, or give another folder with --missions",
+        advice=message("see to its rights, or give another folder with --missions"),
     )
 
 
 def _known(under: Path) -> str:
     names = [folder.name for folder in all_missions(under)]
-    return f"there are {', '.join(names[-5:])}" if names else "none was begun there"
+    return message("there are {names}", names=", ".join(names[-5:])) if names else message("none was begun there")

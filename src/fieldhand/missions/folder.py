@@ -17,6 +17,7 @@ from fieldhand.errors import JournalError, NotApprovedError
 from fieldhand.execution.vehicle import Connection
 from fieldhand.files import FileFault, read_file, store_names, write_stored, write_whole
 from fieldhand.folders import Unguarded, require_guarded, require_own_file
+from fieldhand.language import message, named
 from fieldhand.missions.orders import nobody
 from fieldhand.missions.signed import require_signed
 from fieldhand.task.authorization import Authorization, AuthorizedTask
@@ -90,17 +91,24 @@ class Inputs:
     def __post_init__(self) -> None:
         approved = self.authorized.authorization
         for what, read, given, wanted in (
-            ("Task", approved.task_sha256, _sha256(self.document), approved.task_sha256),
-            ("site", self.site.sha256, self.files.sha256, approved.site_sha256),
-            ("robot profile", self.robot.sha256, _sha256(self.profile), approved.robot_sha256),
+            (message("Task"), approved.task_sha256, _sha256(self.document), approved.task_sha256),
+            (message("site"), self.site.sha256, self.files.sha256, approved.site_sha256),
+            (message("robot profile"), self.robot.sha256, _sha256(self.profile), approved.robot_sha256),
         ):
             if not read == given == wanted:
                 raise NotApprovedError(
-                    f"the {what} is not the one that was approved (SHA-256 {given[:12]}, approved {wanted[:12]})",
-                    advice="approve the Task again",
+                    message(
+                        "the {kind} is not the one that was approved (SHA-256 {given}, approved {wanted})",
+                        kind=what,
+                        given=given[:12],
+                        wanted=wanted[:12],
+                    ),
+                    advice=message("approve the Task again"),
                 )
         if self.bundle is not None and self.authorized != self.bundle.authorized:
-            raise NotApprovedError("the Task is not the one that was signed", advice="carry out the signed mission")
+            raise NotApprovedError(
+                message("the Task is not the one that was signed"), advice=message("carry out the signed mission")
+            )
 
     @property
     def document(self) -> bytes:
@@ -202,7 +210,9 @@ def begin(under: Path, name: str, inputs: Inputs) -> Mission:
         about["departure"] = asdict(inputs.departure)
     whole = json_text(about, indent=1).encode()
     if (folder / ABOUT).exists():
-        raise JournalError("there is a mission of that name already", where=str(folder), advice="fieldhand resume it")
+        raise JournalError(
+            message("there is a mission of that name already"), where=str(folder), advice=message("fieldhand resume it")
+        )
     try:
         for one in (under, folder, folder / "site"):
             one.mkdir(mode=0o755, parents=True, exist_ok=True)
@@ -218,9 +228,9 @@ def begin(under: Path, name: str, inputs: Inputs) -> Mission:
         store_names(under)
     except OSError as error:
         raise JournalError(
-            f"the mission's folder cannot be written: {error.strerror or error}",
+            message("the mission's folder cannot be written: {why}", why=named(error.strerror or str(error), "reason")),
             where=str(folder),
-            advice="free some space, or give another folder with --missions",
+            advice=message("free some space, or give another folder with --missions"),
         ) from None
     return Mission(
         folder=folder,
@@ -394,9 +404,9 @@ def remove_folder(folder: Path) -> None:
         shutil.rmtree(folder)
     except OSError as error:
         raise JournalError(
-            f"the mission's folder cannot be removed: {error.strerror or error}",
+            message("the mission's folder cannot be removed: {why}", why=named(error.strerror or str(error), "reason")),
             where=str(folder),
-            advice="remove what is left of it by hand",
+            advice=message("remove what is left of it by hand"),
         ) from None
 
 
@@ -439,9 +449,9 @@ def read_kept(folder: Path, file: str, sha256: str) -> bytes:
         raise _no_mission(folder, f"{file} {fault.what}") from None
     if _sha256(data) != sha256:
         raise JournalError(
-            f"{file} is not the one that the mission began with",
+            message("{file} is not the one that the mission began with", file=file),
             where=str(folder),
-            advice="bring the file back, or carry the Task out as a new mission",
+            advice=message("bring the file back, or carry the Task out as a new mission"),
         )
     return data
 
@@ -461,12 +471,18 @@ def _require_guarded(folder: Path) -> None:
 
 def _unguarded(fault: Unguarded) -> JournalError:
     return JournalError(
-        fault.what, where=str(fault.path), advice=f"{fault.advice}; or give another folder with --missions"
+        fault.what,
+        where=str(fault.path),
+        advice=message("{advice}; or give another folder with --missions", advice=fault.advice),
     )
 
 
 def _no_mission(folder: Path, why: str) -> JournalError:
-    return JournalError(f"this is no mission: {why}", where=str(folder), advice="give the folder that run has made")
+    return JournalError(
+        message("this is no mission: {why}", why=why),
+        where=str(folder),
+        advice=message("give the folder that run has made"),
+    )
 
 
 def _sha256(data: bytes) -> str:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from fieldhand import mission
 from fieldhand.errors import ExecutionError
 from fieldhand.folders import is_locked
+from fieldhand.language import message
 from fieldhand.missions.folder import (
     JOURNAL,
     LOG,
@@ -123,15 +124,17 @@ def require_vehicle(name: str, departure: Departure | None, *, simulated: bool) 
     """
     if departure is None and not simulated:
         raise ExecutionError(
-            "the mission was begun in simulation and cannot be gone on with on a robot",
+            message("the mission was begun in simulation and cannot be gone on with on a robot"),
             where=name,
-            advice="resume it without --on, or carry the Task out on the robot as a new mission",
+            advice=message("resume it without --on, or carry the Task out on the robot as a new mission"),
         )
     if departure is not None and simulated:
         raise ExecutionError(
-            f"the mission was begun on a robot ({departure.by}) and cannot be gone on with in simulation",
+            message(
+                "the mission was begun on a robot ({by}) and cannot be gone on with in simulation", by=str(departure.by)
+            ),
             where=name,
-            advice="resume it on that robot",
+            advice=message("resume it on that robot"),
         )
 
 
@@ -232,7 +235,7 @@ def order(
     from fieldhand.task.results import Ended
 
     if any(isinstance(event, Ended) for event in events_of(folder)):
-        raise ExecutionError("the mission has ended", where=folder.name)
+        raise ExecutionError(message("the mission has ended"), where=folder.name)
     number = Desk(folder / ORDERS).say(said, reason)
     while is_locked(folder):
         if heard(folder / JOURNAL)[0] >= number:

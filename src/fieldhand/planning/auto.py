@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.errors import ModelError
+from fieldhand.language import joined, message
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Planner, Refused
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -51,16 +52,22 @@ class AutoPlanner:
             answered = llm.plan(request, site, robot, answers)
         except ModelError as error:
             raise ModelError(
-                f"{error.what} (a language model was asked because the built-in planner did not understand: {why})",
+                message(
+                    "{what} (a language model was asked because the built-in planner did not understand: {why})",
+                    what=error.what,
+                    why=why,
+                ),
                 where=error.where,
                 advice=error.advice,
             ) from error
         match answered:
             case Planned():
-                return _warn(
-                    answered,
-                    f"planned by '{answered.planner}', because the built-in planner did not understand: {why}",
+                warning = message(
+                    "planned by '{planner}', because the built-in planner did not understand: {why}",
+                    planner=answered.planner,
+                    why=why,
                 )
+                return _warn(answered, warning)
             case Clarify():
                 return answered
             case Refused():
@@ -76,13 +83,13 @@ def _warn(planned: Planned, warning: str) -> Planned:
 def _advise(refused: Refused) -> Refused:
     """The refusal with how to get a second opinion, said once."""
     *others, last = refused.reasons
-    second = "or name a language model that may try it in FIELDHAND_MODEL (docs/planning-llm.md)"
-    advice = f"{last.advice}; {second}" if last.advice else second
+    second = message("or name a language model that may try it in FIELDHAND_MODEL (docs/planning-llm.md)")
+    advice = joined("; ", (last.advice, second)) if last.advice else second
     return replace(refused, reasons=(*others, replace(last, advice=advice)))
 
 
 def _summary(refused: Refused) -> str:
     """Why the built-in planner refused, short enough for one line."""
     reasons = [reason.what for reason in refused.reasons]
-    more = f"; and {len(reasons) - 3} more" if len(reasons) > 3 else ""
-    return "; ".join(reasons[:3]) + more
+    shown = joined("; ", reasons[:3])
+    return message("{items}; and {count} more", items=shown, count=len(reasons) - 3) if len(reasons) > 3 else shown

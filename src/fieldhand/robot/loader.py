@@ -14,6 +14,7 @@ from pydantic_core import ErrorDetails
 
 from fieldhand.errors import ProfileError
 from fieldhand.files import FileFault, read_file
+from fieldhand.language import message, recalled
 from fieldhand.robot.bindings_loader import Mismatch, bindings_of, mismatches
 from fieldhand.robot.document import (
     ActionDocument,
@@ -92,15 +93,24 @@ def profile_bytes(name_or_path: str) -> tuple[bytes, str]:
         return read_file(path, MAX_BYTES, plain=True), str(path)
     except FileFault as fault:
         if fault.kind != "missing":
-            advice = {"too large": "a profile is a page of YAML", "no file": "give the path of a YAML file"}
+            advice = {
+                "too large": message("a profile is a page of YAML"),
+                "no file": message("give the path of a YAML file"),
+            }
             raise ProfileError(
-                fault.what, where=_short(name_or_path), advice=advice.get(fault.kind, "check the path")
+                recalled(fault.what, "file"),
+                where=_short(name_or_path),
+                advice=advice.get(fault.kind, message("check the path")),
             ) from None
     near = difflib.get_close_matches(name_or_path.lower(), names, n=1)
-    hint = f"did you mean {near[0]!r}? " if near else ""
+    hint = message("did you mean '{name}'?", name=near[0]) if near else ""
     raise ProfileError(
-        f"no robot or profile file {_short(name_or_path)!r}",
-        advice=f"{hint}The built-in robots are {', '.join(names)}; for your own give the path of its YAML file",
+        message("no robot or profile file '{name}'", name=_short(name_or_path)),
+        advice=message(
+            "{hint} The built-in robots are {names}; for your own give the path of its YAML file",
+            hint=hint,
+            names=", ".join(names),
+        ),
     )
 
 

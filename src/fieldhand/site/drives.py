@@ -286,7 +286,10 @@ class Drives:
         candidates = self._stands.of(place)
         if candidates[0].why_not:
             return no_stand(candidates, 2.0 * self.clearance_m)
-        return f"out of reach: {self.layout.in_the_way(candidates[0].xy) or 'a fence'} is there"
+        return message(
+            "out of reach: {obstacle} is there",
+            obstacle=self.layout.in_the_way(candidates[0].xy) or message("a fence"),
+        )
 
     def _cut_off(self, places: Sequence[Place]) -> list[str]:
         """Why no way leads to each of the places from where the robot starts."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from fieldhand.errors import TaskError
 from fieldhand.files import FileFault, read_file
+from fieldhand.language import message, recalled
 from fieldhand.task.codec_text import hidden_character
 
 if TYPE_CHECKING:
@@ -20,7 +21,10 @@ MAX_BYTES = 4_000_000
 MAX_DEPTH = 200
 
 
-def read_xml(path: Path, *, advice: str = "give an XML file") -> bytes:
+_GIVE_XML = message("give an XML file")
+
+
+def read_xml(path: Path, *, advice: str = _GIVE_XML) -> bytes:
     """The bytes of a document's file; no more of it is read than one may have.
 
     Raises:
@@ -29,8 +33,8 @@ def read_xml(path: Path, *, advice: str = "give an XML file") -> bytes:
     try:
         return read_file(path, MAX_BYTES)
     except FileFault as fault:
-        advice = "split the mission" if fault.kind == "too large" else advice
-        raise TaskError(fault.what, where=str(path), advice=advice) from None
+        advice = message("split the mission") if fault.kind == "too large" else advice
+        raise TaskError(recalled(fault.what, "file"), where=str(path), advice=advice) from None
 
 
 def parse_xml(data: bytes, *, source: str = "") -> _Element:

@@ -114,9 +114,9 @@ def say_place(kind: str, name: str) -> str:
     return message("the {role}", context="log", role=named(name, "role"))
 
 
-def some_names(names: Sequence[str], most: int) -> str:
+def some_names(names: Sequence[str], most: int, sign: str = ", ") -> str:
     """Return so many names at most, and how many more there are: "14, 15 and 6 more"."""
-    shown = joined(", ", names[:most])
+    shown = joined(sign, names[:most])
     if len(names) <= most:
         return shown
     return message("{items} and {count} more", items=shown, count=len(names) - most)

@@ -17,6 +17,7 @@ from pathlib import Path, PurePosixPath
 
 from fieldhand.errors import BundleError
 from fieldhand.files import FileFault, read_file
+from fieldhand.language import message, recalled
 
 #: Of the whole file: a site of 100 MB, the most that is read, and what belongs to it.
 MAX_BYTES = 128_000_000
@@ -96,8 +97,10 @@ def read_bundle_file(path: Path) -> bytes:
         if fault.kind == "too large":
             raise too_big(fault.size, at) from None
         found = fault.kind == "unreadable"
-        advice = "check the path and its rights" if found else "give a file that fieldhand approve wrote"
-        raise BundleError(fault.what, where=at, advice=advice) from None
+        advice = (
+            message("check the path and its rights") if found else message("give a file that fieldhand approve wrote")
+        )
+        raise BundleError(recalled(fault.what, "file"), where=at, advice=advice) from None
 
 
 def too_big(size: int, source: str) -> BundleError:

@@ -14,6 +14,7 @@ from fieldhand.approval.bundle.members import site_files_of
 from fieldhand.approval.bundle.signature import Signature, require_signature
 from fieldhand.approval.keys.trust import KnownKey
 from fieldhand.errors import BundleError, NotTrustedError
+from fieldhand.language import message
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import parse_profile
 from fieldhand.robot.model import RobotProfile
@@ -27,7 +28,7 @@ from fieldhand.task.schema import require_valid
 
 #: Clocks of two machines differ by a time zone that is set wrongly; by more only if one of them is wrong altogether.
 FUTURE_ALLOWED = timedelta(days=1)
-_AGAIN = "ask for the file again from whoever approved it"
+_AGAIN = message("ask for the file again from whoever approved it")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -134,15 +135,22 @@ def require_trusted(sealed: Sealed, known: Mapping[str, KnownKey]) -> KnownKey:
     key = known.get(fingerprint)
     if key is None:
         raise NotTrustedError(
-            f"signed with a key that is not trusted here ({fingerprint})",
+            message("signed with a key that is not trusted here ({fingerprint})", fingerprint=fingerprint),
             where=sealed.source,
-            advice="if you know whose it is, compare the fingerprint with its owner and give fieldhand keys trust",
+            advice=message(
+                "if you know whose it is, compare the fingerprint with its owner and give fieldhand keys trust"
+            ),
         )
     if key.state != "trusted":
         raise NotTrustedError(
-            f"signed with the key of {key.name} ({fingerprint}), which was revoked on {key.revoked}",
+            message(
+                "signed with the key of {name} ({fingerprint}), which was revoked on {revoked}",
+                name=key.name,
+                fingerprint=fingerprint,
+                revoked=str(key.revoked),
+            ),
             where=sealed.source,
-            advice="have the mission approved again with a key that is trusted",
+            advice=message("have the mission approved again with a key that is trusted"),
         )
     return key
 
@@ -178,9 +186,11 @@ def content_of(sealed: Sealed, *, now: datetime, stranger: bool = False) -> Cont
     files = site_files_of(members, manifest.site.file, source=source)
     if stranger and not is_plain(files):
         raise NotTrustedError(
-            "its site is read only if someone trusted has signed it (Shapefile, GeoPackage, KML, zip)",
+            message("its site is read only if someone trusted has signed it (Shapefile, GeoPackage, KML, zip)"),
             where=files.source,
-            advice="compare the fingerprint with the owner of the key and give fieldhand keys trust, then look again",
+            advice=message(
+                "compare the fingerprint with the owner of the key and give fieldhand keys trust, then look again"
+            ),
         )
     site = site_of(files, lenient=manifest.site.lenient)
     require_valid(members[TASK], capabilities_of(robot), source=f"{source}, {TASK}")
@@ -217,17 +227,24 @@ def _require_files(manifest: Manifest, sealed: Sealed) -> None:
     held = {name: sha256 for name, sha256 in sealed.hashes.items() if name not in ("bundle", MANIFEST, SIGNATURE)}
     wrong = sorted(name for name in named.keys() | held.keys() if named.get(name) != held.get(name))
     if wrong:
-        raise BundleError(f"{wrong[0][:60]} is not what was approved", where=sealed.source, advice=_AGAIN)
+        raise BundleError(
+            message("{wrong} is not what was approved", wrong=wrong[0][:60]), where=sealed.source, advice=_AGAIN
+        )
 
 
 def _require_past(manifest: Manifest, now: datetime, source: str) -> None:
     """A date far ahead authorizes nothing more; but then a clock is wrong, and every time in the log would be, too."""
     if datetime.fromisoformat(manifest.approved.at) > now + FUTURE_ALLOWED:
         raise BundleError(
-            f"was approved at {manifest.approved.at}, and the clock of this machine says"
-            f" {now.isoformat(timespec='seconds')}",
+            message(
+                "was approved at {at}, and the clock of this machine says {now}",
+                at=manifest.approved.at,
+                now=now.isoformat(timespec="seconds"),
+            ),
             where=source,
-            advice="set the clock that is wrong: this one, or that of whoever approves, who then approves again",
+            advice=message(
+                "set the clock that is wrong: this one, or that of whoever approves, who then approves again"
+            ),
         )
 
 
@@ -235,9 +252,11 @@ def _require_the_same(source: str, *parts: tuple[str, object, object]) -> None:
     for name, approved, here in parts:
         if approved != here:
             raise BundleError(
-                f"the {name} is read here as something else than was approved",
+                message("the {name} is read here as something else than was approved", name=name),
                 where=source,
-                advice="use the version of the program that it was approved with, or approve it again with this one",
+                advice=message(
+                    "use the version of the program that it was approved with, or approve it again with this one"
+                ),
             )
 
 

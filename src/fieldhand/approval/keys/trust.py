@@ -16,6 +16,7 @@ from fieldhand.approval.keys.names import clean_name, skeleton
 from fieldhand.approval.keys.public import KEY_BYTES, PublicKey, parse_fingerprint, require_sound
 from fieldhand.approval.keys.rights import make_folder, read_guarded, replace, require_own_folder
 from fieldhand.errors import KeyFileError
+from fieldhand.language import message
 
 #: Beside the keys: the number of their list.
 _LIST = "list.json"
@@ -68,7 +69,7 @@ class KnownKey:
     @property
     def in_words(self) -> str:
         """Whose it is, and which."""
-        return f"the key of {self.name} ({self.fingerprint})"
+        return message("the key of {name} ({fingerprint})", name=self.name, fingerprint=self.fingerprint)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from fieldhand.language import message
 from fieldhand.planning.english.faults import unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.hand import ACTS
@@ -78,7 +79,7 @@ def _stop_along(lead: Part, part: Part) -> Part | None:
 def _merged(lead: Part, part: Part, site: Site) -> Part | None:
     """A command with the area, the rows or the spacing in front of it; None if they do not belong to it."""
     if lead.spacing is not None and part.spacing is not None:
-        raise unclear(lead.terms, "two distances between stops cannot be kept", "say one")
+        raise unclear(lead.terms, message("two distances between stops cannot be kept"), message("say one"))
     spacing = part.spacing or lead.spacing
     whole = replace(part, spacing=spacing, terms=(*lead.terms, *part.terms), then=lead.then)
     if lead.places is None:
@@ -93,9 +94,13 @@ def _merged(lead: Part, part: Part, site: Site) -> Part | None:
         return None if spacing is part.spacing else _clash(lead)
     areal = ("AT", "INSIDE", "ALONG", "FOR") if found.rows else ("AT", "INSIDE")
     if lead.kind == "lead" and (lead.relation is None or lead.relation.kind not in areal):
-        raise unclear(lead.terms, "it is not clear what that area is of", "say 'the trees in the northern half'")
+        raise unclear(
+            lead.terms, message("it is not clear what that area is of"), message("say 'the trees in the northern half'")
+        )
     if len(lead.places.chains) != 1:
-        raise unclear(lead.terms, "it is not clear what that area is of", "say 'the trees in the northern half'")
+        raise unclear(
+            lead.terms, message("it is not clear what that area is of"), message("say 'the trees in the northern half'")
+        )
     area = lead.places.chains[0]
     some = _some_of_them(whole, area) or _in_each(whole, lead, area)
     if some is not None:
@@ -108,7 +113,9 @@ def _merged(lead: Part, part: Part, site: Site) -> Part | None:
 
 
 def _clash(lead: Part) -> Part:
-    raise unclear(lead.terms, "stops at a distance need a line of their own", "say 'every 20 m along row 4'")
+    raise unclear(
+        lead.terms, message("stops at a distance need a line of their own"), message("say 'every 20 m along row 4'")
+    )
 
 
 def _without_places(lead: Part, whole: Part, found: Found) -> Part | None:

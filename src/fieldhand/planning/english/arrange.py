@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
+from fieldhand.language import message
 from fieldhand.planning.english.allowing import with_allowances
 from fieldhand.planning.english.faults import unclear
 from fieldhand.planning.english.kinds import PLACES, RELATIONS, VERBS
@@ -137,7 +138,9 @@ def without_filler(terms: Iterable[Term], request: str) -> Asked:
             filler.append(term.span)
         elif term.kind == "INSTEAD":
             if not _contrasted(kept):
-                raise unclear([term], "it does not say what is replaced", "say only what is to be done")
+                raise unclear(
+                    [term], message("it does not say what is replaced"), message("say only what is to be done")
+                )
             filler.append(term.span)
         elif term.kind == "PURPOSE":
             end = at
@@ -151,8 +154,8 @@ def without_filler(terms: Iterable[Term], request: str) -> Asked:
             elif term.text.lower() in _TO_DO and clause and clause[0].kind in VERBS:
                 kept.append(replace(term, kind="AND"))
             elif any(t.kind in _MORE_THAN_A_REASON for t in clause):
-                advice = "say what is to be done in a sentence of its own, and leave the reason out"
-                raise unclear([term, *clause], "a reason or something to do?", advice)
+                advice = message("say what is to be done in a sentence of its own, and leave the reason out")
+                raise unclear([term, *clause], message("a reason or something to do?"), advice)
             else:
                 last = clause[-1] if clause else term
                 filler.append((term.start, last.end))

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
+from fieldhand.language import Message, message, named
 from fieldhand.planning.english.faults import Question, text_of
 from fieldhand.planning.english.syntax import NounPhrase, Part
+from fieldhand.task.words import say_action
 
 
 def how_many(
@@ -22,23 +26,29 @@ def how_many(
     choices = numbers
     if of_all:
         words.append(f"all {_named(phrase)}")
-        choices = (*numbers, "all of them")
-    return Question(asked or f"'{text_of(phrase.terms)}': how many?", choices, terms=phrase.terms, words=tuple(words))
+        choices = (*numbers, message("all of them", context="answer"))
+    return Question(
+        asked or message("'{said}': how many?", context="question", said=text_of(phrase.terms)),
+        choices,
+        terms=phrase.terms,
+        words=tuple(words),
+    )
 
 
 def which_of(phrase: NounPhrase, asked: str, *, there: int, claimed: int | None) -> Question:
     """All of what a noun phrase names, or any so many of them; ``claimed``: None where there are not so many."""
     every = f"all {_named(phrase)}" if there > 1 else f"the {_named(phrase)}"
-    choices = {f"all {there} of them": every} if there else {}
+    choices: dict[str, str] = {message("all {count} of them", context="answer", count=there): every} if there else {}
     if claimed is not None:
-        choices[f"any {claimed} of them"] = f"any {claimed} {_named(phrase)}" if claimed > 1 else f"a {_named(phrase)}"
+        any_of_them = message("any {count} of them", context="answer", count=claimed)
+        choices[any_of_them] = f"any {claimed} {_named(phrase)}" if claimed > 1 else f"a {_named(phrase)}"
     return Question(asked, tuple(choices), terms=phrase.terms, words=tuple(choices.values()))
 
 
 def every_or_how_many(part: Part) -> Question:
     """At every tree of an area, or at so many of them."""
-    asked = f"'{text_of(part.terms)}': at every tree, or at how many?"
-    choices = ("at every tree", "at 4 trees")
+    asked = message("'{said}': at every tree, or at how many?", context="question", said=text_of(part.terms))
+    choices = (message("at every tree", context="answer"), message("at 4 trees", context="answer"))
     if part.places is None or part.places.joins or (part.relation is not None and part.relation.kind == "ALONG"):
         return Question(asked, choices)
     area = text_of(part.places.terms)
@@ -55,6 +65,16 @@ def each_or_in_all(part: Part, asked: str, choices: tuple[str, str], number: int
     area = text_of(part.places.terms)
     words = (f"each of {area}", f"{number} of {area}" if number > 1 else "")
     return Question(asked, choices, terms=part.places.terms, words=words)
+
+
+def choices_of_actions(actions: Iterable[str]) -> tuple[str, ...]:
+    """Return each action once, as a choice to answer with."""
+    return tuple(named(name.replace("_", " "), "answer", _in_words(name)) for name in dict.fromkeys(actions))
+
+
+def _in_words(action: str) -> Message | None:
+    said = say_action(action)
+    return said if isinstance(said, Message) else None
 
 
 def _named(phrase: NounPhrase) -> str:

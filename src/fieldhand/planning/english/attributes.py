@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from fieldhand.language import Number, message, named
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question, unclear
 from fieldhand.planning.english.tokens import Term
 from fieldhand.site.model import Site
 from fieldhand.task import selectors as s
+from fieldhand.task.words import listed
 
 #: Tests and their opposites.
 OPPOSITE: dict[s.Test, s.Test] = {"lt": "ge", "ge": "lt", "gt": "le", "le": "gt", "eq": "ne", "ne": "eq"}
@@ -40,7 +42,7 @@ def filtered(bag: Bag, of: s.Selector, site: Site) -> s.Selector:
     word = bag.take("ATTR") if values and bag.has("ATTR") else None
     meant = next((v for v in values if word is not None and any(n in word.value for n, _ in v.value)), None)
     if word is not None and meant is None:
-        raise bag.fault(f"'{values[0].text}' is no {word.text}")
+        raise bag.fault(message("'{said}' is no {kind}", said=values[0].text, kind=word.text))
     for value in values:
         of = s.Where(attribute=_one(value, word if value is meant else None), test="eq", value=_text(value, bag), of=of)
     return of
@@ -51,12 +53,23 @@ def attribute_of(bag: Bag, hint: str, amount: Term | None, site: Site) -> str:
     word = bag.take("ATTR")
     if word is not None:
         if len(word.value) > 1:
-            raise Question(f"'{word.text}' can be {' or '.join(word.value)}: which is meant?", tuple(word.value))
+            raise Question(
+                message(
+                    "'{said}' can be {value}: which is meant?",
+                    context="question",
+                    said=word.text,
+                    value=listed(word.value, "or"),
+                ),
+                tuple(word.value),
+            )
         return str(word.value[0])
     if not hint and amount is not None and amount.kind == "AMOUNT":
         hint = _UNIT_HINTS.get(amount.value.unit, "")
     if not hint:
-        raise bag.fault("which attribute is compared does not stand there", f"say which: {known(site)}")
+        raise bag.fault(
+            message("which attribute is compared does not stand there"),
+            message("say which: {known}", known=known(site)),
+        )
     return hinted(hint, bag.phrase.terms, site)
 
 
@@ -66,13 +79,19 @@ def hinted(hint: str, terms: tuple[Term, ...], site: Site) -> str:
     if len(fitting) == 1:
         return fitting[0]
     if fitting:
-        raise Question(f"which of {' and '.join(fitting)} is meant?", tuple(fitting))
-    raise unclear(terms, f"this site records no {hint} of its trees", f"it records: {known(site)}")
+        raise Question(
+            message("which of {fitting} is meant?", context="question", fitting=listed(fitting)), tuple(fitting)
+        )
+    raise unclear(
+        terms,
+        message("this site records no {hint} of its trees", hint=named(hint, "attribute hint")),
+        message("it records: {known}", known=known(site)),
+    )
 
 
 def known(site: Site) -> str:
     """The attributes that a site records, as words."""
-    return ", ".join(list(site.attributes)[:8]) or "none"
+    return ", ".join(list(site.attributes)[:8]) or message("none")
 
 
 def _compared(group: tuple[Term, ...], bag: Bag, of: s.Selector, site: Site) -> s.Selector:
@@ -82,14 +101,17 @@ def _compared(group: tuple[Term, ...], bag: Bag, of: s.Selector, site: Site) -> 
     if head.kind == "ATTRVAL":
         word = bag.take("ATTR") if bag.has("ATTR") else None
         if word is not None and not any(name in word.value for name, _ in head.value):
-            raise bag.fault(f"'{head.text}' is no {word.text}")
+            raise bag.fault(message("'{said}' is no {kind}", said=head.text, kind=word.text))
         return s.Where(attribute=_one(head, word), test="ne", value=_text(head, bag), of=of)
     if head.kind == "BETWEEN":
         low, high = number_of(terms[1]), number_of(terms[2])
         if low > high:
-            raise bag.fault(f"nothing lies between {low:g} and {high:g}", "put the lower number first")
+            raise bag.fault(
+                message("nothing lies between {low} and {high}", low=Number(f"{low:g}"), high=Number(f"{high:g}")),
+                message("put the lower number first"),
+            )
         if negated:
-            raise bag.fault("'not between' is two comparisons", "say 'below ...' or 'above ...'")
+            raise bag.fault(message("'not between' is two comparisons"), message("say 'below ...' or 'above ...'"))
         attribute = attribute_of(bag, "", terms[1], site)
         return s.Where(
             attribute=attribute, test="le", value=high, of=s.Where(attribute=attribute, test="ge", value=low, of=of)
@@ -105,7 +127,15 @@ def _one(value: Term, named: Term | None) -> str:
     if named is not None:
         names = tuple(n for n in names if n in named.value)
     if len(names) > 1:
-        raise Question(f"'{value.text}' stands under {' and '.join(names)}: which is meant?", names)
+        raise Question(
+            message(
+                "'{said}' stands under {names}: which is meant?",
+                context="question",
+                said=value.text,
+                names=listed(names),
+            ),
+            names,
+        )
     return str(names[0])
 
 

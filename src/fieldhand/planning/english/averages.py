@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from fieldhand.language import message
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import Unclear
 from fieldhand.planning.planner import Reason
@@ -41,6 +42,8 @@ def check_averages(root: d.Block, request: str, robot: RobotProfile) -> None:
         several = len(tested) > 1 or any(one.reading in looped or one.count > 1 for one in tested)
         if not single or (several and not _OF_ONE.search(request)):
             words = request[said[0][0] : said[0][1]]
-            what = f"'{words}': each reading is tested by itself, and no average of several is known"
-            raise Unclear(Reason(what=what, said=said, advice="say what one reading has to be"))
+            what = message(
+                "'{words}': each reading is tested by itself, and no average of several is known", words=words
+            )
+            raise Unclear(Reason(what=what, said=said, advice=message("say what one reading has to be")))
     choices[0].said = (*choices[0].said, *said)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from fieldhand.planning.english.faults import Unclear, spans_of, text_of, unclear
+from fieldhand.language import message
+from fieldhand.planning.english.faults import PLAINLY, Unclear, spans_of, text_of, unclear
 from fieldhand.planning.english.syntax import NounPhrase
 from fieldhand.planning.english.tokens import Term
 from fieldhand.planning.planner import Reason
@@ -116,10 +117,10 @@ class Bag:
             left += [t for t in self.phrase.quantity if t.kind in ("UPTO", "ASMANY", "MORE")]
         if left:
             words = ", ".join(f"'{t.text}'" for t in left)
-            what = f"{words} could not be placed in '{text_of(self.phrase.terms)}'"
-            raise Unclear(Reason(what=what, said=spans_of(left), advice="say it in simpler words"))
+            what = message("{words} could not be placed in '{said}'", words=words, said=text_of(self.phrase.terms))
+            raise Unclear(Reason(what=what, said=spans_of(left), advice=message("say it in simpler words")))
 
-    def fault(self, what: str, advice: str = "say it in other words") -> Unclear:
+    def fault(self, what: str, advice: str = PLAINLY) -> Unclear:
         """A fault of this phrase."""
         return unclear(self.phrase.terms, what, advice)
 
@@ -147,7 +148,7 @@ def _quantify(bag: Bag, term: Term) -> None:
     match term.kind:
         case "NUM":
             if bag.count is not None or term.value != int(term.value) or term.value < 1:
-                raise unclear(bag.phrase.terms, "how many is not clear", "say one whole number")
+                raise unclear(bag.phrase.terms, message("how many is not clear"), message("say one whole number"))
             bag.count = int(term.value)
         case "EACH":
             bag.each = True

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fieldhand.language import message
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
@@ -14,9 +15,15 @@ from fieldhand.task import selectors as s
 def named_trees(bag: Bag) -> Found:
     """Trees by their ids."""
     if bag.count is not None and bag.count != len(bag.ids):
-        raise bag.fault(f"{bag.count} or {len(bag.ids)} trees?", "let the number and the names agree")
+        raise bag.fault(
+            message("{count} or {names} trees?", count=bag.count, names=len(bag.ids)),
+            message("let the number and the names agree"),
+        )
     if bag.any:
-        raise Question(f"'{text_of(bag.phrase.terms)}': how many of them?", ("1", f"all {len(bag.ids)}"))
+        raise Question(
+            message("'{said}': how many of them?", context="question", said=text_of(bag.phrase.terms)),
+            ("1", message("all {count}", context="answer", count=len(bag.ids))),
+        )
     bag.finish()
     trees = tuple(s.TreeIs(tree=tree) for tree in bag.ids)
     if len(trees) == 1:
@@ -27,11 +34,11 @@ def named_trees(bag: Bag) -> Found:
 def quantity_alone(bag: Bag, group: Group, phrase: NounPhrase, relations: list[Term]) -> Found:
     """ "Another", "two more", "each": of what, the verb before says; of whom, what describes it."""
     if bag.up_to or bag.as_many:
-        raise bag.fault("of what does not stand there", "say 'as many trees as you can', for example")
+        raise bag.fault(message("of what does not stand there"), message("say 'as many trees as you can', for example"))
     if bag.pointing and bag.plural_article and bag.count is None and not group.empty:
         return Found(selector=nested(group, s.Trees()), many=True)  # "all trees except | those in row 3"
     if bag.article and bag.count is None and not (bag.another or bag.each or bag.any):
-        raise unclear(phrase.terms, "a place was expected")
+        raise unclear(phrase.terms, message("a place was expected"))
     if bag.each and not bag.another and group.empty:
         return Found(selector=s.Here(), here=True, these=True)  # "photograph both"
     bag.more = False

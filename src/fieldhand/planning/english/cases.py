@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 from fieldhand.language import message
 from fieldhand.planning.english import draft as d
+from fieldhand.planning.english.asking import choices_of_actions
 from fieldhand.planning.english.attributes import number_of
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.hand import ACTS, Hand
@@ -81,7 +82,9 @@ class Cases(Hand):
             tested = read_condition(share.terms, [capture], self._robot, self._site)
             each.append(tested.condition([self._bound(capture) for _ in tested.predicates]))
         if share.least is not None and share.least > len(each):
-            raise unclear(part.terms, f"there are only {len(each)} readings", "say how many of them")
+            raise unclear(
+                part.terms, message("there are only {count} readings", count=len(each)), message("say how many of them")
+            )
         condition = share.of(each)
         if part.terms[0].value == "unless":
             condition = c.Not(condition=condition)
@@ -97,7 +100,7 @@ class Cases(Hand):
         """The captures whose readings a condition on several is about."""
         last = read_condition(share.terms, known, self._robot, self._site).predicates[0].capture
         if last is None:
-            raise unclear(part.terms, "nothing before it measures that", "measure first, then test")
+            raise unclear(part.terms, message("nothing before it measures that"), message("measure first, then test"))
         for loop, holder in d.walk(self.told.root):
             if isinstance(loop, d.Loop) and any(step is last for step in loop.body.steps):
                 at = loop.body.steps.index(last)
@@ -110,8 +113,8 @@ class Cases(Hand):
             alike = [st for st in block.steps if isinstance(st, d.Capture) and st.action == last.action and st in known]
             captures = alike if share.size is None else alike[-share.size :]
         if len(captures) < 2 or (share.size is not None and len(captures) != share.size):
-            what = f"{len(captures)} readings of that are taken before it"
-            raise unclear(part.terms, what, "say which readings are meant")
+            what = message("{count} readings of that are taken before it", count=len(captures))
+            raise unclear(part.terms, what, message("say which readings are meant"))
         return captures
 
     def _gather_captures(self) -> None:
@@ -155,7 +158,11 @@ class Cases(Hand):
             holder.add(choice)
             self._move(held, choice.then)
         else:
-            raise unclear(part.terms, "it is not clear at which tree", "say 'go to tree 4; if it is yellow, ...'")
+            raise unclear(
+                part.terms,
+                message("it is not clear at which tree"),
+                message("say 'go to tree 4; if it is yellow, ...'"),
+            )
         self._choice, self._scope = choice, choice.then
 
     def _check_it(self, terms: tuple[Term, ...], known: list[d.Capture], part: Part) -> None:
@@ -175,9 +182,11 @@ class Cases(Hand):
         if inside and before and not any(t.kind == "CMP" and t.value[1] for t in terms):
             if self._continues(terms, known, before):
                 return
-            names = tuple(dict.fromkeys(cap.action.replace("_", " ") for cap in (*before, *inside)))
+            names = choices_of_actions(cap.action for cap in (*before, *inside))
             if len(names) > 1:  # of two readings of a kind, the later one
-                raise Question(f"'{text_of(part.terms)}': which reading is meant?", names)
+                raise Question(
+                    message("'{said}': which reading is meant?", context="question", said=text_of(part.terms)), names
+                )
 
     def _same_test(self, terms: tuple[Term, ...], known: list[d.Capture]) -> bool:
         """ "If it's not below 33 °C, ...; if it is below 33 °C, ...": two cases of one reading. Whether they are."""
@@ -226,10 +235,16 @@ class Cases(Hand):
             return None
         places = parse_places(terms[1:])
         if places is None or terms[0].kind not in ("AT", "OF", "FROM", "NEXTTO", "NEAR", "INSIDE"):
-            raise unclear(part.terms, "where is not clear", "measure there first, then say 'if it is ...'")
+            raise unclear(
+                part.terms, message("where is not clear"), message("measure there first, then say 'if it is ...'")
+            )
         found = find(places, self._site)
         if found.many or found.object_only:
-            raise unclear(part.terms, "a condition is about one place", "say 'at each of them ..., if it is ...'")
+            raise unclear(
+                part.terms,
+                message("a condition is about one place"),
+                message("say 'at each of them ..., if it is ...'"),
+            )
         if found.here:
             return None
         if terms[0].kind in ("NEXTTO", "NEAR"):
@@ -245,7 +260,7 @@ class Cases(Hand):
                 self._needs_place(part)
             return predicate.capture
         if trailing:
-            raise unclear(part.terms, "nothing before it measures that", "measure first, then test")
+            raise unclear(part.terms, message("nothing before it measures that"), message("measure first, then test"))
         if at is None:
             self._needs_place(part)
         capture = d.Capture(action=predicate.missing, at=at, said=part.said)
@@ -269,7 +284,11 @@ class Cases(Hand):
         holders = [(cap, block) for cap, block in d.walk(self.told.root) if any(cap is c for c in captures)]
         block = holders[-1][1]
         if not all(self._within(block, holder) for _, holder in holders):
-            raise unclear(part.terms, "its readings are not taken in the same case", "test them one after the other")
+            raise unclear(
+                part.terms,
+                message("its readings are not taken in the same case"),
+                message("test them one after the other"),
+            )
         return block
 
     def _bound(self, capture: d.Capture | None) -> str:
@@ -281,22 +300,26 @@ class Cases(Hand):
     def _so(self, part: Part) -> None:
         """ "If so": the question before it is answered with yes."""
         if self._choice is None or self._choice.then.steps:
-            raise unclear(part.terms, "there is no question before it")
+            raise unclear(part.terms, message("there is no question before it"))
         self._choice.said += part.said
         self._scope = self._choice.then
 
     def _otherwise(self, part: Part) -> None:
         choice = self._choice
         if choice is None:
-            raise unclear(part.terms, "there is no 'if' before it")
+            raise unclear(part.terms, message("there is no 'if' before it"))
         if choice.otherwise is not None:
-            raise unclear(part.terms, "the 'if' before it has an 'otherwise' already")
+            raise unclear(part.terms, message("the 'if' before it has an 'otherwise' already"))
         holder = next((b for st, b in d.walk(self.told.root) if st is choice), None)
         at = holder.steps.index(choice) if holder is not None else 0
         if holder is not None and at and isinstance(holder.steps[at - 1], d.Choice) and part.said:
             earlier = holder.steps[at - 1]
             if earlier in self._sentence_choices and choice in self._sentence_choices:
-                raise unclear(part.terms, "to which 'if' does it belong?", "say each 'if' with its 'otherwise' in turn")
+                raise unclear(
+                    part.terms,
+                    message("to which 'if' does it belong?"),
+                    message("say each 'if' with its 'otherwise' in turn"),
+                )
         choice.said += part.said
         choice.otherwise = d.Block(parent=choice.then.parent)
         if self._loop is not None and self._within(self._loop.body, choice.then):  # of the other case
@@ -328,7 +351,7 @@ class Cases(Hand):
     def _failing(self, part: Part) -> None:
         steps = list(self._last_steps)
         if not steps:
-            raise unclear(part.terms, "there is nothing before it that could fail")
+            raise unclear(part.terms, message("there is nothing before it that could fail"))
         holder = next(b for st, b in d.walk(self.told.root) if st is steps[0])
         attempt = d.Attempt(body=d.Block(), fallback=d.Block(), said=part.said)
         place = holder.steps.index(steps[0])

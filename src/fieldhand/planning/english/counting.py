@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from fieldhand.language import message
 from fieldhand.planning.english.asking import each_or_in_all, every_or_how_many
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
@@ -23,14 +24,14 @@ def number_of_objects(thing: Object) -> int | None:
     for term in thing.quantity:
         if term.kind == "NUM":
             if number is not None or term.value != int(term.value) or not 1 <= term.value <= 1000:
-                raise unclear(thing.terms, "how many is not clear", "say one whole number")
+                raise unclear(thing.terms, message("how many is not clear"), message("say one whole number"))
             number = int(term.value)
         elif term.kind == "UPTO":
-            raise unclear(thing.terms, "captures need one number", "say 'of up to 6 trees'")
+            raise unclear(thing.terms, message("captures need one number"), message("say 'of up to 6 trees'"))
         elif term.kind == "ORD" and term.value != 1 and thing.quantity[0].text.lower() in ("a", "an"):
             continue  # "a second reading" is one more
         elif term.kind == "ORD" and term.value != 1:
-            raise unclear(thing.terms, "a rank does not fit there", "say how many")
+            raise unclear(thing.terms, message("a rank does not fit there"), message("say how many"))
     return number
 
 
@@ -60,10 +61,13 @@ def counted(found: Found, part: Part, wanted: Wanted) -> Found:
         return _in_area(found, part, count, plural)
     if not found.many or count is None or count == 1:
         if found.many and found.counted is None and isinstance(found.selector, s.Nearest):
-            raise Question("how many trees nearby?", ("2", "3", "4"))
+            raise Question(message("how many trees nearby?", context="question"), ("2", "3", "4"))
         return found
     if len(numbers) > 1 or (len(wanted) > 1 and any(n != count for _, n in wanted)):
-        raise Question(f"'{text_of(part.terms)}': how many at each of the places?", (f"{count} at each", "1 at each"))
+        raise Question(
+            message("'{said}': how many at each of the places?", context="question", said=text_of(part.terms)),
+            (message("{count} at each", context="answer", count=count), message("1 at each", context="answer")),
+        )
     if found.counted is not None:
         return found if count == found.counted else _either(part, count, found.counted)
     selector = found.selector
@@ -78,8 +82,16 @@ def counted(found: Found, part: Part, wanted: Wanted) -> Found:
 def _either(part: Part, count: int, size: int) -> Found:
     raise each_or_in_all(
         part,
-        f"{count} captures at {size} places: {count} at each of them, or {count} in all?",
-        (f"{count} at each of them", f"{count} in all"),
+        message(
+            "{count} captures at {size} places: {count} at each of them, or {count} in all?",
+            context="question",
+            count=count,
+            size=size,
+        ),
+        (
+            message("{count} at each of them", context="answer", count=count),
+            message("{count} in all", context="answer", count=count),
+        ),
         count,
     )
 
@@ -98,10 +110,20 @@ def _in_rows(found: Found, part: Part, count: int | None, plural: bool) -> Found
         parts: tuple[s.Selector, ...] = tuple(s.Take(count=number, of=row) for row in found.one_by_one)
         return Found(selector=s.Union(parts=parts), many=True, each=True)
     if counts_each(found, part) and not isinstance(found.selector, s.Successive):
-        raise Question(f"'{text}': {number} at each tree, or {number} in each row?", (f"{number} in each row",))
+        raise Question(
+            message(
+                "'{said}': {number} at each tree, or {number} in each row?",
+                context="question",
+                said=text,
+                number=number,
+            ),
+            (message("{number} in each row", context="answer", number=number),),
+        )
     if count is None and _are_several(found.selector):
-        asked = f"'{text}': one in each of them, or one in all?"
-        raise each_or_in_all(part, asked, ("one in each of them", "one in all"), 1)
+        asked = message("'{said}': one in each of them, or one in all?", context="question", said=text)
+        raise each_or_in_all(
+            part, asked, (message("one in each of them", context="answer"), message("one in all", context="answer")), 1
+        )
     return Found(selector=s.Take(count=number, of=found.selector), many=number > 1, counted=number)
 
 

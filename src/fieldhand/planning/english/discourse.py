@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from fieldhand.language import message
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english import repeating
 from fieldhand.planning.english.areas import is_open, with_areas
@@ -113,12 +114,14 @@ class Discourse(Elliptic):
                 case "lead" if not any(p.kind in (*COMMANDS, "condition", "question") for p in following) or (
                     following[0].kind == "lead"
                 ):
-                    raise unclear(part.terms, "it does not say what to do there")
+                    raise unclear(part.terms, message("it does not say what to do there"))
                 case _:
                     self._read_command(part)
         self._close_allowance()
         if self._pending is not None:
-            raise unclear([self._pending], "an order needs several places", "say which places are visited in it")
+            raise unclear(
+                [self._pending], message("an order needs several places"), message("say which places are visited in it")
+            )
 
     def _read_command(self, part: Part) -> None:
         if part.kind in ("come_back", "stop"):
@@ -190,7 +193,7 @@ class Discourse(Elliptic):
             self._go(replace(part, kind="visit"))  # "Any 6 Kerman trees, a picture of each"
             return
         if not self._objects:
-            raise unclear(part.terms, "it does not say what to do there")
+            raise unclear(part.terms, message("it does not say what to do there"))
         if self._at_most_of_them(part):
             return
         elided = None if part.relation is not None else self._elided(part)
@@ -211,9 +214,13 @@ class Discourse(Elliptic):
         if there and found is not None and found.selector == s.Take(count=1, of=s.Trees()) and self._at_one_place():
             found = replace(found, here=True)  # "go to the middle, take a picture of a tree there"
         if found is not None and not found.here and any(t.kind == "THERE" for t in part.tails):
-            raise unclear(part.terms, "which of them is not clear", "name the trees, or say how many in one sentence")
+            raise unclear(
+                part.terms,
+                message("which of them is not clear"),
+                message("name the trees, or say how many in one sentence"),
+            )
         if found is not None and found.object_only and found.each:
-            raise Question(f"'{text_of(part.terms)}': at each of which places?")
+            raise Question(message("'{said}': at each of which places?", context="question", said=text_of(part.terms)))
         if found is not None and found.object_only:  # "at yet another one"
             number = found.counted or 1
             found = Found(selector=s.Take(count=number, of=s.Other()), many=number > 1, counted=number)
@@ -256,8 +263,13 @@ class Discourse(Elliptic):
         place = self._rows_gone_to or (self._area_gone_to if whole else "")
         if place and said and found is not None and not found.here:
             raise Question(
-                f"'{text_of(part.terms)}': of {place}, or of the whole site?",
-                (f"of {place}", "of the whole site"),
+                message(
+                    "'{said}': of {place}, or of the whole site?",
+                    context="question",
+                    said=text_of(part.terms),
+                    place=place,
+                ),
+                (message("of {place}", context="answer", place=place), message("of the whole site", context="answer")),
                 terms=part.places.terms if part.places is not None else (),
                 words=(f"{text_of(part.places.terms)} of {place}", "") if part.places is not None else ("", ""),
             )
@@ -274,14 +286,16 @@ class Discourse(Elliptic):
             self._loop.said += part.said  # each tree is visited once anyway
             return
         if not isinstance(select, s.Take | s.Top | s.Extreme | s.Nearest | s.Adjacent | s.Corners | s.Union):
-            raise unclear(part.terms, "it is not clear how many trees that are", "say how many trees, and where")
+            raise unclear(
+                part.terms, message("it is not clear how many trees that are"), message("say how many trees, and where")
+            )
         if self._loop is not None:
             self._loop.said += part.said
 
     def _order(self, part: Part) -> None:
         if part.terms[0].kind == "ORDERED":
             if self._pending is not None:
-                raise unclear(part.terms, "two orders cannot be kept", "say one")
+                raise unclear(part.terms, message("two orders cannot be kept"), message("say one"))
             if self._loop is not None and self._loop in self._sentence_steps:
                 self._in_order(self._loop, part.terms[0])
                 self._loop.said += part.said
@@ -304,10 +318,14 @@ class Discourse(Elliptic):
             old, sentence = steps[:split], {id(st) for st in steps[split:]}
         passage = repeating.last_passage(old)
         if any(isinstance(step, d.Maybe) for step, _ in d.walk(passage)):
-            raise unclear(part.terms, "whether that may be left out too is not clear", "say what is to be done again")
+            raise unclear(
+                part.terms,
+                message("whether that may be left out too is not clear"),
+                message("say what is to be done again"),
+            )
         times = next((int(t.value) for t in part.tails if t.kind == "COUNT"), None)
         if not passage.steps:
-            raise unclear(part.terms, "there is nothing before it to repeat")
+            raise unclear(part.terms, message("there is nothing before it to repeat"))
         made = repeating.copied(passage, lambda st: id(st) not in sentence, self._fresh)
         found = None if part.places is None else self._related(part)
         if found is not None and not found.here:
@@ -327,8 +345,16 @@ class Discourse(Elliptic):
         )
         if not new:
             if times is None:
-                raise Question(f"'{text_of(part.terms)}': where?", ("at another tree", "at the same place"),
-                               terms=part.terms, words=(f"{text_of(part.terms)} at another tree", ""))  # fmt: skip
+                choices = (
+                    message("at another tree", context="answer"),
+                    message("at the same place", context="answer"),
+                )
+                raise Question(
+                    message("'{said}': where?", context="question", said=text_of(part.terms)),
+                    choices,
+                    terms=part.terms,
+                    words=(f"{text_of(part.terms)} at another tree", ""),
+                )
             times = self._further(part, times)
             body = d.Block()
             repeating.append(made, body)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from fieldhand.language import message
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english import repeating
+from fieldhand.planning.english.asking import choices_of_actions
 from fieldhand.planning.english.counting import Wanted
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
@@ -14,6 +16,7 @@ from fieldhand.planning.english.leaving import Leaving
 from fieldhand.planning.english.places import find
 from fieldhand.planning.english.syntax import Part
 from fieldhand.task import selectors as s
+from fieldhand.task.words import say_times
 
 
 class Elliptic(Leaving):
@@ -25,12 +28,14 @@ class Elliptic(Leaving):
             return None
         found = find(part.places, self._site)
         if any(t.kind == "THERE" for t in part.tails) and found.counted != 1:
-            raise unclear(part.terms, "which of them is not clear", "say how many trees in one sentence")
+            raise unclear(
+                part.terms, message("which of them is not clear"), message("say how many trees in one sentence")
+            )
         if len(part.places.chains) > 1:
-            raise unclear(part.terms, "of what is not clear", "say each in a sentence of its own")
+            raise unclear(part.terms, message("of what is not clear"), message("say each in a sentence of its own"))
         if len({action for action, _ in self._objects}) > 1:
-            names = tuple(action.replace("_", " ") for action, _ in self._objects)
-            raise Question(f"'{text_of(part.terms)}': another of which?", names)
+            names = choices_of_actions(action for action, _ in self._objects)
+            raise Question(message("'{said}': another of which?", context="question", said=text_of(part.terms)), names)
         wanted = self._wanted((), part)
         objects = tuple((action, found.counted or count) for action, count in wanted[:1])
         first = part.places.chains[0]
@@ -103,7 +108,7 @@ class Elliptic(Leaving):
             return False
         found = self._related(part)
         if found.here or found.object_only or found.optional or found.at_most is not None:
-            raise unclear(part.terms, "is that one of the places?", "name the places in one list")
+            raise unclear(part.terms, message("is that one of the places?"), message("name the places in one list"))
         named = found.selector.parts if isinstance(found.selector, s.Union) else (found.selector,)
         loop.select = s.Union(parts=(*loop.select.parts, *named))
         loop.said += part.said
@@ -139,11 +144,16 @@ class Elliptic(Leaving):
             return times
         if said.split()[-1] in ("all", "total", "altogether", "overall"):
             if times < 2:
-                raise unclear(part.terms, "once in all is what is done already")
+                raise unclear(part.terms, message("once in all is what is done already"))
             return times - 1
-        again = "once" if times == 1 else f"{times} times"
+        again = say_times(times)
         raise Question(
-            f"'{text_of(part.terms)}': {again} in all, or {again} more?",
-            (f"{times} times in all", f"{times} more times"),
+            message(
+                "'{said}': {again} in all, or {again} more?", context="question", said=text_of(part.terms), again=again
+            ),
+            (
+                message("{times} times in all", context="answer", times=times),
+                message("{times} more times", context="answer", times=times),
+            ),
             terms=[t for t in part.tails if t.kind == "COUNT"],
         )

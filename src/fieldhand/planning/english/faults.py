@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
+from fieldhand.language import message
 from fieldhand.planning.english.tokens import Term
 from fieldhand.planning.planner import Reason
 from fieldhand.task.plan import Span
 
-PLAINLY = "say it in other words"
+PLAINLY = message("say it in other words")
 
 
 class Unclear(Exception):
@@ -69,4 +70,5 @@ def spans_of(terms: Iterable[Term]) -> tuple[Span, ...]:
 def unclear(terms: Iterable[Term], what: str, advice: str = PLAINLY) -> Unclear:
     """A fault of some terms, which it quotes."""
     terms = tuple(terms)
-    return Unclear(Reason(what=f"'{text_of(terms)}': {what}", said=spans_of(terms), advice=advice))
+    quoted = message("'{said}': {what}", said=text_of(terms), what=what)
+    return Unclear(Reason(what=quoted, said=spans_of(terms), advice=advice))

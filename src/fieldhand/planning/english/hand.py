@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from fieldhand.language import message
+from fieldhand.language import message, named
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.attributes import hinted
 from fieldhand.planning.english.counting import Wanted, counted, number_of_objects
@@ -22,6 +22,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task import selectors as s
 from fieldhand.task.plan import Span
+from fieldhand.task.words import COMPASS, listed
 
 #: Relations that say no more than where.
 _PLAIN = ("OF", "AT", "FROM", "FOR", "INSIDE", "ALONG", "SPREAD")
@@ -114,8 +115,12 @@ class Hand:
         if not loop.body.steps or each or (loop in self._sentence_steps and not part.then):
             return loop.body, None, False
         raise Question(
-            f"'{text_of(part.terms)}': at each of the places before it, or only at the last one?",
-            ("at each of them", "only at the last one"),
+            message(
+                "'{said}': at each of the places before it, or only at the last one?",
+                context="question",
+                said=text_of(part.terms),
+            ),
+            (message("at each of them", context="answer"), message("only at the last one", context="answer")),
             terms=part.terms,
             words=(f"{text_of(part.terms)} at each of them", ""),
         )
@@ -130,7 +135,9 @@ class Hand:
                 break
             stops.insert(0, step)
         if len(stops) < 2:
-            raise unclear(part.terms, "which places are meant?", "name them: 'at trees 4 and 9', for example")
+            raise unclear(
+                part.terms, message("which places are meant?"), message("name them: 'at trees 4 and 9', for example")
+            )
         self._scope.steps = self._scope.steps[: -len(stops)]
         said = tuple(span for stop in stops for span in stop.said)
         places = s.Union(parts=tuple(stop.place for stop in stops))
@@ -180,9 +187,13 @@ class Hand:
         """Visit the places of a loop in an order that was said."""
         by, ranking, descending = term.value
         if loop.optional or loop.at_most is not None:
-            raise unclear([term], "an order and a choice of how many do not go together", "leave one of them out")
+            raise unclear(
+                [term],
+                message("an order and a choice of how many do not go together"),
+                message("leave one of them out"),
+            )
         if isinstance(loop.select, s.Ordered):
-            raise unclear([term], "two orders cannot be kept", "say one")
+            raise unclear([term], message("two orders cannot be kept"), message("say one"))
         side: s.Side = "south" if str(by).startswith("south") else "east" if str(by).startswith("east") else "north"
         if side in ("south", "east") and any(_counts(part, side) for part in s.walk(loop.select)):
             if not any(isinstance(part, s.Rows) and part.every > 1 for part in s.walk(loop.select)):
@@ -192,8 +203,19 @@ class Hand:
                 loop.select = s.Ordered(by=by, descending=descending, of=loop.select)
                 loop.order = "given"
                 return
-            choices = (f"counted from the {side}", f"visited from the {side}")
-            raise Question(f"'{term.text}': is it counted from there, or only visited from there?", choices)
+            from_side = COMPASS[side]
+            choices = (
+                message("counted from the {side}", context="answer", side=from_side),
+                message("visited from the {side}", context="answer", side=from_side),
+            )
+            raise Question(
+                message(
+                    "'{said}': is it counted from there, or only visited from there?",
+                    context="question",
+                    said=term.text,
+                ),
+                choices,
+            )
         attribute = ""
         if isinstance(ranking, Ranking):
             attribute = self._ranked_by(ranking, term)
@@ -207,7 +229,15 @@ class Hand:
         if isinstance(ranking.attribute, str):
             return hinted(ranking.attribute, (term,), self._site)
         if len(ranking.attribute) > 1:
-            raise Question(f"'{term.text}': which of {' and '.join(ranking.attribute)}?", tuple(ranking.attribute))
+            raise Question(
+                message(
+                    "'{said}': which of {attribute}?",
+                    context="question",
+                    said=term.text,
+                    attribute=listed(ranking.attribute),
+                ),
+                tuple(ranking.attribute),
+            )
         return str(ranking.attribute[0])
 
     def _within(self, block: d.Block | None, outer: d.Block) -> bool:
@@ -222,12 +252,12 @@ class Hand:
         if any(t.kind == "THERE" and t.text.lower() == "here" for t in part.terms):
             return
         if not any(isinstance(step, d.Go | d.Capture | d.Loop) for step, _ in d.walk(self.told.root)):
-            raise Question(f"'{text_of(part.terms)}': at which tree or trees?")
+            raise Question(message("'{said}': at which tree or trees?", context="question", said=text_of(part.terms)))
 
     def _related(self, part: Part) -> Found:
         """The places of a part, with the relation that ties them to its verb."""
         if part.places is None:
-            raise unclear(part.terms, "a place was expected")
+            raise unclear(part.terms, message("a place was expected"))
         found = self._one_of_two(part) or find(part.places, self._site)
         beside = isinstance(found.selector, s.Adjacent) and found.selector.near == s.Here()
         beside = beside and self._sentence_acts and not part.then
@@ -238,9 +268,11 @@ class Hand:
         relation = part.relation
         self._check_rows(found, part)
         if relation is not None and relation.kind == "ALONG" and not (found.rows or isinstance(found.selector, s.Edge)):
-            raise unclear(part.terms, "along which row?", "name the row: 'along row 3'")
+            raise unclear(part.terms, message("along which row?"), message("name the row: 'along row 3'"))
         if relation is not None and relation.kind == "FROM" and found.rows:
-            raise unclear(part.terms, "from there, but what?", "say 'in row 3', or 'starting with row 3'")
+            raise unclear(
+                part.terms, message("from there, but what?"), message("say 'in row 3', or 'starting with row 3'")
+            )
         if relation is None or found.here or relation.kind in _PLAIN:
             return found
         plain = find(part.places, self._site).selector
@@ -262,7 +294,7 @@ class Hand:
                 other = replace(plain, outside=True) if isinstance(plain, s.InZone) else s.Excluding(places=plain)
                 return Found(selector=other, many=True, region=True)
             case _:
-                raise unclear(part.terms, f"'{relation.text}' does not fit there")
+                raise unclear(part.terms, message("'{said}' does not fit there", said=relation.text))
 
     def _one_of_two(self, part: Part) -> Found | None:
         """ "The southern one": of the two places that were spoken of last, the one that is farther to that side."""
@@ -290,15 +322,28 @@ class Hand:
         if step is not None and step.value.bare and of_it and part.kind in ACTS:
             number = step.value.trees
             raise Question(
-                f"'{text_of(part.terms)}': the tree that is {number} trees along, or {number} trees there?",
-                (f"the tree {step.text}", f"{number} trees"),
+                message(
+                    "'{said}': the tree that is {number} trees along, or {number} trees there?",
+                    context="question",
+                    said=text_of(part.terms),
+                    number=number,
+                ),
+                (
+                    message("the tree {said}", context="answer", said=step.text),
+                    message("{number} trees", context="answer", number=number),
+                ),
                 terms=(step,),
             )
         if not any(starts_here(part_) for part_ in s.walk(found.selector)):
             return
         if not any(isinstance(step, d.Go | d.Capture | d.Loop) for step, _ in d.walk(self.told.root)):
-            asked = "which row?" if found.rows else "from which tree?"
-            raise Question(f"'{text_of(part.terms)}': {asked}")
+            said = text_of(part.terms)
+            asked = (
+                message("'{said}': which row?", context="question", said=said)
+                if found.rows
+                else message("'{said}': from which tree?", context="question", said=said)
+            )
+            raise Question(asked)
 
     def _at_one_place(self) -> bool:
         """Whether the last step went to one place, of which "a tree there" can be said."""
@@ -325,11 +370,14 @@ class Hand:
             return tuple((action, None) for action, _ in before)
         if len(self._robot.actions) == 1:
             return ((self._robot.actions[0].name, None),)
-        names = tuple(a.words[0] for a in self._robot.actions if a.words)
+        names = tuple(_thing(a.words[0]) for a in self._robot.actions if a.words)
         words = tuple(f"take a {name} of" if part.relation is None else f"take a {name}" for name in names)
         terms = () if verb is None or part.places is None or part.tails else (verb,)
         raise Question(
-            f"'{text_of(part.terms)}': what should be taken?", names, terms=terms, words=words if terms else ()
+            message("'{said}': what should be taken?", context="question", said=text_of(part.terms)),
+            names,
+            terms=terms,
+            words=words if terms else (),
         )
 
     def _action(self, noun: Term, part: Part) -> str:
@@ -339,9 +387,20 @@ class Hand:
                 return measuring[0].name
             if self._objects:
                 return self._objects[-1][0]
-            names = tuple(a.words[0] for a in measuring if a.words)
-            raise Question(f"'{text_of(part.terms)}': a reading of what?", names, terms=(noun,))
+            names = tuple(_thing(a.words[0]) for a in measuring if a.words)
+            raise Question(
+                message("'{said}': a reading of what?", context="question", said=text_of(part.terms)),
+                names,
+                terms=(noun,),
+            )
         naming: Naming = noun.value
         if not naming.actions:
-            raise unclear(part.terms, f"{self._robot.name} has no action for '{noun.text}'")
+            raise unclear(
+                part.terms, message("{name} has no action for '{said}'", name=self._robot.name, said=noun.text)
+            )
         return naming.actions[0]
+
+
+def _thing(word: str) -> str:
+    """Return what an action takes, as a choice to answer with."""
+    return named(word, "answer", named(word, "capture"))

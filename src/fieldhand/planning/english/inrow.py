@@ -18,8 +18,13 @@ from fieldhand.planning.english.sets import Group
 from fieldhand.planning.english.ways import check_over, side_along, trees_named
 from fieldhand.site.model import Site
 from fieldhand.task import selectors as s
+from fieldhand.task.words import COMPASS
 
-_AMBIGUOUS_ENDS = ("the northern one", "the southern one", "both")
+_AMBIGUOUS_ENDS = (
+    message("the northern one", context="answer"),
+    message("the southern one", context="answer"),
+    message("both", context="answer"),
+)
 _ENDS_IN_WORDS = ("the northern end", "the southern end", "both ends")
 
 
@@ -33,13 +38,21 @@ def named_in_rows(bag: Bag, group: Group, site: Site) -> Found:
     if group.anchor is None and _only_ids(bag) and set(bag.ids) <= trees_named(group.kept(group.area), site):
         return replace(named_trees(bag), assumed=group.assumed)
     if _says_id(bag) or any(not name.isdigit() for name in bag.ids):
-        raise bag.fault("not all of these trees stand in those rows", "leave the row out, or name other trees")
+        raise bag.fault(
+            message("not all of these trees stand in those rows"), message("leave the row out, or name other trees")
+        )
     if group.anchor is not None or _only_ids(bag):
-        raise bag.fault("trees in a row count from 1", "say 'tree 4 of row 2', for example")
+        raise bag.fault(message("trees in a row count from 1"), message("say 'tree 4 of row 2', for example"))
     if bag.count is not None and bag.count != len(bag.ids):
-        raise bag.fault(f"{bag.count} or {len(bag.ids)} trees?", "let the number and the names agree")
+        raise bag.fault(
+            message("{count} or {names} trees?", count=bag.count, names=len(bag.ids)),
+            message("let the number and the names agree"),
+        )
     if bag.any:
-        raise Question(f"'{text_of(bag.phrase.terms)}': how many of them?", ("1", f"all {len(bag.ids)}"))
+        raise Question(
+            message("'{said}': how many of them?", context="question", said=text_of(bag.phrase.terms)),
+            ("1", message("all {count}", context="answer", count=len(bag.ids))),
+        )
     numbers = sorted({int(name) for name in bag.ids})
     spans: list[tuple[int, int]] = []
     for number in numbers:
@@ -50,7 +63,7 @@ def named_in_rows(bag: Bag, group: Group, site: Site) -> Found:
     of = group.kept(group.area)
     counted = bag.take("COUNTEDFROM")
     if counted is not None and counted.value.far:
-        raise bag.fault("from which side are they counted?", "say 'from the north', for example")
+        raise bag.fault(message("from which side are they counted?"), message("say 'from the north', for example"))
     side: s.CountedFrom = "usual" if counted is None else counted.value.side
     parts = tuple(s.InRow(first=first, last=last, counted_from=side, of=of) for first, last in spans)
     selector: s.Selector = parts[0] if len(parts) == 1 else s.Union(parts=parts)
@@ -76,7 +89,9 @@ def excepted_in_rows(bag: Bag, group: Group, site: Site) -> s.Selector:
     known = not s.is_relative(group.area)
     if _only_ids(bag):
         if known and not set(bag.ids) <= whole:
-            raise bag.fault("not all of these trees stand in those rows", "leave out the ones that do not")
+            raise bag.fault(
+                message("not all of these trees stand in those rows"), message("leave out the ones that do not")
+            )
         return by_id
     text = text_of(bag.phrase.terms)
     numbers = [s.InRow(first=int(name), last=int(name), of=group.area) for name in bag.ids]
@@ -84,13 +99,18 @@ def excepted_in_rows(bag: Bag, group: Group, site: Site) -> s.Selector:
     in_rows = [name in whole for name in bag.ids]
     if not known or (all(counted) and all(in_rows) and set().union(*counted) != set(bag.ids)):
         raise Question(
-            f"'{text}': by the number in the row, or by the tree's id?",
-            (f"the {_nth(int(bag.ids[0]))} tree of the row, and so on", f"the tree with id {bag.ids[0]}"),
+            message("'{said}': by the number in the row, or by the tree's id?", context="question", said=text),
+            (
+                message("the {nth} tree of the row, and so on", context="answer", nth=_nth(int(bag.ids[0]))),
+                message("the tree with id {ids}", context="answer", ids=bag.ids[0]),
+            ),
         )
     if all(in_rows):
         return by_id
     if any(in_rows) or not all(counted):
-        raise bag.fault("not all of these trees stand in those rows", "leave out the ones that do not")
+        raise bag.fault(
+            message("not all of these trees stand in those rows"), message("leave out the ones that do not")
+        )
     return named_in_rows(bag, group, site).selector
 
 
@@ -110,8 +130,15 @@ def _by_id(bag: Bag, of: s.Selector, selector: s.Selector, site: Site) -> bool:
     if by_place and by_id == set(bag.ids) and by_place != by_id:
         first = bag.ids[0]
         raise Question(
-            f"'{text_of(bag.phrase.terms)}': by the number in the row, or by the tree's id?",
-            (f"the {_nth(int(first))} tree of the row, and so on", f"the tree with id {first}"),
+            message(
+                "'{said}': by the number in the row, or by the tree's id?",
+                context="question",
+                said=text_of(bag.phrase.terms),
+            ),
+            (
+                message("the {nth} tree of the row, and so on", context="answer", nth=_nth(int(first))),
+                message("the tree with id {first}", context="answer", first=first),
+            ),
             terms=bag.phrase.terms,
             words=(f"the {_nth(int(first))} tree", f"the tree with id {first}") if len(bag.ids) == 1 else ("", ""),
         )
@@ -120,7 +147,14 @@ def _by_id(bag: Bag, of: s.Selector, selector: s.Selector, site: Site) -> bool:
 
 def _nth(number: int) -> str:
     ending = "th" if 10 <= number % 100 <= 20 else {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
-    return f"{number}{ending}"
+    match ending:
+        case "st":
+            return message("{number}st", context="tree", number=number)
+        case "nd":
+            return message("{number}nd", context="tree", number=number)
+        case "rd":
+            return message("{number}rd", context="tree", number=number)
+    return message("{number}th", context="tree", number=number)
 
 
 def several_rows(of: s.Selector, group: Group, site: Site) -> bool:
@@ -138,23 +172,30 @@ def ranked_in_rows(bag: Bag, of: s.Selector, group: Group, site: Site) -> Found:
     check_rows(bag, site)
     rank, last, behind = bag.take("ORD"), bag.take("LAST"), bag.take("BACKORD")
     if group.anchor is not None:
-        raise bag.fault("which tree of the row is meant is said in two ways", "say 'the third tree of row 2'")
+        raise bag.fault(
+            message("which tree of the row is meant is said in two ways"), message("say 'the third tree of row 2'")
+        )
     counted = bag.take("COUNTEDFROM")
     start: From = counted.value if counted is not None else From()
     if sum(t is not None for t in (rank, last, behind)) != 1 or (start.far and rank is None):
-        raise bag.fault("which tree of the row is meant is said in two ways", "say 'the third tree of row 2'")
+        raise bag.fault(
+            message("which tree of the row is meant is said in two ways"), message("say 'the third tree of row 2'")
+        )
     tree = bag.take("TREE", "PLACE")
     if tree is None:
-        raise bag.fault("which trees are meant does not stand there", "say 'the third tree of row 2'")
+        raise bag.fault(message("which trees are meant does not stand there"), message("say 'the third tree of row 2'"))
     number = int(rank.value) if rank is not None else int(behind.value) if behind is not None else 1
     if bag.count is not None and number > 1:
-        raise bag.fault("a rank and several trees at once", "say which one, or how many: 'trees 4 to 6 of row 2'")
+        raise bag.fault(
+            message("a rank and several trees at once"), message("say which one, or how many: 'trees 4 to 6 of row 2'")
+        )
     if tree.plural and bag.count is None and number == 1:
         raise how_many(bag.phrase)
     if group.along and rank is not None and isinstance(group.rows, s.RowOf) and start == From():
         text = text_of(bag.phrase.terms)
         raise Question(
-            f"'{text}': counted from the end of the row, or from here?", ("from the end of the row", "from here")
+            message("'{said}': counted from the end of the row, or from here?", context="question", said=text),
+            (message("from the end of the row", context="answer"), message("from here", context="answer")),
         )
     first, end = number, number + (bag.count or 1) - 1
     if last is not None or behind is not None or start.far:
@@ -174,18 +215,20 @@ def ends_of_rows(bag: Bag, group: Group, site: Site) -> Found:
     for said in (direction, most):
         if said is not None:
             if len(said.value) == 2:
-                raise bag.fault("a row has an end on one side", "say north, east, south or west")
+                raise bag.fault(message("a row has an end on one side"), message("say north, east, south or west"))
             side = side_along(bag, said.value, of, site)
     plural = bool((finish and finish.plural) or (tree and tree.plural) or bag.count == 2)
     if bag.count not in (None, 1, 2) or (start is not None and (plural or side != "usual")):
-        raise bag.fault("a row has two ends", "say 'both ends of row 3'")
+        raise bag.fault(message("a row has two ends"), message("say 'both ends of row 3'"))
     first = s.InRow(first=1, last=1, counted_from=side, of=of)
     last = s.InRow(first=-1, last=-1, of=of)
     several = several_rows(of, group, site)
     each = bag.each or bool(group.one_by_one)
     if group.anchor is not None:  # "the end of row 3 nearest to the charger"
         if plural or bag.each or bag.any or start is not None or side != "usual" or several:
-            raise bag.fault("which end is meant is said in two ways", "say 'the northern end of row 3'")
+            raise bag.fault(
+                message("which end is meant is said in two ways"), message("say 'the northern end of row 3'")
+            )
         bag.take("NEAREST")
         nearest = s.Nearest(to=group.anchor, of=s.Union(parts=(first, last)))
         return Found(selector=nearest, counted=1, assumed=group.assumed)
@@ -193,8 +236,8 @@ def ends_of_rows(bag: Bag, group: Group, site: Site) -> Found:
         bag.any = False
         return Found(selector=first, many=several, each=each, assumed=group.assumed)
     if bag.any or bag.article in ("a", "an"):
-        raise Question(f"'{text_of(bag.phrase.terms)}': which of the two ends?", _AMBIGUOUS_ENDS,
-                       terms=bag.phrase.terms, words=_ENDS_IN_WORDS)  # fmt: skip
+        asked = message("'{said}': which of the two ends?", context="question", said=text_of(bag.phrase.terms))
+        raise Question(asked, _AMBIGUOUS_ENDS, terms=bag.phrase.terms, words=_ENDS_IN_WORDS)
     if plural or bag.each:
         return Found(selector=s.Union(parts=(first, last)), many=True, each=each, assumed=group.assumed)
     said_as = message(
@@ -209,12 +252,16 @@ def every_nth(bag: Bag, group: Group, site: Site) -> Found:
     every, begin = bag.take("EVERYNTH"), bag.take("STARTNTH")
     tree = bag.take("TREE", "PLACE")
     if every is None or tree is None or bag.count is not None or group.anchor is not None:
-        raise bag.fault("every how many of which trees?", "say 'every third tree of row 2', for example")
+        raise bag.fault(
+            message("every how many of which trees?"), message("say 'every third tree of row 2', for example")
+        )
     if bag.has("ORD", "LAST", "SUPER", "NEAREST", "NEARBY", "FARTHEST", "FAR", "OTHER", "DIR"):
-        raise bag.fault("every how many of which trees?", "say it in two requests")
+        raise bag.fault(message("every how many of which trees?"), message("say it in two requests"))
     kind, start = begin.value if begin is not None else ("tree", "1")
     if kind == "row":
-        raise bag.fault("the count of trees begins with a tree", "say 'starting with the second tree'")
+        raise bag.fault(
+            message("the count of trees begins with a tree"), message("say 'starting with the second tree'")
+        )
     behind, compared = bag.take_behind("ATTRVAL", tree.start), bag.compared
     bag.compared = [group_ for group_ in compared if group_[0].start < tree.start]
     tested = [group_ for group_ in compared if group_[0].start > tree.start]
@@ -223,7 +270,7 @@ def every_nth(bag: Bag, group: Group, site: Site) -> Found:
     counted = bag.take("COUNTEDFROM")
     side: s.CountedFrom = "usual" if counted is None else counted.value.side
     if counted is not None and counted.value.far:
-        raise bag.fault("from which side are they counted?", "say 'from the north', for example")
+        raise bag.fault(message("from which side are they counted?"), message("say 'from the north', for example"))
     selector: s.Selector = s.EveryNth(nth=int(every.value), start=int(start), counted_from=side, of=inner)
     for test in reversed(tests):
         selector = replace(test, of=selector)
@@ -264,7 +311,9 @@ def stepped(bag: Bag, group: Group, site: Site) -> Found:
     bag.take("TREE", "PLACE")
     bag.take("OTHER")
     if bag.count is not None or bag.each or bag.any or bag.has("NEAREST", "NEARBY") or not group.plain:
-        raise bag.fault("which tree is meant is not clear", "say 'the tree 5 trees down the row from tree 12'")
+        raise bag.fault(
+            message("which tree is meant is not clear"), message("say 'the tree 5 trees down the row from tree 12'")
+        )
     origin = group.anchor or s.Here()
     if steps.towards not in ("down", "up"):
         side_along(bag, _side(steps.towards), origin, site)
@@ -304,10 +353,10 @@ def opposite(bag: Bag, group: Group, site: Site) -> Found:
     side: s.CountedFrom = "usual" if said is None else said.value
     bag.take("TREE", "PLACE")
     if bag.count not in (None, 1) or bag.plural or bag.each or bag.any or not group.plain:
-        raise bag.fault("one tree stands opposite", "say 'the tree opposite tree 12'")
+        raise bag.fault(message("one tree stands opposite"), message("say 'the tree opposite tree 12'"))
     origin = group.anchor or s.Here()
     if side != "usual":
-        check_over(bag, side, origin, site, f"no aisle lies to the {side}")
+        check_over(bag, side, origin, site, message("no aisle lies to the {side}", side=COMPASS[side]))
     _check_origin(bag, origin)
     return Found(selector=s.Across(origin=origin, side=side), counted=1)
 
@@ -316,7 +365,9 @@ def successive_trees(bag: Bag, group: Group) -> Found:
     """ "4 trees in a row", "four consecutive trees in row 2": one after the other."""
     bag.take("CONSECUTIVE")
     if not bag.only("TREE") or bag.count is None or group.anchor is not None or bag.definite or bag.each:
-        raise bag.fault("which trees of a row are meant is not clear", "say '4 trees in a row', or name the row")
+        raise bag.fault(
+            message("which trees of a row are meant is not clear"), message("say '4 trees in a row', or name the row")
+        )
     bag.any = False
     bag.finish()
     selector = s.Successive(count=bag.count, of=group.kept(group.area))
@@ -325,4 +376,4 @@ def successive_trees(bag: Bag, group: Group) -> Found:
 
 def _check_origin(bag: Bag, origin: s.Selector) -> None:
     if isinstance(origin, s.Marker | s.PointsIn | s.Spaced):
-        raise bag.fault("a marker stands in no row", "name the tree to count from")
+        raise bag.fault(message("a marker stands in no row"), message("name the tree to count from"))

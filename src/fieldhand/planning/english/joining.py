@@ -21,8 +21,13 @@ def check_of_row(places: Places, found: list[Found]) -> None:
     bare = [c for c in places.chains if len(c.phrases) == 1 and bag_of(c.phrases[0]).has("ORD", "LAST")]
     if bare and any(isinstance(part, s.InRow) for f in found for part in s.walk(f.selector)):
         text = text_of(bare[0].terms)
-        raise Question(f"'{text}': of the row, or of the whole site?", (f"{text} of the row", f"{text} of the site"),
-                       terms=bare[0].terms)  # fmt: skip
+        asked = message("'{said}': of the row, or of the whole site?", context="question", said=text)
+        words = (f"{text} of the row", f"{text} of the site")
+        choices = (
+            message("{said} of the row", context="answer", said=text),
+            message("{said} of the site", context="answer", said=text),
+        )
+        raise Question(asked, choices, terms=bare[0].terms, words=words)
 
 
 def of_the_other(places: Places, found: list[Found]) -> Chain | None:
@@ -51,8 +56,14 @@ def check_comma(places: Places, found: list[Found]) -> None:
     """ "The yellow trees, every other tree": with a comma alone, the second may be of the first."""
     if all(set(join.text) <= set(", ") for join in places.joins) and sum(f.many for f in found) > 1:
         parts = [text_of(chain.terms).replace(" ,", ",") for chain in places.chains]
-        asked = f"'{', '.join(parts)}': one and the same trees, or each of them?"
-        raise Question(asked, (f"{', '.join(parts[:-1])} and also {parts[-1]}",), terms=places.terms)
+        asked = message(
+            "'{parts}': one and the same trees, or each of them?", context="question", parts=", ".join(parts)
+        )
+        raise Question(
+            asked,
+            (message("{parts} and also {last}", context="answer", parts=", ".join(parts[:-1]), last=parts[-1]),),
+            terms=places.terms,
+        )
 
 
 def read_as(places: Places, whole: Chain) -> str:

@@ -48,3 +48,8 @@ def language_of(unknown: Iterable[str]) -> str:
     hits = {language: len(known.intersection(words)) for language, known in _LANGUAGES.items()}
     best = max(hits, key=lambda language: hits[language])
     return best if hits[best] >= _ENOUGH else ""
+
+
+def known_languages() -> tuple[str, ...]:
+    """Return every language that :func:`language_of` may answer."""
+    return tuple(dict.fromkeys((*_FUNCTION_WORDS, *_SCRIPTS.values())))

@@ -37,11 +37,23 @@ class Leaving(Motion):
             and (ahead[0].joined or ahead[0].then)
         ):
             said, first, last = text_of(part.terms), text_of(before[-1].terms), text_of(ahead[0].terms)
-            raise Question(f"'{said}': is that said of '{first}' or of '{last}'?", (first, last))
+            raise Question(
+                message(
+                    "'{said}': is that said of '{first}' or of '{last}'?",
+                    context="question",
+                    said=said,
+                    first=first,
+                    last=last,
+                ),
+                (first, last),
+            )
         if ahead and ahead[0].kind == "more_places" and all(t.kind == "NUM" for t in ahead[0].terms):
             number = text_of(ahead[0].terms)
-            raise Question(f"'{number}': tree {number}, or {number} of what was said before?", (f"tree {number}",),
-                           terms=ahead[0].terms)  # fmt: skip
+            asked = message(
+                "'{number}': tree {number}, or {number} of what was said before?", context="question", number=number
+            )
+            tree = message("tree {number}", context="answer", number=number)
+            raise Question(asked, (tree,), terms=ahead[0].terms)
         self._allowances += 1
         self._choice = None  # an "otherwise" behind it does not answer an earlier "if"
         self._allowing = part
@@ -58,13 +70,13 @@ class Leaving(Motion):
     def _said_of_loop(self, part: Part, known: frozenset[int]) -> None:
         """ "At every yellow tree, if the battery allows, ...": it can be said of the round, or of each visit."""
         if any(isinstance(step, d.Loop) for step, _ in d.walk(self.told.root) if id(step) not in known):
-            advice = "say 'at as many of them as you can', or begin the sentence with it"
-            raise unclear(part.terms, "is it said of all these places, or of each of them?", advice)
+            advice = message("say 'at as many of them as you can', or begin the sentence with it")
+            raise unclear(part.terms, message("is it said of all these places, or of each of them?"), advice)
 
     def _otherwise(self, part: Part) -> None:
         if self._choice is None and self._allowances:
-            what = "a step for which too little is left is left out, and nothing stands in for it"
-            raise unclear(part.terms, what, "leave the 'otherwise' out")
+            what = message("a step for which too little is left is left out, and nothing stands in for it")
+            raise unclear(part.terms, what, message("leave the 'otherwise' out"))
         super()._otherwise(part)
 
     def _close_allowance(self) -> None:
@@ -84,20 +96,28 @@ class Leaving(Motion):
         inner = {id(st) for step, _ in placed for b in d.blocks_of(step) for st, _ in d.walk(b)}
         outer = [(step, block) for step, block in placed if id(step) not in inner]
         if not outer:
-            raise unclear(part.terms, "what may be left out does not stand there", "say what is to be done then")
+            raise unclear(
+                part.terms, message("what may be left out does not stand there"), message("say what is to be done then")
+            )
         holder = outer[0][1]
         at = holder.steps.index(outer[0][0])
         whole = [step for step, _ in outer]
         if holder.steps[at : at + len(whole)] != whole:
-            raise unclear(part.terms, "what may be left out is not clear", "say it in a sentence of its own")
+            raise unclear(
+                part.terms, message("what may be left out is not clear"), message("say it in a sentence of its own")
+            )
         if len(whole) == 1 and isinstance(whole[0], d.Loop) and whole[0].optional:
             whole[0].said += part.said
             return  # "as many as you can, if the battery allows" is said twice
         if any(isinstance(step, d.Halt) for step in whole):
-            raise unclear(part.terms, "the way home and the end of the mission are never left out", "leave it out")
+            raise unclear(
+                part.terms,
+                message("the way home and the end of the mission are never left out"),
+                message("leave it out"),
+            )
         if any(self._may_be_left_out(step) for step, _ in placed) or self._inside_optional(holder):
-            advice = "say it of the one or of the other"
-            raise unclear(part.terms, "what it is said of may be left out already", advice)
+            advice = message("say it of the one or of the other")
+            raise unclear(part.terms, message("what it is said of may be left out already"), advice)
         if any(isinstance(step, d.Loop) for step, _ in placed):
             said = text_of(part.terms)
             self.told.assumptions.append(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from fieldhand.language import Number, message
 from fieldhand.planning.english.counting import Wanted
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
@@ -14,7 +15,7 @@ from fieldhand.task import selectors as s
 
 #: Rows that are left to the planner.
 _ANY_ROW = (["a", "row"], ["any", "row"], ["one", "row"], ["some", "row"], ["one of", "rows"])
-_LINE = "say along which row, or in which zone: 'every 20 m along row 4'"
+_LINE = message("say along which row, or in which zone: 'every 20 m along row 4'")
 
 
 def as_stops(part: Part, wanted: Wanted) -> tuple[Part, Wanted]:
@@ -44,23 +45,43 @@ def stops_of(found: Found | None, part: Part, wanted: Wanted, site: Site) -> Fou
     spacing = part.spacing
     apart = 0.0 if spacing is None else spacing.value.apart_m
     if not apart > 0:
-        raise unclear(part.terms if spacing is None else [spacing], "stops need a distance above 0 m between them")
+        raise unclear(
+            part.terms if spacing is None else [spacing], message("stops need a distance above 0 m between them")
+        )
     counts = {count for _, count in wanted}
     if len(counts) > 1:
-        raise Question(f"'{text_of(part.terms)}': how many of each?", ("as many of each",))
+        raise Question(
+            message("'{said}': how many of each?", context="question", said=text_of(part.terms)),
+            (message("as many of each", context="answer"),),
+        )
     count = next(iter(counts)) or 0
     if count > 1 and spacing is not None and spacing.value.every:
         raise Question(
-            f"'{text_of(part.terms)}': {count} stops, or {count} at every stop?",
-            (f"{count} stops {apart:g} m apart", f"{count} at every stop"),
+            message(
+                "'{said}': {count} stops, or {count} at every stop?",
+                context="question",
+                said=text_of(part.terms),
+                count=count,
+            ),
+            (
+                message("{count} stops {apart} m apart", context="answer", count=count, apart=Number(f"{apart:g}")),
+                message("{count} at every stop", context="answer", count=count),
+            ),
             terms=(spacing,),
             words=(f"{apart:g} m apart", ""),
         )
     if count == 1:
-        raise unclear(part.terms, "one stop has no distance to another", "say how many, or leave the distance out")
+        raise unclear(
+            part.terms,
+            message("one stop has no distance to another"),
+            message("say how many, or leave the distance out"),
+        )
     if found is None:
         if not count:
-            raise Question(f"'{text_of(part.terms)}': how many, or along which row?", ("3", "5", "along row 1"))
+            raise Question(
+                message("'{said}': how many, or along which row?", context="question", said=text_of(part.terms)),
+                ("3", "5", message("along row 1", context="answer")),
+            )
         return _found(s.Spaced(apart_m=apart, count=count), count)
     selector = found.selector
     if isinstance(selector, s.InZone) and selector.of == s.Trees() and not selector.outside:
@@ -70,10 +91,12 @@ def stops_of(found: Found | None, part: Part, wanted: Wanted, site: Site) -> Fou
     if s.is_single(selector) and not found.many and count:
         return _found(s.Spaced(apart_m=apart, count=count, near=selector), count)
     if found.region:
-        raise unclear(part.terms, "stops at a distance need a line", _LINE)
+        raise unclear(part.terms, message("stops at a distance need a line"), _LINE)
     number = count or found.counted or 0
     if number < 2 or spacing is None or (count and found.counted not in (None, count)):
-        raise unclear(part.terms, "how many trees are that?", "say 'three trees 15 m apart', for example")
+        raise unclear(
+            part.terms, message("how many trees are that?"), message("say 'three trees 15 m apart', for example")
+        )
     area = selector.of if isinstance(selector, s.Take) else selector
     return Found(
         selector=s.Apart(apart_m=apart, count=number, least=spacing.value.least, of=area), many=True, counted=number
@@ -90,7 +113,13 @@ def _in_rows(found: Found, part: Part, stops: s.Spaced, site: Site) -> Found:
     if stops.count and not found.one_by_one:
         many = stops.count
         raise Question(
-            f"'{text_of(part.terms)}': {many} along each row, or {many} in all?", (f"{many} along each row",)
+            message(
+                "'{said}': {many} along each row, or {many} in all?",
+                context="question",
+                said=text_of(part.terms),
+                many=many,
+            ),
+            (message("{many} along each row", context="answer", many=many),),
         )
     return _found(spread_over(stops, area, rows), stops.count)
 
@@ -106,10 +135,14 @@ def points_over(found: Found, part: Part, wanted: Wanted) -> Found:
         return found
     if not (isinstance(zone, s.InZone) and zone.of == s.Trees() and not zone.outside):
         raise unclear(
-            part.terms, "only over a zone of the site can points be spread", "name a zone, or say how many trees"
+            part.terms,
+            message("only over a zone of the site can points be spread"),
+            message("name a zone, or say how many trees"),
         )
     counts = {count for _, count in wanted}
     count = next(iter(counts))
     if len(counts) > 1 or count is None:
-        raise Question(f"'{text_of(part.terms)}': at how many points?", ("3", "5"))
+        raise Question(
+            message("'{said}': at how many points?", context="question", said=text_of(part.terms)), ("3", "5")
+        )
     return Found(selector=s.PointsIn(zone=zone.zone, count=count), many=count > 1, counted=count)

@@ -25,7 +25,11 @@ class Motion(Until):
             self.told.no_part += part.said
             return
         if self._sentence_steps and part.verb is not None and part.verb.text.lower() in ("starting", "beginning"):
-            raise unclear(part.terms, "where to begin cannot be said behind the work", "name the first tree first")
+            raise unclear(
+                part.terms,
+                message("where to begin cannot be said behind the work"),
+                message("name the first tree first"),
+            )
         found = self._related(part)
         self._rows_gone_to = self._area_gone_to = ""
         if found.here and part.kind != "visit":
@@ -58,10 +62,12 @@ class Motion(Until):
     def _go_to_rows(self, found: Found, part: Part) -> None:
         """ "Go to row 3": to the tree of it that is nearest."""
         if part.relation is not None and part.relation.kind == "ALONG":
-            advice = "say it in one sentence: 'drive down row 3 and take a picture of every tree'"
-            raise unclear(part.terms, "it does not say what to do along the row", advice)
+            advice = message("say it in one sentence: 'drive down row 3 and take a picture of every tree'")
+            raise unclear(part.terms, message("it does not say what to do along the row"), advice)
         if found.each or found.one_by_one:
-            raise unclear(part.terms, "it does not say what to do in each row", "say it in the same sentence")
+            raise unclear(
+                part.terms, message("it does not say what to do in each row"), message("say it in the same sentence")
+            )
         self._rows_gone_to = text_of(part.places.terms) if part.places is not None else ""
         self._loop = None
         self._scope.add(d.Go(place=s.Take(count=1, of=found.selector), said=part.said))
@@ -78,10 +84,10 @@ class Motion(Until):
                 self.told.no_part += part.said
                 return
         if part.relation is not None and part.relation.kind == "EXCEPT":
-            raise unclear(part.terms, "an exception must stand right behind what it is taken from")
+            raise unclear(part.terms, message("an exception must stand right behind what it is taken from"))
         found = self._related(part)
         if found.object_only:
-            raise unclear(part.terms, "a place was expected")
+            raise unclear(part.terms, message("a place was expected"))
         self._go(replace(part, kind="visit"))
 
     def _come_back(self, part: Part) -> None:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from fieldhand.errors import PlaceError, TaskError
+from fieldhand.language import message
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question, text_of
 from fieldhand.planning.english.found import Found
@@ -52,17 +53,26 @@ def distributed(found: Found, group: Group, bag: Bag) -> Found:
     """ "The oldest tree of each row": a pick that is said of each row, said once for each of them."""
     if group.one_by_one and found.at_most is not None:
         raise bag.fault(
-            "up to so many in each row cannot be said yet", "say how many in each row, or up to how many in all"
+            message("up to so many in each row cannot be said yet"),
+            message("say how many in each row, or up to how many in all"),
         )
     one = isinstance(found.selector, s.Take) and found.selector.count == 1 and not found.many
     if one and group.rows is not None and not group.one_by_one and _are_several(group.rows):
         text = text_of(bag.phrase.terms)
-        choices = (f"{text} in each of the rows", "one in all")
-        raise Question(f"'{text}': one in each of the rows, or one in all?", choices)
+        choices = (
+            message("{said} in each of the rows", context="answer", said=text),
+            message("one in all", context="answer"),
+        )
+        raise Question(
+            message("'{said}': one in each of the rows, or one in all?", context="question", said=text), choices
+        )
     if not group.one_by_one or group.rows is None or not _picks_from(found.selector, group.rows):
         return found
     if len(group.one_by_one) > MOST_ONE_BY_ONE:
-        raise bag.fault(f"there are {len(group.one_by_one)} of them, too many to be told one by one", "name some rows")
+        raise bag.fault(
+            message("there are {count} of them, too many to be told one by one", count=len(group.one_by_one)),
+            message("name some rows"),
+        )
     parts = tuple(swapped(found.selector, group.rows, one) for one in group.one_by_one)
     return Found(selector=s.Union(parts=parts), many=True, each=True, assumed=found.assumed)
 

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from fieldhand.errors import PlaceError, TaskError
+from fieldhand.language import message
 from fieldhand.planning.english.asking import how_many, which_of
 from fieldhand.planning.english.attributes import attribute_of, filtered
 from fieldhand.planning.english.bag import Bag
@@ -52,7 +53,7 @@ def picked(bag: Bag, group: Group, site: Site) -> Found:
         found = _trees(bag, group, site)
     bag.finish()
     if group.anchor is not None and not any(part == group.anchor for part in s.walk(found.selector)):
-        raise bag.fault("what is near to what is not clear", "say it in two steps")
+        raise bag.fault(message("what is near to what is not clear"), message("say it in two steps"))
     found = distributed(found, group, bag)
     return replace(found, assumed=(*found.assumed, *group.assumed)) if group.assumed else found
 
@@ -61,8 +62,8 @@ def _whole_rows(bag: Bag, group: Group) -> None:
     """Halves and edges are those of the orchard or of a block, never of a row."""
     rows = group.rows is not None and any(isinstance(part, s.Rows | s.RowOf) for part in s.walk(group.rows))
     if rows and group.rows_of and bag.has("EDGE", "HALF", "QUARTER", "SIDE"):
-        advice = "say 'trees 1 to 9 of row 3', or 'the trees of row 3 in the northern half of the orchard'"
-        raise bag.fault("a row has no halves or edges", advice)
+        advice = message("say 'trees 1 to 9 of row 3', or 'the trees of row 3 in the northern half of the orchard'")
+        raise bag.fault(message("a row has no halves or edges"), advice)
 
 
 def _corner_trees(bag: Bag, group: Group, site: Site) -> Found:
@@ -118,7 +119,10 @@ def _trees(bag: Bag, group: Group, site: Site) -> Found:
         return found
     tree = bag.take("TREE", "PLACE")
     if tree is not None and tree.kind == "PLACE" and tree.plural and (group.empty or tree.text.lower() != "ones"):
-        raise bag.fault("which trees are meant by it?", "say 'trees', or name a zone: '4 points in the wet corner'")
+        raise bag.fault(
+            message("which trees are meant by it?"),
+            message("say 'trees', or name a zone: '4 points in the wet corner'"),
+        )
     plural = bag.plural and bag.count is None
     if ranked is not None:
         lowest = ranked.value[1]
@@ -134,7 +138,7 @@ def _trees(bag: Bag, group: Group, site: Site) -> Found:
     if tree is None and (plot is not None or zoned) and not (bag.as_many or bag.count):
         return Found(selector=of, region=True, many=True)
     if tree is None:
-        raise bag.fault("which place or which trees are meant does not stand there")
+        raise bag.fault(message("which place or which trees are meant does not stand there"))
     return _some_of(bag, of, plural=tree.plural, site=site, single=group.single)
 
 
@@ -165,7 +169,9 @@ def _by_nearness(bag: Bag, of: s.Selector, group: Group, plural: bool) -> Found 
             return _ranked(bag, of, plural, lambda n, base: s.Adjacent(near=near, count=n, of=base))
         side = group.side
         if side != "any" and (plural or (bag.count or 1) > 1):
-            raise bag.fault("one tree is next to it on that side", "say 'the tree next to it on the east'")
+            raise bag.fault(
+                message("one tree is next to it on that side"), message("say 'the tree next to it on the east'")
+            )
         return _ranked(
             bag, of, plural, lambda n, base: s.Nearest(to=near, count=n, adjacent=beside, side=side, of=base)
         )
@@ -195,15 +201,22 @@ def _points(bag: Bag, group: Group) -> Found | None:
     if not (points and isinstance(zone, s.InZone) and zone.of == s.Trees() and not zone.outside):
         return None
     if bag.has("RANDOM"):
-        raise bag.fault("points are spread evenly over a zone, not at random", "say 'at 3 points', or '3 random trees'")
+        raise bag.fault(
+            message("points are spread evenly over a zone, not at random"),
+            message("say 'at 3 points', or '3 random trees'"),
+        )
     if not bag.only("PLACE", "OTHER") or group.anchor is not None or group.kept(zone) != zone:
         return None
     bag.take("OTHER")
     place = bag.take("PLACE")
     if bag.each or bag.as_many or bag.up_to or bag.more or bag.another:
-        raise bag.fault("how many points are meant?", "say 'at 4 points in the zone', for example")
+        raise bag.fault(message("how many points are meant?"), message("say 'at 4 points in the zone', for example"))
     if place is not None and place.plural and bag.count is None:
-        raise how_many(bag.phrase, ("3", "4", "5"), asked=f"'{text_of(bag.phrase.terms)}': how many points?")
+        raise how_many(
+            bag.phrase,
+            ("3", "4", "5"),
+            asked=message("'{said}': how many points?", context="question", said=text_of(bag.phrase.terms)),
+        )
     bag.any = False
     count = bag.count or 1
     return Found(selector=s.PointsIn(zone=zone.zone, count=count), many=count > 1, counted=count)
@@ -225,7 +238,7 @@ def _ranked(bag: Bag, of: s.Selector, plural: bool, pick: Callable[[int, s.Selec
     rank = bag.take("ORD")
     if rank is not None and rank.value > 1:
         if bag.count is not None or plural:
-            raise bag.fault("a rank and several trees at once", "say which one, or how many")
+            raise bag.fault(message("a rank and several trees at once"), message("say which one, or how many"))
         return Found(selector=pick(1, s.Excluding(places=pick(rank.value - 1, of), of=of)), counted=1)
     if plural:
         raise how_many(bag.phrase)
@@ -236,18 +249,23 @@ def _ranked(bag: Bag, of: s.Selector, plural: bool, pick: Callable[[int, s.Selec
 def _first_or_last(bag: Bag, of: s.Selector, site: Site) -> Found:
     rank, last = bag.take("ORD"), bag.take("LAST")
     if any(g[0].kind == "PLACE" for g in bag.phrase.nominals):
-        raise bag.fault("the first or last of which trees?", "say 'the last tree', or name it by its id")
+        raise bag.fault(
+            message("the first or last of which trees?"), message("say 'the last tree', or name it by its id")
+        )
     number = bag.count or 1
     if rank is not None and rank.value != 1:
-        advice = "name the tree by its id, or by a side: 'the second northernmost tree'"
-        raise bag.fault(f"'{rank.text}' could be counted in several ways", advice)
+        advice = message("name the tree by its id, or by a side: 'the second northernmost tree'")
+        raise bag.fault(message("'{said}' could be counted in several ways", said=rank.text), advice)
     if bag.plural and bag.count is None:
         raise how_many(bag.phrase)
     if number == 1:
         return Found(selector=s.First(of=of) if last is None else s.Last(of=of), counted=1)
     marker: s.MarkerName = "start" if last is None else "end"
     if marker not in site.markers:
-        raise bag.fault(f"the site has no {marker} marker to count from", "name the trees by their ids")
+        raise bag.fault(
+            message("the site has no {marker} marker to count from", marker=marker),
+            message("name the trees by their ids"),
+        )
     return Found(selector=s.Nearest(to=s.Marker(name=marker), count=number, of=of), many=True, counted=number)
 
 
@@ -259,7 +277,7 @@ def _some_of(bag: Bag, of: s.Selector, *, plural: bool, site: Site, single: bool
         return Found(selector=of, many=True, optional=True, at_most=None if count is None else count)
     if bag.up_to:
         if count is None:
-            raise bag.fault("up to how many?", "say 'up to 6 trees', for example")
+            raise bag.fault(message("up to how many?"), message("say 'up to 6 trees', for example"))
         bag.up_to = False
         return Found(selector=of, many=True, at_most=count)
     if bag.more:
@@ -271,7 +289,12 @@ def _some_of(bag: Bag, of: s.Selector, *, plural: bool, site: Site, single: bool
     if single and count in (None, 1):
         return Found(selector=of)
     if bag.any and plural and count is None:
-        raise how_many(bag.phrase, ("2", "4"), asked=f"'{text}': how many of them?", of_all=True)
+        raise how_many(
+            bag.phrase,
+            ("2", "4"),
+            asked=message("'{said}': how many of them?", context="question", said=text),
+            of_all=True,
+        )
     if bag.article == "some" and plural and count is None:
         raise how_many(bag.phrase, ("2", "4"), of_all=True)
     if (drawn := bag.take("RANDOM")) is not None:
@@ -294,7 +317,7 @@ def _some_of(bag: Bag, of: s.Selector, *, plural: bool, site: Site, single: bool
 def _drawn(bag: Bag, of: s.Selector, seed: int, *, plural: bool) -> Found:
     """Return some of a group, drawn at random."""
     if bag.each:
-        raise bag.fault("all of them, or some at random?", "say how many: '10 trees at random'")
+        raise bag.fault(message("all of them, or some at random?"), message("say how many: '10 trees at random'"))
     if plural and bag.count is None:
         raise how_many(bag.phrase, ("5", "10"), of_all=True)
     number = bag.count or 1
@@ -307,10 +330,17 @@ def _every(bag: Bag, of: s.Selector, plural: bool, site: Site) -> Found:
     claimed = count if count is not None else None if (bag.each or plural) else 1
     there = _size(of, site) if claimed is not None else None
     if claimed is not None and there is not None and there != claimed:
-        what = f"'{text_of(bag.phrase.terms)}': there are {there} such trees"
+        what = message("'{said}': there are {there} such trees", said=text_of(bag.phrase.terms), there=there)
         if there < claimed:
-            raise which_of(bag.phrase, f"{what}, not {claimed}", there=there, claimed=None)
-        raise which_of(bag.phrase, f"{what}; which are meant?", there=there, claimed=claimed)
+            raise which_of(
+                bag.phrase,
+                message("{what}, not {claimed}", context="question", what=what, claimed=claimed),
+                there=there,
+                claimed=None,
+            )
+        raise which_of(
+            bag.phrase, message("{what}; which are meant?", context="question", what=what), there=there, claimed=claimed
+        )
     if claimed == 1:
         return Found(selector=s.Take(count=1, of=of))
     if claimed is not None and there is None and not bag.each:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 
+from fieldhand.language import message
 from fieldhand.planning.english.bag import Bag, bag_of
 from fieldhand.planning.english.bare import named_trees, quantity_alone
 from fieldhand.planning.english.faults import Question, Unclear, text_of, unclear
@@ -54,7 +55,7 @@ _OF_ANCHOR = frozenset(
         "growing on",
     }
 )
-_SPREAD_ADVICE = "free points are spread over a zone: 'at 5 points spread over the wet corner'"
+_SPREAD_ADVICE = message("free points are spread over a zone: 'at 5 points spread over the wet corner'")
 _SEVERAL = frozenset({"them", "they", "both", "each", "every", "all", "these", "those"})
 _ANCHORED = ("NEAREST", "FARTHEST", "FAR", "STEP", "OPPOSITE")
 #: Relations that trees have, and rows do not.
@@ -93,7 +94,11 @@ def find(places: Places, site: Site) -> Found:
     """
     if any(join.value == "or" for join in places.joins):
         choices = tuple(text_of(chain.terms) for chain in places.chains)
-        raise Question(f"'{text_of(places.terms)}': which of them?", choices, terms=places.terms)
+        raise Question(
+            message("'{said}': which of them?", context="question", said=text_of(places.terms)),
+            choices,
+            terms=places.terms,
+        )
     found: list[Found] = []
     places = one_each(without_appositions(places))
     for chain, excepted in _chains(places):
@@ -109,13 +114,17 @@ def find(places: Places, site: Site) -> Found:
     check_comma(places, found)
     found = from_each_other(found)
     if any(f.object_only or f.optional or f.at_most for f in found):
-        raise unclear(places.terms, "these cannot be said together", "say each in a sentence of its own")
+        raise unclear(
+            places.terms, message("these cannot be said together"), message("say each in a sentence of its own")
+        )
     found = [_after(f, found[k - 1] if k else None, places) for k, f in enumerate(found)]
     if any(f.here for f in found):
         found = [replace(f, selector=s.Here()) if f.here else f for f in found]
     rows = all(f.rows for f in found)
     if rows and any(isinstance(f.selector, s.Successive) for f in found):
-        raise unclear(places.terms, "these rows cannot be said together", "say each in a sentence of its own")
+        raise unclear(
+            places.terms, message("these rows cannot be said together"), message("say each in a sentence of its own")
+        )
     return Found(
         selector=s.Union(parts=tuple(f.selector for f in found)),
         many=True,
@@ -138,7 +147,7 @@ def _after(found: Found, before: Found | None, places: Places) -> Found:
     if before is None or not of_it:
         return found
     if before.many or before.here or s.is_relative(before.selector):
-        raise unclear(places.terms, "it is not clear next to what", "say it in a sentence of its own")
+        raise unclear(places.terms, message("it is not clear next to what"), message("say it in a sentence of its own"))
     return replace(found, selector=swapped(found.selector, s.Here(), before.selector))
 
 
@@ -161,7 +170,11 @@ def _chains(places: Places) -> list[tuple[Chain, tuple[Chain, ...]]]:
                 continue
             if last.relations and len(chain.phrases) == 1 and _kind(chain.phrases[0]) == _kind(last.phrases[-1]) != "":
                 if _kind(chain.phrases[0]) == "closed":
-                    raise unclear(places.terms, "this can be read in two ways", "say each in a sentence of its own")
+                    raise unclear(
+                        places.terms,
+                        message("this can be read in two ways"),
+                        message("say each in a sentence of its own"),
+                    )
                 chain = replace(last, phrases=(*last.phrases[:-1], chain.phrases[0]))
         found.append((chain, ()))
     return found
@@ -187,7 +200,9 @@ def _chain(chain: Chain, excepted: tuple[Chain, ...], site: Site) -> Found:
             line = line[:1]  # "the yellow trees in the northern half in row 3"
         if relation.kind in _OF_TREES and len(line) > 1 and speaks_of_rows(line[-1].bag):
             if relation.kind in ("NEAR", "NEXTTO") and line[-1].bag.only("ROW") and not line[-1].bag.pointing:
-                raise unclear(chain.terms, "what is near, the tree or the row?", "name the row, or leave it out")
+                raise unclear(
+                    chain.terms, message("what is near, the tree or the row?"), message("name the row, or leave it out")
+                )
             line = line[:1]  # "the tree in row 3 nearest to the charger"
         if len(line) > 1 and line[-1].bag.describes(*_DESCRIBING):
             line.pop()  # "trees | with yellow leaves | in the southern half"
@@ -197,7 +212,8 @@ def _chain(chain: Chain, excepted: tuple[Chain, ...], site: Site) -> Found:
             line = line[:1]  # an exception is taken from what the phrase speaks of
         if line[-1].closed and not (plot and line[-1].is_marker):
             raise unclear(
-                chain.terms, f"'{text_of(line[-1].phrase.terms)}' is one place: nothing more can be said of it"
+                chain.terms,
+                message("'{said}' is one place: nothing more can be said of it", said=text_of(line[-1].phrase.terms)),
             )
         line[-1].described.append((relation, part))
         line.append(part)
@@ -268,11 +284,15 @@ def _is_side_of_anchor(part: _Part, relation: Term, inner: _Part) -> bool:
     if relation.text.lower() not in _OF_ANCHOR or "NEXTTO" not in before:
         raise unclear(
             (relation, *inner.phrase.terms),
-            "on that side of the tree, or in that half of the site?",
-            "say 'next to it on the east', or 'in the eastern half'",
+            message("on that side of the tree, or in that half of the site?"),
+            message("say 'next to it on the east', or 'in the eastern half'"),
         )
     if len(sides[0].value) == 2:
-        raise unclear((relation, *inner.phrase.terms), "a neighbour is on one of four sides", "say 'on the east'")
+        raise unclear(
+            (relation, *inner.phrase.terms),
+            message("a neighbour is on one of four sides"),
+            message("say 'on the east'"),
+        )
     return True
 
 
@@ -285,7 +305,7 @@ def _side_of_anchor(part: _Part) -> s.AnySide:
     """Return the side of its anchor that a phrase speaks of."""
     found = [inner for relation, inner in part.described if _is_side_of_anchor(part, relation, inner)]
     if len(found) > 1:
-        raise unclear(part.phrase.terms, "two sides at once", "say one of them")
+        raise unclear(part.phrase.terms, message("two sides at once"), message("say one of them"))
     side: s.AnySide = found[0].bag.words("DIR")[0].value if found else "any"
     return side
 
@@ -327,13 +347,13 @@ def _describe(
         bag.join(inner.bag)
         return
     if kind == "WITH":
-        raise unclear([relation, *inner.phrase.terms], "what is meant by this does not stand there")
+        raise unclear([relation, *inner.phrase.terms], message("what is meant by this does not stand there"))
     sided = bag.has("MIDDLE") and inner.bag.has("SIDE")
     behind = _read(inner, (), site)
     if sided and isinstance(behind.selector, s.Half):  # "the middle of the north side" is on the edge
         behind = replace(behind, selector=s.Edge(side=behind.selector.side, of=behind.selector.of))
     if behind.object_only or behind.optional or behind.at_most is not None:
-        raise unclear([relation, *inner.phrase.terms], "a place was expected")
+        raise unclear([relation, *inner.phrase.terms], message("a place was expected"))
     if speaks_of_rows(bag) and not (behind.region or behind.here):
         _row_of(bag, group, relation, behind, inner)
         return
@@ -341,7 +361,11 @@ def _describe(
     if kind == "NEAR" and isinstance(behind.selector, s.Middle | s.EdgeMiddle):
         kind = "AT"  # "somewhere near the middle" is the middle
     if kind == "FROM" and not anchored:
-        raise unclear([relation, *inner.phrase.terms], "from there, but what?", "say 'nearest to', or 'within 20 m of'")
+        raise unclear(
+            [relation, *inner.phrase.terms],
+            message("from there, but what?"),
+            message("say 'nearest to', or 'within 20 m of'"),
+        )
     spot = bag.has("ADJACENT") and isinstance(behind.selector, s.Middle | s.EdgeMiddle) and not group.anchor
     match kind:
         case "FROM":
@@ -369,7 +393,7 @@ def _describe(
         case "OUTSIDE" | "EXCEPT":
             group.without(behind.selector, *excepted)
         case _:
-            raise unclear(part.phrase.terms, f"'{relation.text}' does not fit here")
+            raise unclear(part.phrase.terms, message("'{said}' does not fit here", said=relation.text))
 
 
 def _row_of(bag: Bag, group: Group, relation: Term, behind: Found, inner: _Part) -> None:
@@ -377,7 +401,7 @@ def _row_of(bag: Bag, group: Group, relation: Term, behind: Found, inner: _Part)
     ranks = bag.has("ORD", "LAST", "MOST", "BACKORD", "EVERYNTH", "COUNTEDFROM")
     if relation.kind != "OF" or behind.many or bag.plural or ranks or not bag.has("ROW", "OVER"):
         terms = [relation, *inner.phrase.terms]
-        raise unclear(terms, "of which row is not clear", "say 'every third tree of row 3'")
+        raise unclear(terms, message("of which row is not clear"), message("say 'every third tree of row 3'"))
     group.row_of = behind.selector
 
 
@@ -385,9 +409,9 @@ def _among(bag: Bag, group: Group, relation: Term, behind: Found, inner: _Part) 
     """ "... in the northern half", "... of row 3", "... along row 3", "... spread over the wet corner"."""
     kind, terms = relation.kind, [relation, *inner.phrase.terms]
     if kind == "SPREAD" and not (bag.has("PLACE") and isinstance(behind.selector, s.InZone)):
-        raise unclear(terms, "trees are not spread", _SPREAD_ADVICE)
+        raise unclear(terms, message("trees are not spread"), _SPREAD_ADVICE)
     if kind == "ALONG" and not (behind.rows or isinstance(behind.selector, s.Edge)):
-        raise unclear(terms, "along which row?", "name the row: 'along row 3'")
+        raise unclear(terms, message("along which row?"), message("name the row: 'along row 3'"))
     way = relation.text.lower().split() if kind == "ALONG" else []
     group.upwards = "up" in way and "down" not in way
     group.along = group.along or kind == "ALONG"
@@ -395,7 +419,9 @@ def _among(bag: Bag, group: Group, relation: Term, behind: Found, inner: _Part) 
     at_each = behind.each or (isinstance(behind.selector, s.Corners) and bool(bag.article))
     if at_each and behind.many and not (behind.region or bag.as_many or bag.up_to):
         if bag.count not in (None, 1):
-            raise unclear(bag.phrase.terms, "so many at each place cannot be said yet", "name each place")
+            raise unclear(
+                bag.phrase.terms, message("so many at each place cannot be said yet"), message("name each place")
+            )
         bag.each, bag.count = True, None  # "the tree at each corner"
     group.add(behind, inner.phrase)
 
@@ -418,8 +444,8 @@ def _near_zone(zone: str, relation: Term) -> Found:
 
 def _single(found: Found, inner: _Part) -> s.Selector:
     if found.many and not s.zone_itself(found.selector):
-        advice = "name one tree, corner, marker or zone"
-        raise unclear(inner.phrase.terms, "one place is needed to measure from", advice)
+        advice = message("name one tree, corner, marker or zone")
+        raise unclear(inner.phrase.terms, message("one place is needed to measure from"), advice)
     return found.selector
 
 

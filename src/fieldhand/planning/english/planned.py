@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from fieldhand.errors import PlaceError, TaskError
+from fieldhand.language import Number, message, named
 from fieldhand.planning.english.averages import check_averages
 from fieldhand.planning.english.draft import Halt, node_of
 from fieldhand.planning.english.faults import Unclear
@@ -43,7 +44,8 @@ def planned(
     """
     if all(isinstance(step, Halt) for step in told.root.steps):
         reason = Reason(
-            what="the request asks for nothing to be done", advice="say what to take or measure, and at which trees"
+            what=message("the request asks for nothing to be done"),
+            advice=message("say what to take or measure, and at which trees"),
         )
         return Refused(reasons=(reason,), planner=NAME)
     check_averages(told.root, request, robot)
@@ -97,8 +99,12 @@ def _constraints(limits: Iterable[Limit]) -> Constraints:
 def _check(limit: Limit) -> None:
     most = 100.0 if limit.unit == "percent" else math.inf
     if not 0.0 < limit.amount <= most:
-        what = f"a limit of {limit.amount:g} {limit.unit} cannot be kept"
-        raise Unclear(Reason(what=what, advice="say a number above 0, at most 100 for percent of the battery"))
+        what = message(
+            "a limit of {amount} {unit} cannot be kept",
+            amount=Number(f"{limit.amount:g}"),
+            unit=named(limit.unit, "unit"),
+        )
+        raise Unclear(Reason(what=what, advice=message("say a number above 0, at most 100 for percent of the battery")))
 
 
 def _impossible(plan: p.Node, site: Site) -> Iterable[Reason]:

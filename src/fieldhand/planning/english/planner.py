@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from fieldhand.errors import RequestError
+from fieldhand.language import Number, joined, message
 from fieldhand.planning.english.faults import Question, Unclear
 from fieldhand.planning.english.leading import places_of_choices
 from fieldhand.planning.english.planned import NAME
@@ -65,27 +66,46 @@ class EnglishPlanner:
 def _unanswered(question: Question, given: Answer, *, known: bool) -> Reason:
     """Why an answer does not help: it is none of the choices, or nobody knows where its words would stand."""
     if known:
-        return Reason(what=f"'{given.answer}' has to be said in the request", advice="say it there, and plan again")
-    choices = ", ".join(f"'{choice}'" for choice in question.choices) or "say it in the request, and plan again"
-    return Reason(what=f"'{given.answer}' does not answer '{question.question}'", advice=f"choose: {choices}")
+        return Reason(
+            what=message("'{answer}' has to be said in the request", answer=given.answer),
+            advice=message("say it there, and plan again"),
+        )
+    what = message("'{answer}' does not answer '{question}'", answer=given.answer, question=question.question)
+    if not question.choices:
+        return Reason(what=what, advice=message("say it in the request, and plan again"))
+    choices = joined(", ", (message("'{said}'", said=choice) for choice in question.choices))
+    return Reason(what=what, advice=message("choose: {choices}", choices=choices))
 
 
 def _check_text(request: str) -> None:
     if not request.strip():
-        raise RequestError("the request is empty", advice="say what the robot should do, and at which trees")
+        raise RequestError(
+            message("the request is empty"), advice=message("say what the robot should do, and at which trees")
+        )
     if len(request) > LONGEST_REQUEST:
         raise RequestError(
-            f"the request has {len(request):,} characters, at most {LONGEST_REQUEST:,} are read",
-            advice="say it shorter, or split it into missions",
+            message(
+                "the request has {count} characters, at most {most} are read",
+                count=Number(f"{len(request):,}"),
+                most=Number(f"{LONGEST_REQUEST:,}"),
+            ),
+            advice=message("say it shorter, or split it into missions"),
         )
     odd = hidden_character(request, lines=True)
     if odd is not None:
-        raise RequestError(f"the request holds the character {odd}, which nobody can see", advice="leave it out")
+        raise RequestError(
+            message("the request holds the character {odd}, which nobody can see", odd=odd),
+            advice=message("leave it out"),
+        )
 
 
 def _check_length(words: Sequence[Word]) -> None:
     if len(words) > MOST_WORDS:
         raise RequestError(
-            f"the request has {len(words):,} words and signs, at most {MOST_WORDS:,} are read",
-            advice="say it shorter, or split it into missions",
+            message(
+                "the request has {count} words and signs, at most {most} are read",
+                count=Number(f"{len(words):,}"),
+                most=Number(f"{MOST_WORDS:,}"),
+            ),
+            advice=message("say it shorter, or split it into missions"),
         )

@@ -194,7 +194,9 @@ def _all_accounted(words: Sequence[Word], arranged: Arranged) -> None:
     lost = [w for w in words if not any(start <= w.start and w.end <= end for start, end in spans)]
     if lost:
         text = " ".join(w.text for w in lost)
-        raise Unclear(Reason(what=f"'{text}' could not be placed", said=tuple((w.start, w.end) for w in lost)))
+        raise Unclear(
+            Reason(what=message("'{said}' could not be placed", said=text), said=tuple((w.start, w.end) for w in lost))
+        )
 
 
 def _told(arranged: Arranged, request: str, robot: RobotProfile, site: Site) -> Told:
@@ -220,8 +222,11 @@ def _told(arranged: Arranged, request: str, robot: RobotProfile, site: Site) -> 
     if unsure is not None:
         said = " ".join(request[start:end] for start, end in unsure.said)
         raise Question(
-            f"'{said}': where, if what comes before it is left out?",
-            ("only if that is done, at its place", "at a tree that you name"),
+            message("'{said}': where, if what comes before it is left out?", context="question", said=said),
+            (
+                message("only if that is done, at its place", context="answer"),
+                message("at a tree that you name", context="answer"),
+            ),
         )
     settle(discourse.told)
     try:
@@ -250,8 +255,8 @@ def _misfit(wrong: NotParsed, request: str) -> Reason:
     start, end = wrong.said
     sentence = request[start:end]
     short = sentence if len(sentence) <= 120 else sentence[:117] + "..."
-    advice = "say it in shorter sentences, one thing after the other"
+    advice = message("say it in shorter sentences, one thing after the other")
     if wrong.term.kind in ("WITHOUT", "NOT", "ISNOT"):
-        advice = "the robot does only what is asked of it: leave out what it is not to do, or say 'except'"
-    what = f"'{wrong.term.text}' does not fit where it stands in '{short}'"
+        advice = message("the robot does only what is asked of it: leave out what it is not to do, or say 'except'")
+    what = message("'{said}' does not fit where it stands in '{short}'", said=wrong.term.text, short=short)
     return Reason(what=what, said=(wrong.term.span,), advice=advice)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from fieldhand.language import message, named
 from fieldhand.planning.english.asking import how_many
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question
@@ -13,7 +14,8 @@ from fieldhand.task import selectors as s
 
 _CORNERS: tuple[s.CornerName, ...] = ("nw", "ne", "se", "sw")
 _CORNER_WORDS = ("north-west", "north-east", "south-east", "south-west")
-SIDE_ADVICE = "say north, east, south or west"
+_CORNER_CHOICES = tuple(named(word, "answer", named(word, "compass")) for word in _CORNER_WORDS)
+SIDE_ADVICE = message("say north, east, south or west")
 
 
 def corners(bag: Bag, of: s.Selector) -> Found:
@@ -26,7 +28,10 @@ def corners(bag: Bag, of: s.Selector) -> Found:
     names = which or _CORNERS
     plural = bool(corner and corner.plural) or bag.each or bag.plural
     if bag.count is not None and bag.count > len(names):
-        raise bag.fault(f"there are {len(names)} such corners, not {bag.count}", "ask for fewer")
+        raise bag.fault(
+            message("there are {there} such corners, not {count}", there=len(names), count=bag.count),
+            message("ask for fewer"),
+        )
     everything = s.Corners(which=names, of=of)
     if len(names) == 1:
         return Found(selector=everything)
@@ -37,19 +42,31 @@ def corners(bag: Bag, of: s.Selector) -> Found:
         return Found(selector=s.Take(count=number, of=s.Other(of=everything)), many=number > 1, counted=number)
     if bag.count is not None and bag.count < len(names):
         if bag.definite or bag.each:
-            raise Question(f"which {bag.count} of the corners?", _CORNER_WORDS)
+            raise Question(
+                message("which {count} of the corners?", context="question", count=bag.count), _CORNER_CHOICES
+            )
         return Found(selector=s.Take(count=bag.count, of=everything), many=bag.count > 1, counted=bag.count)
     if plural or bag.count == len(names):
         if bag.any:
             corners = ("a corner", "2 corners", "all 4 corners")
-            raise Question("how many of the corners?", ("1", "2", "all 4"), terms=bag.phrase.terms, words=corners)
+            raise Question(
+                message("how many of the corners?", context="question"),
+                ("1", "2", message("all 4", context="answer")),
+                terms=bag.phrase.terms,
+                words=corners,
+            )
         return Found(selector=everything, many=True, each=bag.each, counted=bag.count)
     if bag.take("NEAREST") is not None:
         return Found(selector=s.Nearest(to=s.Here(), of=everything))
     if bag.any or bag.article in ("a", "an", "some"):
         return Found(selector=s.Take(count=1, of=everything))
     words = tuple(f"{word} corner" for word in _CORNER_WORDS)
-    raise Question("which corner?", _CORNER_WORDS, terms=() if corner is None else (corner,), words=words)
+    raise Question(
+        message("which corner?", context="question"),
+        _CORNER_CHOICES,
+        terms=() if corner is None else (corner,),
+        words=words,
+    )
 
 
 def _which(bag: Bag) -> tuple[s.CornerName, ...]:
@@ -76,7 +93,7 @@ def middle(bag: Bag, of: s.Selector) -> Found:
     bag.take("SIDE")
     bag.any = False
     if tree is not None and tree.plural and bag.count is None:
-        raise how_many(bag.phrase, asked="how many trees in the middle?")
+        raise how_many(bag.phrase, asked=message("how many trees in the middle?", context="question"))
     if bag.another or bag.take("OTHER") is not None:
         of = s.Other(of=of)
     count = bag.count or 1
@@ -84,10 +101,12 @@ def middle(bag: Bag, of: s.Selector) -> Found:
     edge, direction = bag.take("EDGE", "FINISH"), bag.take("DIR")
     if direction is not None and edge is not None:
         if len(direction.value) == 2:
-            raise bag.fault("an edge lies on one side", SIDE_ADVICE)
+            raise bag.fault(message("an edge lies on one side"), SIDE_ADVICE)
         return Found(selector=s.EdgeMiddle(side=direction.value, count=count, of=of), many=many, counted=counted)
     if direction is not None or edge is not None:
-        raise bag.fault("the middle of which side?", "say 'the middle of the northern edge', for example")
+        raise bag.fault(
+            message("the middle of which side?"), message("say 'the middle of the northern edge', for example")
+        )
     if isinstance(of, s.Edge):
         return Found(selector=s.EdgeMiddle(side=of.side, count=count, of=of.of), many=many, counted=counted)
     return Found(selector=s.Middle(count=count, of=of), many=many, counted=counted)
@@ -116,12 +135,14 @@ def extremes(bag: Bag, kept: Callable[[s.Selector], s.Selector], of: s.Selector)
     count = bag.count or 1
     if len(side) == 2:
         if rank is not None or count > 1 or (tree is not None and tree.plural):
-            raise bag.fault("there is one such tree", "say 'the trees in the north-east', for example")
+            raise bag.fault(
+                message("there is one such tree"), message("say 'the trees in the north-east', for example")
+            )
         return Found(selector=s.Corners(which=(_corner(side),), of=of))
     compass = _one_side(bag, side)
     if rank is not None and rank.value > 1:
         if bag.count is not None or (tree is not None and tree.plural):
-            raise bag.fault("a rank and several trees at once", "say which one, or how many")
+            raise bag.fault(message("a rank and several trees at once"), message("say which one, or how many"))
         nearer = s.Extreme(side=compass, count=rank.value - 1, of=of)
         return Found(selector=s.Extreme(side=compass, of=s.Excluding(places=nearer, of=of)))
     if bag.any or (bag.article in ("a", "an") and bag.count is None):
@@ -148,8 +169,10 @@ def region(bag: Bag, of: s.Selector) -> s.Selector:
             sides: tuple[s.Side, ...] = ("north", "east", "south", "west")
             return s.Union(parts=tuple(s.Edge(side=side, of=of) for side in sides))
         if bag.has("FINISH"):
-            raise bag.fault("which trees are meant does not stand there", "say 'the tree nearest to the end'")
-        raise bag.fault("which side is meant does not stand there", SIDE_ADVICE)
+            raise bag.fault(
+                message("which trees are meant does not stand there"), message("say 'the tree nearest to the end'")
+            )
+        raise bag.fault(message("which side is meant does not stand there"), SIDE_ADVICE)
     side = direction.value
     if bag.take("EDGE", "FINISH") is not None:
         area: s.Selector = s.Edge(side=_one_side(bag, side), of=of)
@@ -157,7 +180,7 @@ def region(bag: Bag, of: s.Selector) -> s.Selector:
         quarter = bag.has("QUARTER")
         bag.take("HALF", "SIDE", "QUARTER")
         if quarter and len(side) != 2:
-            raise bag.fault("a quarter lies in a corner", "say 'the north-east quarter', for example")
+            raise bag.fault(message("a quarter lies in a corner"), message("say 'the north-east quarter', for example"))
         area = half_or_quarter(side, of)
     check_sides(area, bag.phrase)
     return area
@@ -180,4 +203,4 @@ def _one_side(bag: Bag, side: str) -> s.Side:
         if side == compass:
             found: s.Side = compass
             return found
-    raise bag.fault("an edge lies on one side", SIDE_ADVICE)
+    raise bag.fault(message("an edge lies on one side"), SIDE_ADVICE)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
+from fieldhand.language import message
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import unclear
 from fieldhand.planning.english.found import Found
@@ -99,7 +100,7 @@ def without_place(passage: d.Block, part: Part) -> None:
         case d.Go():
             passage.steps = passage.steps[1:]
             if not passage.steps:
-                raise unclear(part.terms, "there is nothing before it to repeat")
+                raise unclear(part.terms, message("there is nothing before it to repeat"))
         case d.Capture():
             first.at = None
         case d.Loop(select=s.Adjacent() as select):

@@ -17,8 +17,9 @@ from fieldhand.planning.english.tokens import Term
 from fieldhand.planning.english.ways import blocks_named, check_over, side_across
 from fieldhand.site.model import Site
 from fieldhand.task import selectors as s
+from fieldhand.task.words import COMPASS
 
-_WHICH = "say which: 'row 3', 'the westernmost row', 'every other row'"
+_WHICH = message("say which: 'row 3', 'the westernmost row', 'every other row'")
 
 
 def speaks_of_rows(bag: Bag) -> bool:
@@ -38,7 +39,9 @@ def rows_meant(bag: Bag, group: Group, size: int | None, site: Site) -> Found:
     """
     check_rows(bag, site)
     if group.anchor is not None:
-        raise bag.fault("which row is meant does not stand there", "say 'the next row', or 'two rows to the east'")
+        raise bag.fault(
+            message("which row is meant does not stand there"), message("say 'the next row', or 'two rows to the east'")
+        )
     head = next(word for kind in ("ROW", "ROWIDS", "BLOCKIDS", "OVER") for word in bag.words(kind))
     valued = bag.take_behind("ATTRVAL", head.start)  # "the rows ... that are yellow": their trees are
     compared, bag.compared = bag.compared, []
@@ -52,14 +55,16 @@ def rows_meant(bag: Bag, group: Group, size: int | None, site: Site) -> Found:
         found = _described(bag, group, size, site)
         size = None
     if size is not None:
-        raise bag.fault("how many trees a row has is not what it is chosen by", "leave the number out")
+        raise bag.fault(
+            message("how many trees a row has is not what it is chosen by"), message("leave the number out")
+        )
     bag.put("ATTRVAL", valued)
     bag.compared = [terms for terms in compared if terms[0].start > head.start]
     tested = filtered(bag, found.selector, site)
     bag.compared = [terms for terms in compared if terms[0].start < head.start]
     bag.finish()
     if group.row_of is not None and not any(isinstance(part, s.RowOf) for part in s.walk(found.selector)):
-        raise bag.fault("which row is meant is said in two ways", _WHICH)
+        raise bag.fault(message("which row is meant is said in two ways"), _WHICH)
     found = replace(found, assumed=(*found.assumed, *group.assumed))
     kept = group.kept(tested)
     return found if kept == found.selector else replace(found, selector=kept, one_by_one=_each(found, kept, site))
@@ -72,9 +77,11 @@ def check_rows(bag: Bag, site: Site) -> None:
         Unclear: It has none.
     """
     if not site.planting.blocks:
-        why = f" ({site.planting.why})" if site.planting.why else ""
-        advice = "name trees by id, side, corner or attribute, or give the rows in the site's file"
-        raise bag.fault(f"no rows are known on this site{why}", advice)
+        why = message("no rows are known on this site")
+        if site.planting.why:
+            why = message("{what} ({why})", what=why, why=site.planting.why)
+        advice = message("name trees by id, side, corner or attribute, or give the rows in the site's file")
+        raise bag.fault(why, advice)
 
 
 def _blocks(bag: Bag, of: s.Selector, site: Site) -> Found:
@@ -88,7 +95,10 @@ def _blocks(bag: Bag, of: s.Selector, site: Site) -> Found:
     for name in names:
         if name.lower() not in known:
             there = ", ".join(block.name for block in site.planting.blocks)
-            raise bag.fault(f"there is no block {name!r}", f"this site has block {there}")
+            raise bag.fault(
+                message("there is no block '{name}'", name=name),
+                message("this site has block {there}", there=there),
+            )
     blocks = tuple(s.InBlock(block=known[name.lower()], of=of) for name in dict.fromkeys(names))
     one = blocks[0] if len(blocks) == 1 else s.Union(parts=blocks)
     return Found(selector=one, many=True, region=True, rows=True, each=bag.each, one_by_one=blocks if bag.each else ())
@@ -106,8 +116,10 @@ def some_block(bag: Bag, group: Group, site: Site) -> Found:
     plural = any(t.plural for t in bag.words("PLOT"))
     if not bag.each or not bag.only("PLOT") or bag.count not in (None, len(names)) or group.anchor is not None:
         raise Question(
-            f"'{text_of(bag.phrase.terms)}': which {'blocks' if plural else 'block'}?",
-            tuple(f"block {name}" for name in names[:6]),
+            message("'{said}': which blocks?", context="question", said=text_of(bag.phrase.terms))
+            if plural
+            else message("'{said}': which block?", context="question", said=text_of(bag.phrase.terms)),
+            tuple(message("block {name}", context="answer", name=name) for name in names[:6]),
             terms=bag.phrase.terms,
         )
     bag.take("PLOT")
@@ -122,7 +134,10 @@ def some_block(bag: Bag, group: Group, site: Site) -> Found:
 
 def _between(bag: Bag, first: str, last: str, names: list[str]) -> list[str]:
     if first not in names or last not in names or names.index(last) < names.index(first):
-        raise bag.fault(f"no blocks go from {first!r} to {last!r}", "name each of them")
+        raise bag.fault(
+            message("no blocks go from '{first}' to '{last}'", first=first, last=last),
+            message("name each of them"),
+        )
     return names[names.index(first) : names.index(last) + 1]
 
 
@@ -132,16 +147,20 @@ def _over(bag: Bag, group: Group, site: Site) -> Found:
     over: Over = said.value if said is not None else Over(rows=1)
     bag.take("ROW")
     if bag.has("TREE", "PLACE") or bag.count is not None:
-        raise bag.fault("it is not clear which tree is meant", "say 'the tree two rows over', or 'the next row'")
+        raise bag.fault(
+            message("it is not clear which tree is meant"), message("say 'the tree two rows over', or 'the next row'")
+        )
     bag.any = False
     origin = group.row_of or s.Here()
     ways = {block.runs_east_west for block in blocks_named(origin, site)}
     rows = over.rows
     assumed: str = ""
     if over.side:
-        check_over(bag, over.side, origin, site, f"no row lies further {over.side}")
+        check_over(bag, over.side, origin, site, message("no row lies further {side}", side=COMPASS[over.side]))
         if len(ways) > 1:  # the selection counts rows by their numbers: a side along them would be lost
-            raise bag.fault("the rows of this site run different ways", "name the row, or say 'the next row'")
+            raise bag.fault(
+                message("the rows of this site run different ways"), message("name the row, or say 'the next row'")
+            )
         rows = -rows if over.side in ("west", "north") else rows
     else:
         words, way = text_of(bag.phrase.terms), _way(rows, ways)
@@ -171,10 +190,15 @@ def _numbered(bag: Bag, of: s.Selector, site: Site) -> Found:
         for name in dict.fromkeys((first, last)):
             _in_one_block(bag, f"row {name}", name, of, site)
     if bag.count is not None and len(ranges) != bag.count and all(first == last for first, last in ranges):
-        raise bag.fault(f"{bag.count} or {len(ranges)} rows?", "let the number and the names agree")
+        raise bag.fault(
+            message("{count} or {names} rows?", count=bag.count, names=len(ranges)),
+            message("let the number and the names agree"),
+        )
     nth = 1 if every is None else int(every.value)
     if every is not None and (len(ranges) > 1 or ranges[0][0] == ranges[0][1]):
-        raise bag.fault("every how many of which rows?", "say 'every third row starting with row 2', for example")
+        raise bag.fault(
+            message("every how many of which rows?"), message("say 'every third row starting with row 2', for example")
+        )
     blocks = isinstance(of, s.Union) and all(isinstance(part, s.InBlock) for part in of.parts)
     areas = of.parts if isinstance(of, s.Union) and blocks else (of,)
     parts = tuple(s.Rows(first=first, last=last, every=nth, of=area) for area in areas for first, last in ranges)
@@ -195,11 +219,13 @@ def _described(bag: Bag, group: Group, size: int | None, site: Site) -> Found:
         begin = bag.take("STARTNTH")
         kind, first = begin.value if begin is not None else ("row", "")
         if kind == "tree" or bag.count is not None or start.far:
-            raise bag.fault("every how many rows, and from where?", "say 'every third row starting with row 2'")
+            raise bag.fault(
+                message("every how many rows, and from where?"), message("say 'every third row starting with row 2'")
+            )
         called = f"row {first}"
         if kind == "parity":
             if not plural and every.text.split()[0].lower() not in ("every", "each"):
-                raise Question(f"'{text_of(bag.phrase.terms)}': which row?")
+                raise Question(message("'{said}': which row?", context="question", said=text_of(bag.phrase.terms)))
             _check_numbers(bag, of, site)
             called = f"the {text_of(bag.phrase.terms)}".replace("the the", "the")
         if first:
@@ -211,23 +237,32 @@ def _described(bag: Bag, group: Group, size: int | None, site: Site) -> Found:
     if ranked is not None:
         return ranked
     if counted is not None or bag.any:
-        raise bag.fault("which row is meant does not stand there", _WHICH)
+        raise bag.fault(message("which row is meant does not stand there"), _WHICH)
     if bag.has("MIDDLE"):
         return _middle(bag, of, site)
     if (bag.each or (plural and bag.definite)) and not bag.pointing:
         rows = s.Rows(of=of)
         there = len(one_by_one(rows, site))
         if bag.count is not None and bag.count != there:
-            raise Question(f"'{text_of(bag.phrase.terms)}': there are {there} rows, not {bag.count}", ("all of them",),
-                           terms=bag.phrase.terms, words=("all rows",))  # fmt: skip
+            asked = message(
+                "'{said}': there are {there} rows, not {count}",
+                context="question",
+                said=text_of(bag.phrase.terms),
+                there=there,
+                count=bag.count,
+            )
+            every_row = message("all of them", context="answer")
+            raise Question(asked, (every_row,), terms=bag.phrase.terms, words=("all rows",))
         return _area(rows, bag, site, several=True)
     same = bag.take("SAME") is not None
     if (bag.definite or same or bag.article in ("its", "their")) and not plural and bag.count in (None, 1):
         origin = group.row_of or s.Here()
         return Found(selector=s.RowOf(origin=origin, of=of), many=True, region=True, rows=True)
-    some = tuple(f"row {row.name}" for row in site.planting.rows[:3])
-    raise Question(f"'{text_of(bag.phrase.terms)}': which row?" if not plural else
-                   f"'{text_of(bag.phrase.terms)}': which rows?", some, terms=bag.phrase.terms)  # fmt: skip
+    some = tuple(_row(row.name) for row in site.planting.rows[:3])
+    which = message("'{said}': which row?", context="question", said=text_of(bag.phrase.terms))
+    if plural:
+        which = message("'{said}': which rows?", context="question", said=text_of(bag.phrase.terms))
+    raise Question(which, some, terms=bag.phrase.terms)
 
 
 def _check_numbers(bag: Bag, of: s.Selector, site: Site) -> None:
@@ -239,14 +274,17 @@ def _check_numbers(bag: Bag, of: s.Selector, site: Site) -> None:
     for block in blocks_named(of, site):
         if [row.name for row in block.rows] != [str(k) for k in range(1, len(block.rows) + 1)]:
             raise bag.fault(
-                "these rows are not numbered one after the other", "say 'every other row', or name the rows"
+                message("these rows are not numbered one after the other"),
+                message("say 'every other row', or name the rows"),
             )
 
 
 def _of_size(bag: Bag, of: s.Selector, size: int) -> Found:
     """ "A row of 5 trees": 5 trees of one row, one after the other."""
     if bag.definite or bag.each or bag.count not in (None, 1) or not bag.only():
-        raise bag.fault("which rows are meant does not stand there", "say 'a row of 5 trees', or name the row")
+        raise bag.fault(
+            message("which rows are meant does not stand there"), message("say 'a row of 5 trees', or name the row")
+        )
     bag.any = False
     return Found(selector=s.Successive(count=size, of=of), many=size > 1, region=True, rows=True, counted=size)
 
@@ -258,17 +296,17 @@ def _ranked(bag: Bag, start: From, of: s.Selector, site: Site) -> Found | None:
     if most is None and rank is None and behind is None and last is None:
         return None
     if sum(t is not None for t in (last, behind)) + (start.far and rank is not None) > 1 or bag.has("EVERYNTH"):
-        raise bag.fault("which row is meant is said in two ways", _WHICH)
+        raise bag.fault(message("which row is meant is said in two ways"), _WHICH)
     side: s.CountedFrom = start.side
     if most is not None:
         if start != From() or len(most.value) == 2 or last is not None or behind is not None:
-            raise bag.fault("which row is meant is said in two ways", _WHICH)
+            raise bag.fault(message("which row is meant is said in two ways"), _WHICH)
         side = most.value
     side = side_across(bag, side, of, site)
     number = int(rank.value) if rank is not None else int(behind.value) if behind is not None else 1
     count = bag.count or 1
     if count > 1 and number > 1:
-        raise bag.fault("a rank and several rows at once", "say which one, or how many")
+        raise bag.fault(message("a rank and several rows at once"), message("say which one, or how many"))
     if bag.plural and bag.count is None:
         raise how_many(bag.phrase)
     first, end = (number, number + count - 1)
@@ -288,12 +326,18 @@ def _middle(bag: Bag, of: s.Selector, site: Site) -> Found:
     _in_one_block(bag, "the middle row", "", of, site)
     blocks = blocks_named(of, site)
     if len(blocks) > 1:
-        raise bag.fault("blocks have a middle row each", "name the block")
+        raise bag.fault(message("blocks have a middle row each"), message("name the block"))
     rows = blocks[0].rows
     if len(rows) % 2 == 0 or bag.plural or bag.count not in (None, 1):
         half = len(rows) // 2
-        choices = tuple(f"row {row.name}" for row in rows[half - 1 : half + 1])
-        raise Question(f"'{text_of(bag.phrase.terms)}': there are {len(rows)} rows", choices, terms=bag.phrase.terms)
+        choices = tuple(_row(row.name) for row in rows[half - 1 : half + 1])
+        raise Question(
+            message(
+                "'{said}': there are {count} rows", context="question", said=text_of(bag.phrase.terms), count=len(rows)
+            ),
+            choices,
+            terms=bag.phrase.terms,
+        )
     number = rows[len(rows) // 2].name
     return _area(s.Rows(first=number, last=number, of=of), bag, site, several=False)
 
@@ -315,8 +359,14 @@ def _in_one_block(bag: Bag, called: str, name: str, of: s.Selector, site: Site) 
     if exact and not name.isdigit():
         blocks = exact
     if len(blocks) > 1:
-        choices = tuple(f"{called} of block {block.name}" for block in blocks[:6])
-        raise Question(f"'{text_of(bag.phrase.terms)}': of which block?", choices, terms=bag.phrase.terms)
+        choices = tuple(
+            message("{row} of block {name}", context="answer", row=called, name=block.name) for block in blocks[:6]
+        )
+        raise Question(
+            message("'{said}': of which block?", context="question", said=text_of(bag.phrase.terms)),
+            choices,
+            terms=bag.phrase.terms,
+        )
 
 
 def _area(selector: s.Selector, bag: Bag, site: Site, *, several: bool) -> Found:
@@ -328,3 +378,8 @@ def _area(selector: s.Selector, bag: Bag, site: Site, *, several: bool) -> Found
 
 def _each(found: Found, kept: s.Selector, site: Site) -> tuple[s.Selector, ...]:
     return one_by_one(kept, site) if found.one_by_one else ()
+
+
+def _row(name: str) -> str:
+    """Return a row as a choice to answer with."""
+    return message("row {name}", context="answer", name=name)

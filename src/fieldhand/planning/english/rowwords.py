@@ -10,13 +10,14 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, replace
 
+from fieldhand.language import message
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.rewriting import Rule, merged, rewritten, silent
 from fieldhand.planning.english.tokens import Term
 from fieldhand.planning.english.wordclass import COUNTED
 from fieldhand.task import selectors as s
 
-_AISLE_ADVICE = "the robot drives in the aisles by itself: name the rows, or the trees"
+_AISLE_ADVICE = message("the robot drives in the aisles by itself: name the rows, or the trees")
 #: Not a side by itself before one of these ("5 trees to the south | corner").
 _NO_HEAD = r"(?!<(?:TREE|CORNER|EDGE|HALF|QUARTER|SIDE|FINISH|PLOT|MIDDLE|DIR|MOST|ROW|ZONE)[.>])"
 _SIDE = r"<DIR\.(?:north|east|south|west)>"
@@ -66,7 +67,9 @@ def with_row_ids(terms: list[Term]) -> list[Term]:
         if not ranges:
             after = terms[at + 1] if at + 1 < len(terms) else None
             if (block or term.kind == "ROW") and after is not None and after.kind == "UNIT" and len(after.text) == 1:
-                raise unclear([term, after], "this site has none of that name")  # "block C": no degrees are meant
+                raise unclear(
+                    [term, after], message("this site has none of that name")
+                )  # "block C": no degrees are meant
             found.append(term)
             at += 1
             continue
@@ -123,7 +126,7 @@ def with_row_words(terms: list[Term]) -> list[Term]:
     terms = _starts(rewritten(terms, _RULES))
     aisles = [t for t in terms if t.kind == "AISLE"]
     if aisles:
-        raise unclear(aisles, "an aisle is no place to do something at", _AISLE_ADVICE)
+        raise unclear(aisles, message("an aisle is no place to do something at"), _AISLE_ADVICE)
     return _with_relations(terms)
 
 
@@ -204,8 +207,11 @@ def _tree_of_row(group: list[Term], _before: Term | None) -> list[Term]:
     if len(group) > 2:
         said = text_of(group)
         raise Question(
-            f"'{said}': {tree.text} of {row.text}, or both?",
-            (f"{tree.text} of {row.text}", "both"),
+            message("'{said}': {tree} of {row}, or both?", context="question", said=said, tree=tree.text, row=row.text),
+            (
+                message("{tree} of {row}", context="answer", tree=tree.text, row=row.text),
+                message("both", context="answer"),
+            ),
             terms=group,
             words=(f"{tree.text} of {row.text}", f"{tree.text} and {row.text}"),
         )
@@ -259,7 +265,7 @@ def _starts(terms: list[Term]) -> list[Term]:
             return None
         said = next(t for t in group if t.kind in ("ROWIDS", "ORD"))
         if said.kind == "ROWIDS" and said.plural:
-            raise unclear(group, "it can begin with one row only")
+            raise unclear(group, message("it can begin with one row only"))
         kind = "row" if said.kind == "ROWIDS" or any(t.kind == "ROW" for t in group) else ""
         kind = "tree" if any(t.kind == "TREE" for t in group) else kind
         start = said.value[0][0] if said.kind == "ROWIDS" else str(said.value)

@@ -8,8 +8,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from fieldhand.language import message
 from fieldhand.planning.english import draft as d
-from fieldhand.planning.english.faults import Question, Unclear
+from fieldhand.planning.english.faults import PLAINLY, Question, Unclear
 from fieldhand.planning.planner import Reason
 from fieldhand.task import selectors as s
 from fieldhand.task.conditions import readings
@@ -35,27 +36,46 @@ def check_sense(root: d.Block, request: str) -> None:
             ends before it is over.
     """
     if _is_announced(root):
-        what = "is it what follows, or is it to be done beside that?"
-        raise _unclear(_said(root.steps[0]), request, what, "leave it out, or say at which trees")
+        what = message("is it what follows, or is it to be done beside that?")
+        raise _unclear(_said(root.steps[0]), request, what, message("leave it out, or say at which trees"))
     captures = any(isinstance(step, d.Capture) for step, _ in d.walk(root))
     for block in _blocks(root):
         for step, after in zip(block.steps, [*block.steps[1:], None], strict=False):
             if isinstance(step, d.Halt) and after is not None:
-                raise _unclear(step.said, request, "the mission would end there, before all is done")
+                raise _unclear(step.said, request, message("the mission would end there, before all is done"))
             idle = captures and _leads_nowhere(step) and _is_elsewhere(after)
             if idle and not _BEGINS.search(_text(_said(step), request).lower()):
-                raise Question(f"'{_text(_said(step), request)}': what is to be done there?")
+                raise Question(
+                    message("'{said}': what is to be done there?", context="question", said=_text(_said(step), request))
+                )
             if _is_of_all(step, after) and _OF.fullmatch(_between(step, after, request)):
-                what = "as many of all trees, or of these?"
-                raise _unclear(_said(after), request, what, "say 'as many vines of row 3 as you can'")
+                what = message("as many of all trees, or of these?")
+                raise _unclear(_said(after), request, what, message("say 'as many vines of row 3 as you can'"))
             if _is_mixed(step):
-                raise _unclear(_said(step), request, "which places are meant is not clear", "name them all")
+                raise _unclear(
+                    _said(step), request, message("which places are meant is not clear"), message("name them all")
+                )
             if _is_far_for_nothing(step, after):
-                raise _unclear(_said(after), request, "is that tree the one that is far away?", "say 'at that tree'")
+                raise _unclear(
+                    _said(after),
+                    request,
+                    message("is that tree the one that is far away?"),
+                    message("say 'at that tree'"),
+                )
             if _is_tested_twice(step, after):
-                raise _unclear(_said(after), request, "the same is tested twice", "say of which reading it is meant")
+                raise _unclear(
+                    _said(after),
+                    request,
+                    message("the same is tested twice"),
+                    message("say of which reading it is meant"),
+                )
             if _is_twice(step, after) and not _says_again(step, after, request):
-                raise _unclear(_said(after), request, "that has been asked for already", "say 'again' if it is meant")
+                raise _unclear(
+                    _said(after),
+                    request,
+                    message("that has been asked for already"),
+                    message("say 'again' if it is meant"),
+                )
 
 
 def _blocks(root: d.Block) -> Iterator[d.Block]:
@@ -149,5 +169,6 @@ def _text(said: tuple[Span, ...], request: str) -> str:
     return " ".join(request[start:end] for start, end in said)
 
 
-def _unclear(said: tuple[Span, ...], request: str, what: str, advice: str = "say it in other words") -> Unclear:
-    return Unclear(Reason(what=f"'{_text(said, request)}': {what}", said=said, advice=advice))
+def _unclear(said: tuple[Span, ...], request: str, what: str, advice: str = PLAINLY) -> Unclear:
+    quoted = message("'{said}': {what}", said=_text(said, request), what=what)
+    return Unclear(Reason(what=quoted, said=said, advice=advice))

@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from fieldhand.language import message
 from fieldhand.planning.english.faults import unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.syntax import NounPhrase
 from fieldhand.task import selectors as s
+from fieldhand.task.words import SIDES
 
 #: Selectors that keep a tree or not by itself, whatever the others are: their order does not matter.
 FILTERS = (s.Where, s.InZone, s.Within, s.Excluding, s.Other)
@@ -69,18 +71,24 @@ class Group:
     def add(self, found: Found, phrase: NounPhrase) -> None:
         """Only trees of an area, or of those that another phrase selects."""
         if found.here or isinstance(found.selector, s.Marker | s.TreeIs):
-            raise unclear(phrase.terms, "there are no trees in one place", "say 'the tree nearest to' it")
+            raise unclear(
+                phrase.terms, message("there are no trees in one place"), message("say 'the tree nearest to' it")
+            )
         self.region = self.region or found.region
         self.single = self.single or not found.many
         selector = found.selector
         if isinstance(selector, s.PointsIn):  # "a tree in the middle of the wet corner" is a tree
             if selector.count > 1:
-                raise unclear(phrase.terms, "points are no trees", "say 'at 4 points in the wet corner', for example")
+                raise unclear(
+                    phrase.terms,
+                    message("points are no trees"),
+                    message("say 'at 4 points in the wet corner', for example"),
+                )
             selector = s.Middle(of=s.InZone(zone=selector.zone))
         self.assumed += found.assumed
         if found.rows:
             if self.rows is not None:
-                raise unclear(phrase.terms, "rows of rows", "name the rows once")
+                raise unclear(phrase.terms, message("rows of rows"), message("name the rows once"))
             self.rows, self.one_by_one = selector, found.one_by_one
         before = self.area
         self.area = both(before, selector, phrase)
@@ -151,7 +159,9 @@ def _by_rows(selector: s.Selector) -> bool:
 def _checked(selector: s.Selector, outer: s.Selector, phrase: NounPhrase) -> s.Selector:
     """Nothing that was said may be lost where two selections are made one."""
     if selector == outer:
-        raise unclear(phrase.terms, "it is not clear which trees that are of", "say it in a sentence of its own")
+        raise unclear(
+            phrase.terms, message("it is not clear which trees that are of"), message("say it in a sentence of its own")
+        )
     return selector
 
 
@@ -165,8 +175,8 @@ def check_sides(selector: s.Selector, phrase: NounPhrase) -> None:
     while (of := getattr(outer, "of", None)) is not None:
         sides = _line_of(outer), _line_of(of) if isinstance(of, s.Edge | s.EdgeMiddle) else ""
         if isinstance(outer, s.Half | s.Edge) and sides[0] == sides[1]:
-            advice = "an edge has two halves along its length"
-            raise unclear(phrase.terms, f"that edge has no {outer.side}ern part", advice)
+            advice = message("an edge has two halves along its length")
+            raise unclear(phrase.terms, message("that edge has no {side} part", side=SIDES[outer.side]), advice)
         outer = of
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 
 from fieldhand.errors import PlaceError, TaskError
+from fieldhand.language import message
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import unclear
 from fieldhand.planning.english.tokens import Term
@@ -108,9 +109,17 @@ def one_after_another(loop: d.Loop, holder: d.Block, site: Site, said: Sequence[
     """
     places = _places_of(loop, site)
     if places is None:
-        raise unclear(said, "how many readings these are cannot be told before the robot is there", "name the trees")
+        raise unclear(
+            said,
+            message("how many readings these are cannot be told before the robot is there"),
+            message("name the trees"),
+        )
     if len(places) > MOST_READINGS:
-        raise unclear(said, f"{len(places)} readings are too many to be compared", "test each of them by itself")
+        raise unclear(
+            said,
+            message("{count} readings are too many to be compared", count=len(places)),
+            message("test each of them by itself"),
+        )
     at = holder.steps.index(loop)
     del holder.steps[at]
     made: list[d.Block] = []

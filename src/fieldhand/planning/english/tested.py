@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from fieldhand.language import Number, joined, message, named
+from fieldhand.planning.english.asking import choices_of_actions
 from fieldhand.planning.english.attributes import OPPOSITE, hinted, number_of
 from fieldhand.planning.english.draft import Capture
 from fieldhand.planning.english.faults import Question, text_of, unclear
@@ -14,6 +16,7 @@ from fieldhand.planning.english.tokens import Term
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task import conditions as c
+from fieldhand.task.words import listed, say_name, say_unit
 
 _SUBJECT = frozenset({"NOUN", "ORD", "LAST"})
 #: Words of a condition that say which reading is meant, or nothing.
@@ -120,7 +123,11 @@ def _groups(terms: Sequence[Term]) -> tuple[list[list[Term]], bool]:
             words.add("or" if term.kind == "OR" or term.value == "or" else "and")
             groups.append([])
     if len(words) > 1:
-        raise unclear(terms, "'and' and 'or' in one condition can be read in two ways", "say it as two conditions")
+        raise unclear(
+            terms,
+            message("'and' and 'or' in one condition can be read in two ways"),
+            message("say it as two conditions"),
+        )
     return [g for g in groups if g], "or" in words
 
 
@@ -134,7 +141,15 @@ def _attribute_of(group: Sequence[Term], site: Site) -> str:
         if term.kind in ("ATTR", "ATTRVAL"):
             names = [n if isinstance(n, str) else n[0] for n in term.value]
             if len(names) > 1:
-                raise Question(f"'{term.text}' stands under {' and '.join(names)}: which is meant?", tuple(names))
+                raise Question(
+                    message(
+                        "'{said}' stands under {names}: which is meant?",
+                        context="question",
+                        said=term.text,
+                        names=listed(names),
+                    ),
+                    tuple(names),
+                )
             return str(names[0])
         if term.kind == "CMP" and term.value[1]:
             return hinted(term.value[1], (term,), site)
@@ -155,7 +170,9 @@ def _tree_predicate(group: Sequence[Term], attribute: str) -> Predicate:
             return Predicate(made=c.TreeHas(attribute=attribute, test=test, value=number_of(left[1])))
         case _:
             raise unclear(
-                group, "what is asked of the tree does not stand there", "say 'older than 8 years', for example"
+                group,
+                message("what is asked of the tree does not stand there"),
+                message("say 'older than 8 years', for example"),
             )
 
 
@@ -180,7 +197,7 @@ def quantities_of(group: Sequence[Term], subject: Sequence[Term], robot: RobotPr
         if term.kind == "NOUN" and isinstance(term.value, Naming):
             named = [*term.value.quantities, *(m for a in term.value.actions for m in robot.action[a].measures)]
             if not set(wanted) & set(named):
-                raise unclear([term], f"nothing is measured by it on {robot.name}", _reports(robot))
+                raise unclear([term], message("nothing is measured by it on {name}", name=robot.name), _reports(robot))
             wanted = [q for q in wanted if q in named]
     if any(t.kind in ("CMP", "LEVEL") and any(w in t.text.lower() for w in _TEMPERATURE_WORDS) for t in group):
         wanted = [q for q in wanted if robot.quantity[q].unit == "degC"]
@@ -191,7 +208,7 @@ def quantities_of(group: Sequence[Term], subject: Sequence[Term], robot: RobotPr
     if amount is not None:
         fitting = [q for q in wanted if robot.quantity[q].unit == amount.value.unit]
         if not fitting:
-            raise unclear([amount], "that unit does not fit what is measured", _reports(robot, wanted))
+            raise unclear([amount], message("that unit does not fit what is measured"), _reports(robot, wanted))
         wanted = fitting
     return wanted
 
@@ -205,8 +222,12 @@ def _can_be(robot: RobotProfile, quantity: str, number: float) -> bool:
 
 def _reports(robot: RobotProfile, wanted: Sequence[str] = ()) -> str:
     names = wanted or [q.name for q in robot.quantities]
-    units = [f"{name.replace('_', ' ')} in {robot.quantity[name].unit}" for name in names]
-    return f"{robot.name} reports {', '.join(units) or 'no readings'}"
+    if not names:
+        return message("{robot} reports no readings", robot=robot.name)
+    units = [
+        message("{quantity} in {unit}", quantity=say_name(n), unit=say_unit(robot.quantity[n].unit)) for n in names
+    ]
+    return message("{robot} reports {readings}", robot=robot.name, readings=joined(", ", units))
 
 
 def _latest(
@@ -216,15 +237,19 @@ def _latest(
     rank = next((t.value for t in subject if t.kind == "ORD"), None)
     if rank is not None:
         if not 1 <= rank <= len(fitting):
-            raise unclear(group, f"{len(fitting)} readings are taken before it", "say which reading is meant")
+            raise unclear(
+                group,
+                message("{count} readings are taken before it", count=len(fitting)),
+                message("say which reading is meant"),
+            )
         return fitting[int(rank) - 1]
     if not fitting:
         return None
     last = fitting[-1]
     rivals = [cap for cap in fitting if cap.command == last.command and cap.action != last.action]
     if rivals and last.command:
-        names = tuple(dict.fromkeys(cap.action.replace("_", " ") for cap in (*rivals, last)))
-        raise Question(f"'{text_of(group)}': which reading is meant?", names)
+        names = choices_of_actions(cap.action for cap in (*rivals, last))
+        raise Question(message("'{said}': which reading is meant?", context="question", said=text_of(group)), names)
     return last
 
 
@@ -234,8 +259,11 @@ def _measurable(wanted: list[str], terms: Sequence[Term], robot: RobotProfile) -
     if len(pairs) == 1:
         return pairs[0]
     if not pairs:
-        raise unclear(terms, f"{robot.name} measures nothing like that", _reports(robot))
-    raise Question(f"'{text_of(terms)}': which reading is meant?", tuple(q.replace("_", " ") for q, _ in pairs))
+        raise unclear(terms, message("{name} measures nothing like that", name=robot.name), _reports(robot))
+    raise Question(
+        message("'{said}': which reading is meant?", context="question", said=text_of(terms)),
+        tuple(named(q.replace("_", " "), "answer", named(q.replace("_", " "), "name")) for q, _ in pairs),
+    )
 
 
 def _comparison(group: Sequence[Term], quantity: str, robot: RobotProfile) -> tuple[c.Condition, bool]:
@@ -252,12 +280,20 @@ def _comparison(group: Sequence[Term], quantity: str, robot: RobotProfile) -> tu
         case ["BETWEEN", "NUM" | "AMOUNT", "NUM" | "AMOUNT"]:
             low, high = number_of(kept[1]), number_of(kept[2])
             if low > high:
-                raise unclear(group, f"nothing lies between {low:g} and {high:g}", "put the lower number first")
+                raise unclear(
+                    group,
+                    message("nothing lies between {low} and {high}", low=Number(f"{low:g}"), high=Number(f"{high:g}")),
+                    message("put the lower number first"),
+                )
             return c.Between(reading="", quantity="", low=low, high=high, unit=unit), negated
         case ["LEVEL"]:
             return _level(kept[0], quantity, robot), negated
         case _:
-            raise unclear(group, "what is asked of the reading does not stand there", "say 'below 33 °C', or 'low'")
+            raise unclear(
+                group,
+                message("what is asked of the reading does not stand there"),
+                message("say 'below 33 °C', or 'low'"),
+            )
 
 
 def _compare(test: Term, number: Term, unit: str) -> c.Condition:
@@ -269,6 +305,17 @@ def _level(word: Term, quantity: str, robot: RobotProfile) -> c.Condition:
     name = word.text.lower().removeprefix("too ").strip()
     level = name if name in levels else word.value
     if level not in levels:
-        what = f"what is a {level} {quantity.replace('_', ' ')}? {robot.name} gives no such word for it"
-        raise Question(f"{what}; say a threshold in {robot.quantity[quantity].unit}", tuple(levels), terms=(word,))
+        what = message(
+            "what is a {level} {quantity}? {name} gives no such word for it",
+            level=named(level, "level"),
+            quantity=say_name(quantity),
+            name=robot.name,
+        )
+        raise Question(
+            message(
+                "{what}; say a threshold in {unit}", context="question", what=what, unit=robot.quantity[quantity].unit
+            ),
+            tuple(named(level, "answer", named(level, "level")) for level in levels),
+            terms=(word,),
+        )
     return c.Level(reading="", quantity="", level=level)

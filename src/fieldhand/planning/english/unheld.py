@@ -9,6 +9,7 @@ import re
 from collections.abc import Sequence
 from functools import cache
 
+from fieldhand.language import message, named
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.english.vocabulary import vocabulary
 from fieldhand.planning.planner import Reason
@@ -31,7 +32,13 @@ def unheld(words: Sequence[Word]) -> tuple[Reason, ...]:
             if first is not None and last is not None:
                 said = " ".join(word.text for word in words[first : last + 1])
                 span = (words[first].start, words[last].end)
-                reasons.append(Reason(what=f"'{said}' is not possible yet", said=(span,), advice=advice))
+                reasons.append(
+                    Reason(
+                        what=message("'{said}' is not possible yet", said=said),
+                        said=(span,),
+                        advice=named(advice, "advice"),
+                    )
+                )
     return tuple(reasons)
 
 

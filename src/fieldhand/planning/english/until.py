@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fieldhand.language import message
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.cases import Cases
 from fieldhand.planning.english.faults import Question, text_of, unclear
@@ -22,17 +23,25 @@ class Until(Cases):
         """
         terms, place = place_in(part.terms[1:])
         if place:
-            raise unclear(part.terms, "a round ends by a reading of its own", "say 'until one is below 33 °C'")
+            raise unclear(
+                part.terms, message("a round ends by a reading of its own"), message("say 'until one is below 33 °C'")
+            )
         known = [step for step, _ in d.walk(self.told.root) if isinstance(step, d.Capture)]
         tested = read_condition(terms, known, self._robot, self._site)
         captures = [self._tested_capture(predicate, None, part, True) for predicate in tested.predicates]
         if any(capture is None for capture in captures):
-            raise unclear(part.terms, "a round ends by a reading, not by what a tree is", "name the trees instead")
+            raise unclear(
+                part.terms,
+                message("a round ends by a reading, not by what a tree is"),
+                message("name the trees instead"),
+            )
         round_ = self._round_of([capture for capture in captures if capture is not None])
         if round_ is None:
-            raise Question(f"'{text_of(part.terms)}': at which trees, or how often at most?")
+            raise Question(
+                message("'{said}': at which trees, or how often at most?", context="question", said=text_of(part.terms))
+            )
         if round_.until is not None or (isinstance(round_, d.Loop) and round_.optional):
-            raise unclear(part.terms, "that round ends for another reason already", "say one of them")
+            raise unclear(part.terms, message("that round ends for another reason already"), message("say one of them"))
         condition = tested.condition([self._bound(capture) for capture in captures])
         round_.until = condition
         round_.said += part.said
@@ -70,7 +79,7 @@ class Until(Cases):
         if found.at_most is None or found.selector != s.Trees():
             return False
         if round_.at_most is not None or round_.optional:
-            raise unclear(part.terms, "how many is said already", "say it once")
+            raise unclear(part.terms, message("how many is said already"), message("say it once"))
         round_.at_most = found.at_most
         round_.said += part.said
         return True

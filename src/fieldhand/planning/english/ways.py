@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from fieldhand.errors import PlaceError, TaskError
+from fieldhand.language import message
 from fieldhand.planning.english.bag import Bag
 from fieldhand.site.context import Context
 from fieldhand.site.model import Site
 from fieldhand.site.places import resolve
 from fieldhand.site.planting import Block
 from fieldhand.task import selectors as s
+from fieldhand.task.words import COMPASS
 
 _UP_DOWN, _ACROSS = ("north", "south"), ("west", "east")
 
@@ -42,8 +44,11 @@ def side_across(bag: Bag, side: s.CountedFrom, of: s.Selector, site: Site) -> s.
     blocks = blocks_named(of, site)
     if side == "usual" or any(side in (_UP_DOWN if block.runs_east_west else _ACROSS) for block in blocks):
         return side
-    runs, ends = _said(blocks, "north or south", "west or east")
-    raise bag.fault(f"the rows {runs}: they are not counted from the {side}", f"count from {ends}")
+    runs, ends = _said(blocks, message("north or south"), message("west or east"))
+    raise bag.fault(
+        message("the rows {runs}: they are not counted from the {side}", runs=runs, side=COMPASS.get(side, side)),
+        message("count from {ends}", ends=ends),
+    )
 
 
 def side_along(bag: Bag, side: s.CountedFrom, of: s.Selector, site: Site) -> s.CountedFrom:
@@ -55,8 +60,11 @@ def side_along(bag: Bag, side: s.CountedFrom, of: s.Selector, site: Site) -> s.C
     blocks = blocks_named(of, site)
     if side == "usual" or any(side in (_ACROSS if block.runs_east_west else _UP_DOWN) for block in blocks):
         return side
-    runs, ends = _said(blocks, "west or east", "north or south")
-    raise bag.fault(f"the rows {runs}: they have no end in the {side}", f"say {ends}")
+    runs, ends = _said(blocks, message("west or east"), message("north or south"))
+    raise bag.fault(
+        message("the rows {runs}: they have no end in the {side}", runs=runs, side=COMPASS.get(side, side)),
+        message("say {ends}", ends=ends),
+    )
 
 
 def check_over(bag: Bag, side: str, origin: s.Selector, site: Site, what: str) -> None:
@@ -71,9 +79,11 @@ def check_over(bag: Bag, side: str, origin: s.Selector, site: Site, what: str) -
     blocks = blocks_named(origin, site)
     if not any(side in (_UP_DOWN if block.runs_east_west else _ACROSS) for block in blocks):
         runs, _ = _said(blocks, "", "")
-        raise bag.fault(f"the rows {runs}: {what}", "say a side across the rows")
+        raise bag.fault(message("the rows {runs}: {what}", runs=runs, what=what), message("say a side across the rows"))
 
 
 def _said(blocks: tuple[Block, ...], east_west: str, north_south: str) -> tuple[str, str]:
     """How rows run that all run one way, and what is to be said of them."""
-    return ("run east-west", east_west) if blocks[0].runs_east_west else ("run north-south", north_south)
+    return (
+        (message("run east-west"), east_west) if blocks[0].runs_east_west else (message("run north-south"), north_south)
+    )

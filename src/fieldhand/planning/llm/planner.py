@@ -12,6 +12,7 @@ from datetime import datetime
 from pathlib import Path
 
 from fieldhand.errors import ModelError, RequestError
+from fieldhand.language import joined, message
 from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_exit
 from fieldhand.planning.llm.answer import QuestionAnswer, RefusalAnswer, TaskAnswer, Unusable, read_answer
 from fieldhand.planning.llm.chat import Chat, Message, Reply
@@ -156,14 +157,17 @@ class LlmPlanner:
     def _unusable(self, problems: Sequence[Problem]) -> ModelError:
         """The clear failure at the end of the last try, with the last problems."""
         shown = "; ".join(str(problem) for problem in problems[:MOST_PROBLEMS])
-        advice = "say the request in other words, or use a larger model"
+        advice: str = message("say the request in other words, or use a larger model")
         if any(problem.kind == "answer" and "cut off" in problem.message for problem in problems):
-            advice = "set FIELDHAND_MODEL_MAX_TOKENS higher, or give the model a larger context"
+            advice = message("set FIELDHAND_MODEL_MAX_TOKENS higher, or give the model a larger context")
         if self._transcript_path is not None:
-            advice += f"; all that was said is in {self._transcript_path}"
+            kept = message("all that was said is in {file}", file=str(self._transcript_path))
+            advice = joined("; ", (advice, kept))
         tries = self._settings.repairs + 1
         return ModelError(
-            f"none of {tries} answers could be used; what was wrong with the last: {shown}",
+            message(
+                "none of {tries} answers could be used; what was wrong with the last: {shown}", tries=tries, shown=shown
+            ),
             where=f"{self._settings.name} at {self._settings.endpoint}",
             advice=advice,
         )
@@ -172,17 +176,22 @@ class LlmPlanner:
 def _check(request: str) -> None:
     if not request.strip():
         raise RequestError(
-            "the request is empty", advice='say what the robot should do, such as "take a picture at ..."'
+            message("the request is empty"),
+            advice=message('say what the robot should do, such as "take a picture at ..."'),
         )
     if len(request) > LONGEST_REQUEST:
         raise RequestError(
-            f"the request has {len(request)} characters, more than {LONGEST_REQUEST}",
-            advice="say it in fewer words, or in several requests",
+            message(
+                "the request has {count} characters, more than {most}",
+                count=len(request),
+                most=LONGEST_REQUEST,
+            ),
+            advice=message("say it in fewer words, or in several requests"),
         )
     odd = hidden_character(request, lines=True)
     if odd is not None:
-        what = f"the request holds the character {odd}, which nobody can see"
-        raise RequestError(what, advice="leave it out")
+        what = message("the request holds the character {odd}, which nobody can see", odd=odd)
+        raise RequestError(what, advice=message("leave it out"))
 
 
 def _planned(

@@ -19,11 +19,12 @@ from typing import Literal, cast, get_args
 from urllib.parse import urlsplit
 
 from fieldhand.errors import ModelError
+from fieldhand.language import message
 
 Provider = Literal["openai", "anthropic", "google", "openai-compatible"]
 
 #: How to configure a model, for every message that has to say so.
-HOW_TO_CONFIGURE = (
+HOW_TO_CONFIGURE = message(
     "name a language model in FIELDHAND_MODEL (openai:NAME, anthropic:NAME, google:NAME, or openai-compatible:NAME "
     "with FIELDHAND_BASE_URL), and its key in FIELDHAND_API_KEY"
 )
@@ -122,7 +123,7 @@ def require_settings(environ: Mapping[str, str], *, model: str = "", base_url: s
     """
     settings = settings_from_environment(environ, model=model, base_url=base_url)
     if settings is None:
-        raise ModelError("no language model is configured", where="FIELDHAND_MODEL", advice=HOW_TO_CONFIGURE)
+        raise ModelError(message("no language model is configured"), where="FIELDHAND_MODEL", advice=HOW_TO_CONFIGURE)
     return settings
 
 
@@ -131,7 +132,11 @@ def _provider_and_name(wanted: str) -> tuple[Provider, str]:
     provider = ALIASES.get(prefix, prefix)
     if not colon or not name.strip() or provider not in get_args(Provider):
         known = ", ".join(f"{p}:NAME" for p in get_args(Provider))
-        raise ModelError(f"{wanted!r} does not name a model", where="FIELDHAND_MODEL", advice=f"write one of {known}")
+        raise ModelError(
+            message("{wanted} does not name a model", wanted=repr(wanted)),
+            where="FIELDHAND_MODEL",
+            advice=message("write one of {known}", known=known),
+        )
     return cast(Provider, provider), name.strip()
 
 
@@ -140,9 +145,9 @@ def _base_url(given: str, provider: Provider, environ: Mapping[str, str]) -> str
     if not url:
         if provider == "openai-compatible":
             raise ModelError(
-                "an OpenAI-compatible model needs the address of its endpoint",
+                message("an OpenAI-compatible model needs the address of its endpoint"),
                 where="FIELDHAND_BASE_URL",
-                advice="set it, for example to http://127.0.0.1:11434/v1",
+                advice=message("set it, for example to http://127.0.0.1:11434/v1"),
             )
         return ""
     try:
@@ -152,9 +157,9 @@ def _base_url(given: str, provider: Provider, environ: Mapping[str, str]) -> str
         usable = False
     if not usable:
         raise ModelError(
-            "the address of the endpoint is not an http address",
+            message("the address of the endpoint is not an http address"),
             where="FIELDHAND_BASE_URL",
-            advice="write it like http://127.0.0.1:11434/v1",
+            advice=message("write it like http://127.0.0.1:11434/v1"),
         )
     return url.rstrip("/")
 
@@ -175,5 +180,9 @@ def _number(environ: Mapping[str, str], variable: str, default: float) -> float:
     except ValueError:
         value = 0.0
     if not 0 < value < 1e7:
-        raise ModelError(f"{text!r} is no number above 0", where=variable, advice="give a number, or unset it")
+        raise ModelError(
+            message("{text} is no number above 0", text=repr(text)),
+            where=variable,
+            advice=message("give a number, or unset it"),
+        )
     return value

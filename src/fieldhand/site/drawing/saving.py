@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldhand.errors import OutputError
+from fieldhand.language import message
 from fieldhand.visible import visible
 
 if TYPE_CHECKING:
@@ -16,7 +17,10 @@ if TYPE_CHECKING:
 _KINDS = (".png", ".svg", ".pdf", ".jpg", ".jpeg")
 
 
-def save_figure(figure: Figure, path: Path, *, what: str = "picture") -> None:
+_PICTURE = message("picture", context="file")
+
+
+def save_figure(figure: Figure, path: Path, *, what: str = _PICTURE) -> None:
     """Write a figure, making its folder; the ending of the path says as what kind of picture.
 
     Args:
@@ -32,7 +36,9 @@ def save_figure(figure: Figure, path: Path, *, what: str = "picture") -> None:
         figure.savefig(path, dpi=150)
     except OSError as fault:
         raise OutputError(
-            f"the {what} cannot be written ({fault.strerror or fault})", where=str(path), advice="choose another place"
+            message("the {what} cannot be written ({why})", what=what, why=fault.strerror or str(fault)),
+            where=str(path),
+            advice=message("choose another place"),
         ) from None
 
 
@@ -57,7 +63,7 @@ def require_picture(path: Path) -> None:
     """
     if path.suffix.lower() not in _KINDS:
         raise OutputError(
-            f"{path.suffix or 'no ending'} is no kind of picture",
+            message("{ending} is no kind of picture", ending=path.suffix or message("no ending")),
             where=str(path),
-            advice="end its name in .png, .svg or .pdf",
+            advice=message("end its name in .png, .svg or .pdf"),
         )

@@ -12,6 +12,7 @@ from typing import Literal
 from fieldhand.brief import brief_repr
 from fieldhand.errors import SiteError
 from fieldhand.files import FileFault, read_file
+from fieldhand.language import message, recalled
 from fieldhand.site.formats.geojson import geojson_records
 from fieldhand.site.formats.records import MAX_BYTES, Records, too_big
 from fieldhand.site.formats.table import table_records
@@ -120,9 +121,15 @@ def read_bytes(path: Path, at: str) -> bytes:
         if fault.kind == "too large":
             raise too_big(at, fault.size) from None
         what, advice = {
-            "no file": ("this is not a file", "give the file of the site itself"),
-            "missing": ("there is no such file", "check the path, or use 'demo' for the built-in orchard"),
-        }.get(fault.kind, (f"the file {fault.what}", "check its permissions"))
+            "no file": (message("this is not a file"), message("give the file of the site itself")),
+            "missing": (
+                message("there is no such file"),
+                message("check the path, or use 'demo' for the built-in orchard"),
+            ),
+        }.get(
+            fault.kind,
+            (message("the file {fault}", fault=recalled(fault.what, "file")), message("check its permissions")),
+        )
         raise SiteError(what, where=at, advice=advice) from None
 
 
@@ -138,12 +145,16 @@ def format_of(name: str, data: bytes, at: str) -> Format:
     ending = Path(name).suffix.lower()
     known = _ENDINGS.get(ending)
     if ending in SHAPEFILE_PARTS[1:]:
-        raise SiteError("this is a part of a Shapefile", where=at, advice="give the .shp file that it belongs to")
+        raise SiteError(
+            message("this is a part of a Shapefile"), where=at, advice=message("give the .shp file that it belongs to")
+        )
     if known in ("geopackage", "zip", "shapefile"):
         raise SiteError(
-            f"the file is no {ending[1:]} file, whatever its name says" if data else "the file is empty",
+            message("the file is no {ending} file, whatever its name says", ending=ending[1:])
+            if data
+            else message("the file is empty"),
             where=at,
-            advice="export it again",
+            advice=message("export it again"),
         )
     if known is not None:
         return known
@@ -155,9 +166,9 @@ def format_of(name: str, data: bytes, at: str) -> Format:
     if start and b"\0" not in start and any(mark in start.splitlines()[0] for mark in (b",", b";", b"\t")):
         return "table"
     raise SiteError(
-        "the file has no format of a site" if start else "the file is empty",
+        message("the file has no format of a site") if start else message("the file is empty"),
         where=at,
-        advice="give GeoJSON or a CSV table; with the extra gis also Shapefile, GeoPackage, KML or KMZ",
+        advice=message("give GeoJSON or a CSV table; with the extra gis also Shapefile, GeoPackage, KML or KMZ"),
     )
 
 

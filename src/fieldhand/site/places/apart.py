@@ -8,7 +8,7 @@ from math import dist
 import numpy as np
 
 from fieldhand.errors import PlaceError
-from fieldhand.language import message
+from fieldhand.language import Number, message
 from fieldhand.site.places.counted import row_words
 from fieldhand.site.places.spots import Spots
 from fieldhand.site.places.tell import Tell
@@ -29,14 +29,22 @@ def apart(of: Spots, selector: Apart, tell: Tell) -> Spots:
     """
     metres, count = selector.apart_m, selector.count
     if not (np.isfinite(metres) and metres > 0):
-        raise PlaceError(f"trees {metres:g} m apart are no trees", advice="ask for more than 0 m")
+        raise PlaceError(
+            message("trees {metres} m apart are no trees", metres=Number(f"{metres:g}")),
+            advice=message("ask for more than 0 m"),
+        )
     chosen = _chosen(of, count, metres, selector.least) if count >= 1 else []
     if not chosen:
-        how = f"{'at least' if selector.least else 'about'} {say_number(metres)} m"
+        wanted: dict[str, str | int] = {"count": count, "metres": say_number(metres)}
+        none = (
+            message("there are no {count} trees at least {metres} m from each other", context="", **wanted)
+            if selector.least
+            else message("there are no {count} trees about {metres} m from each other", context="", **wanted)
+        )
         raise PlaceError(
-            f"there are no {count} trees {how} from each other{_among(of)}",
+            _none_among(none, of),
             where=of.site.name,
-            advice="ask for fewer, or for a smaller distance",
+            advice=message("ask for fewer, or for a smaller distance"),
         )
     found = of.keep(chosen)
     if count > 1:
@@ -48,16 +56,25 @@ def apart(of: Spots, selector: Apart, tell: Tell) -> Spots:
     return found
 
 
-def _among(of: Spots) -> str:
-    """Return in which row they were looked for and how long it is, or over how much ground."""
+def _none_among(none: str, of: Spots) -> str:
+    """Say in which row they were looked for and how long it is, or over how much ground."""
     rows = np.unique(of.row).tolist()
     if len(rows) == 1 and rows[0] >= 0:
         row = row_words(of.site, of.site.planting.rows[rows[0]])
-        length = float(np.hypot(*np.ptp(of.xy, axis=0)))
-        trees = "1 tree" if len(of) == 1 else f"{len(of)} trees over {say_rounded(length)} m"
-        return f" in {row}: it has {trees}"
+        if len(of) == 1:
+            return message("{what} in {row}: it has 1 tree", what=none, row=row)
+        length = say_rounded(float(np.hypot(*np.ptp(of.xy, axis=0))))
+        return message(
+            "{what} in {row}: it has {count} trees over {metres} m", what=none, row=row, count=len(of), metres=length
+        )
     east, north = (say_rounded(float(metres)) for metres in np.ptp(of.xy, axis=0))
-    return f" among {len(of)} trees over {east} m east-west and {north} m north-south"
+    return message(
+        "{what} among {count} trees over {east} m east-west and {north} m north-south",
+        what=none,
+        count=len(of),
+        east=east,
+        north=north,
+    )
 
 
 def _chosen(of: Spots, count: int, metres: float, least: bool) -> list[int]:

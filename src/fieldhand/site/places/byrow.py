@@ -28,6 +28,7 @@ from fieldhand.site.places.spots import Spots
 from fieldhand.site.places.tell import Tell
 from fieldhand.site.planting import Block, Indices, Row
 from fieldhand.task.selectors import CountedFrom, EveryNth, InBlock, InRow, RowOf, Rows
+from fieldhand.task.words import COMPASS
 
 Mask = NDArray[np.bool_]
 
@@ -59,10 +60,15 @@ def in_rows(spots: Spots, selector: Rows, ground: Spots, tell: Tell) -> Spots:
     site = spots.site
     need_rows(site)
     if selector.every < 1:
-        raise PlaceError(f"every {selector.every}th row is no row", advice="ask for every row, every second row, ...")
+        raise PlaceError(
+            message("every {every}th row is no row", every=selector.every),
+            advice=message("ask for every row, every second row, ..."),
+        )
     blocks = blocks_of(site, ground)
     if not blocks:
-        raise PlaceError("none of these trees stands in a row", where=site.name, advice="ask for other trees")
+        raise PlaceError(
+            message("none of these trees stands in a row"), where=site.name, advice=message("ask for other trees")
+        )
     chosen: list[Row] = []
     if selector.first or selector.last:
         chosen = list(_range(site, blocks, selector, tell))
@@ -83,16 +89,30 @@ def row_of(spots: Spots, origin: Spots, selector: RowOf, tell: Tell) -> Spots:
     chosen: list[Row] = []
     for row in sorted(own | set(rows[rows >= 0].tolist())):
         mine = planting.rows[row]
-        counted, side = rows_from(site, planting.blocks[mine.block], "usual")
-        at = next(k for k, r in enumerate(counted) if r is mine) + selector.over
-        if not 0 <= at < len(counted):
-            over = f"{abs(selector.over)} {'row' if abs(selector.over) == 1 else 'rows'}"
+        in_order, side = rows_from(site, planting.blocks[mine.block], "usual")
+        at = next(k for k, r in enumerate(in_order) if r is mine) + selector.over
+        if not 0 <= at < len(in_order):
+            its = row_words(site, mine)
             raise PlaceError(
-                f"there is no row {over} {'after' if selector.over > 0 else 'before'} {row_words(site, mine)}",
+                counted(
+                    "there is no row {count} row after {row}",
+                    "there is no row {count} rows after {row}",
+                    selector.over,
+                    row=its,
+                )
+                if selector.over > 0
+                else counted(
+                    "there is no row {count} row before {row}",
+                    "there is no row {count} rows before {row}",
+                    -selector.over,
+                    row=its,
+                ),
                 where=site.name,
-                advice=f"the rows count from {side}: {listed([r.name for r in counted])}",
+                advice=message(
+                    "the rows count from {side}: {rows}", side=COMPASS[side], rows=listed([r.name for r in in_order])
+                ),
             )
-        chosen.append(counted[at])
+        chosen.append(in_order[at])
     tell.rule = f"that is {listed([row_words(site, row) for row in chosen])}"
     return _in_rows(spots, chosen)
 
@@ -106,7 +126,8 @@ def in_row(spots: Spots, selector: InRow, tell: Tell) -> Spots:
     first, last = selector.first, selector.last
     if 0 in (first, last):
         raise PlaceError(
-            "trees in a row count from 1", advice="ask for tree 1, or for tree -1 from the row's other end"
+            message("trees in a row count from 1"),
+            advice=message("ask for tree 1, or for tree -1 from the row's other end"),
         )
     if first * last > 0 and first > last:
         first, last = last, first
@@ -130,8 +151,8 @@ def every_nth(spots: Spots, selector: EveryNth, tell: Tell) -> Spots:
     """
     if selector.nth < 1 or selector.start < 1:
         raise PlaceError(
-            f"every {selector.nth}th tree from the {selector.start}th on is no tree",
-            advice="ask for every tree, every second tree, ...; the first tree of a row is tree 1",
+            message("every {nth}th tree from the {start}th on is no tree", nth=selector.nth, start=selector.start),
+            advice=message("ask for every tree, every second tree, ...; the first tree of a row is tree 1"),
         )
     way, side = _ways(spots, selector.counted_from)
     number, _ = standing(spots, way)
@@ -201,8 +222,14 @@ def _no_such_range(site: Site, blocks: Sequence[Block], selector: Rows) -> Place
         if not has:
             return no_such_row(site, blocks, said)
         where[said] = [block_words(b) for b in has]
-    told = " and ".join(f"row {short(said)} is in {listed(names)}" for said, names in where.items())
-    return PlaceError(f"{told}, so they are no range", where=site.name, advice="ask for rows of one block at a time")
+    told = listed(
+        [message("row {name} is in {blocks}", name=short(said), blocks=listed(names)) for said, names in where.items()]
+    )
+    return PlaceError(
+        message("{told}, so they are no range", told=told),
+        where=site.name,
+        advice=message("ask for rows of one block at a time"),
+    )
 
 
 def _ways(spots: Spots, side: CountedFrom) -> tuple[Indices, str]:
@@ -224,7 +251,9 @@ def _ways(spots: Spots, side: CountedFrom) -> tuple[Indices, str]:
             if len(slots) > 1 and slots[0] > slots[-1]:
                 way[k] = -1
     if not blocks:
-        raise PlaceError("none of these trees stands in a row", where=site.name, advice="ask for other trees")
+        raise PlaceError(
+            message("none of these trees stands in a row"), where=site.name, advice=message("ask for other trees")
+        )
     return way, " or ".join(sides)
 
 
@@ -250,18 +279,21 @@ def _by_own_numbers(spots: Spots, kept: Mask, ends: tuple[int, int], tell: Tell)
 def _no_such_tree_in_row(spots: Spots, selector: InRow, count: Indices) -> PlaceError:
     site = spots.site
     rows = np.unique(spots.row[spots.row >= 0]).tolist()
-    said = f"tree {selector.first}" if selector.first == selector.last else f"trees {selector.first} to {selector.last}"
+    said = message("trees {first} to {last}", first=selector.first, last=selector.last)
+    if selector.first == selector.last:
+        said = message("tree {id}", id=str(selector.first))
     if len(rows) == 1:
-        standing_there = int(count.max())
         return PlaceError(
-            f"{row_words(site, site.planting.rows[rows[0]])} has no {said}",
+            message("{row} has no {trees}", row=row_words(site, site.planting.rows[rows[0]]), trees=said),
             where=site.name,
-            advice=f"{standing_there} {'tree is' if standing_there == 1 else 'trees are'} to choose from there",
+            advice=counted(
+                "{count} tree is to choose from there", "{count} trees are to choose from there", int(count.max())
+            ),
         )
     return PlaceError(
-        f"none of the {len(rows)} rows has {said}",
+        message("none of the {count} rows has {trees}", count=len(rows), trees=said),
         where=site.name,
-        advice=f"the longest has {int(count.max())} to choose from",
+        advice=message("the longest has {count} to choose from", count=int(count.max())),
     )
 
 

@@ -19,6 +19,7 @@ from fieldhand.site.places.row_words import say_block
 from fieldhand.site.places.spots import Spots
 from fieldhand.site.planting import Block, Indices, Planting, Row
 from fieldhand.task.selectors import CountedFrom, Side
+from fieldhand.task.words import COMPASS
 
 OUTWARD: Mapping[Side, tuple[float, float]] = {"north": (0, 1), "east": (1, 0), "south": (0, -1), "west": (-1, 0)}
 _OPPOSITE: Mapping[str, Side] = {"north": "south", "south": "north", "east": "west", "west": "east"}
@@ -69,7 +70,7 @@ def leads(vector: NDArray[np.float64], side: Side) -> int:
 def way_of(block: Block) -> str:
     """How the rows of a block run: "north to south"."""
     axis = along(block)
-    return f"{wind(-axis)} to {wind(axis)}"
+    return message("{one} to {other}", one=COMPASS[wind(-axis)], other=COMPASS[wind(axis)])
 
 
 def rows_from(site: Site, block: Block, side: CountedFrom) -> tuple[tuple[Row, ...], str]:
@@ -88,9 +89,11 @@ def rows_from(site: Site, block: Block, side: CountedFrom) -> tuple[tuple[Row, .
     if way == 0:
         axis = across(block)
         raise PlaceError(
-            f"rows cannot be counted from the {side}: {_those(site, block)} run {way_of(block)}",
+            _not_counted(message("rows cannot be counted from the {side}", side=COMPASS[side]), site, block),
             where=site.name,
-            advice=f"count from the {wind(-axis)} or from the {wind(axis)}",
+            advice=message(
+                "count from the {one} or from the {other}", one=COMPASS[wind(-axis)], other=COMPASS[wind(axis)]
+            ),
         )
     return (block.rows[::-1] if way > 0 else block.rows), side
 
@@ -107,9 +110,11 @@ def trees_from(site: Site, block: Block, side: CountedFrom) -> tuple[int, str]:
     way = leads(axis, side)
     if way == 0:
         raise PlaceError(
-            f"trees in a row cannot be counted from the {side}: {_those(site, block)} run {way_of(block)}",
+            _not_counted(message("trees in a row cannot be counted from the {side}", side=COMPASS[side]), site, block),
             where=site.name,
-            advice=f"count from the {wind(-axis)} or from the {wind(axis)}",
+            advice=message(
+                "count from the {one} or from the {other}", one=COMPASS[wind(-axis)], other=COMPASS[wind(axis)]
+            ),
         )
     return -way, side
 
@@ -191,8 +196,11 @@ def block_words(block: Block) -> str:
     return say_block(block.name)
 
 
-def _those(site: Site, block: Block) -> str:
-    return "the rows" if len(site.planting.blocks) == 1 else f"the rows of {block_words(block)}"
+def _not_counted(what: str, site: Site, block: Block) -> str:
+    """Return what cannot be done, with the way in which the rows run."""
+    if len(site.planting.blocks) == 1:
+        return message("{what}: the rows run {way}", what=what, way=way_of(block))
+    return message("{what}: the rows of {block} run {way}", what=what, block=block_words(block), way=way_of(block))
 
 
 @lru_cache(maxsize=1024)

@@ -16,7 +16,7 @@ from fieldhand.site.places.spots import Spots
 from fieldhand.site.places.tell import Tell
 from fieldhand.site.planting import Row
 from fieldhand.task.selectors import Across, AlongRow, Side, Successive, Towards
-from fieldhand.task.words import say_rounded
+from fieldhand.task.words import COMPASS, say_rounded
 
 
 def tree_in_hand(origin: Spots, tell: Tell) -> int:
@@ -49,7 +49,10 @@ def along_row(origin: Spots, selector: AlongRow, tell: Tell) -> Spots:
     """The tree that many trees farther in the row of the origin, or the row's last."""
     site = origin.site
     if selector.trees < 1:
-        raise PlaceError(f"{selector.trees} trees along a row is no way to go", advice="ask for 1 tree or more")
+        raise PlaceError(
+            message("{trees} trees along a row is no way to go", trees=selector.trees),
+            advice=message("ask for 1 tree or more"),
+        )
     tree = tree_in_hand(origin, tell)
     row = site.planting.rows[int(site.planting.row_of[tree])]
     way = _way_along(site, row, selector.towards, tell)
@@ -91,9 +94,13 @@ def across(origin: Spots, selector: Across, tell: Tell) -> Spots:
     at = next(k for k, r in enumerate(block.rows) if r is row)
     rows = [block.rows[at + way] for way in ways if 0 <= at + way < len(block.rows)]
     if not rows:
-        where = f"to the {selector.side} of" if selector.side != "usual" else "beside"
+        own = row_words(site, row)
         raise PlaceError(
-            f"there is no row {where} {row_words(site, row)}", where=site.name, advice="ask for a tree of another row"
+            message("there is no row beside {row}", row=own)
+            if selector.side == "usual"
+            else message("there is no row to the {side} of {row}", side=COMPASS[selector.side], row=own),
+            where=site.name,
+            advice=message("ask for a tree of another row"),
         )
     trees = np.concatenate([r.trees for r in rows])
     found = Spots(site=site, index=trees).ranked(np.hypot(*(site.xy[trees] - site.xy[tree]).T), 1)
@@ -175,9 +182,10 @@ def _beside(site: Site, row: Row, side: Side, *, along: bool) -> PlaceError:
     """A side of the compass that lies across the row where one along it is needed, or the other way round."""
     block = site.planting.blocks[row.block]
     axis = counted.along(block) if along else counted.across(block)
-    what = f"no way along {row_words(site, row)}" if along else f"no side of {row_words(site, row)}"
-    return PlaceError(
-        f"{side} is {what}, which runs {counted.way_of(block)}",
-        where=site.name,
-        advice=f"say {wind(-axis)} or {wind(axis)}" + (", down or up" if along else ""),
-    )
+    said = {"side": COMPASS[side], "row": row_words(site, row), "way": counted.way_of(block)}
+    ways = {"one": COMPASS[wind(-axis)], "other": COMPASS[wind(axis)]}
+    if along:
+        what = message("{side} is no way along {row}, which runs {way}", **said)
+        return PlaceError(what, where=site.name, advice=message("say {one} or {other}, down or up", **ways))
+    what = message("{side} is no side of {row}, which runs {way}", **said)
+    return PlaceError(what, where=site.name, advice=message("say {one} or {other}", **ways))

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.errors import PlaceError
-from fieldhand.language import counted
+from fieldhand.language import counted, message
 from fieldhand.site.model import Site
 from fieldhand.site.places.attributes import column_of, column_rows
 from fieldhand.site.places.counted import need_rows, rows_from
@@ -52,7 +52,7 @@ def ordered(spots: Spots, selector: Ordered, here: NDArray[np.float64], tell: Te
 def nth(spots: Spots, number: int) -> Spots:
     """The one of that number from 1, or from the last with -1; no place where there are not as many."""
     if number == 0:
-        raise PlaceError("places count from 1", advice="ask for the first, or with -1 for the last")
+        raise PlaceError(message("places count from 1"), advice=message("ask for the first, or with -1 for the last"))
     at = number - 1 if number > 0 else len(spots) + number
     return spots.keep([at] if 0 <= at < len(spots) else [])
 

@@ -12,8 +12,9 @@ from scipy.spatial import cKDTree
 from shapely.geometry import LineString, Point
 from shapely.geometry.base import BaseGeometry
 
+from fieldhand import language
 from fieldhand.errors import PlaceError
-from fieldhand.language import message
+from fieldhand.language import Number, message
 from fieldhand.site.model import Place, Site
 from fieldhand.site.places import counted
 from fieldhand.site.places.counted import row_words, wind
@@ -70,9 +71,15 @@ def spaced(spots: Spots, near: Origin, selector: Spaced, tell: Tell) -> Spots:
     """
     site, apart, count = spots.site, selector.apart_m, selector.count
     if not (np.isfinite(apart) and apart > 0):
-        raise PlaceError(f"points {apart:g} m apart are no line", advice="ask for more than 0 m")
+        raise PlaceError(
+            message("points {apart} m apart are no line", apart=Number(f"{apart:g}")),
+            advice=message("ask for more than 0 m"),
+        )
     if not 0 <= count <= MOST_POINTS:
-        raise PlaceError(f"{count} points are too many for one line", advice=f"ask for at most {MOST_POINTS}")
+        raise PlaceError(
+            message("{count} points are too many for one line", count=count),
+            advice=message("ask for at most {count}", count=MOST_POINTS),
+        )
     in_row = spots.keep(spots.row >= 0) if not selector.zone and site.planting.blocks else spots.keep([])
     lines = _beside_row(in_row, near, tell) if len(in_row) else _across_area(spots, selector.zone, tell)
     line, piece = _fitting(lines, _from(near, spots), apart, count, tell)
@@ -105,15 +112,25 @@ def points_in(site: Site, selector: PointsIn, tell: Tell) -> Spots:
     """
     count = selector.count
     if not 1 <= count <= MOST_POINTS:
-        raise PlaceError(f"{count} points in a zone are asked for", advice=f"ask for 1 to {MOST_POINTS}")
+        raise PlaceError(
+            message("{count} points in a zone are asked for", count=count),
+            advice=message("ask for 1 to {count}", count=MOST_POINTS),
+        )
     area = area_called(site, selector.zone)
     free = free_part(site, area)
     raster = _raster(site, free, count) if not free.is_empty else np.empty((0, 2))
     if len(raster) < count:
         raise PlaceError(
-            f"there is no room for {count} {'point' if count == 1 else 'points'} in {short(selector.zone)}",
+            language.counted(
+                "there is no room for {count} point in {zone}",
+                "there is no room for {count} points in {zone}",
+                count,
+                zone=short(selector.zone),
+            ),
             where=site.name,
-            advice=f"ask for at most {len(raster)}" if len(raster) else "all of it is kept out or outside the boundary",
+            advice=message("ask for at most {count}", count=len(raster))
+            if len(raster)
+            else message("all of it is kept out or outside the boundary"),
         )
     if count == 1:
         tell.rule = "the free place nearest to the middle of its area"
@@ -168,7 +185,9 @@ def _fitting(lines: Iterator[_Line], near: Floats, apart: float, count: int, tel
         if not count and longest is not None:
             return longest
     if longest is None:
-        raise PlaceError("there is no free line there", advice="all of it is kept out or outside the boundary")
+        raise PlaceError(
+            message("there is no free line there"), advice=message("all of it is kept out or outside the boundary")
+        )
     return longest
 
 
@@ -180,10 +199,17 @@ def _begun(piece: LineString, near: Floats) -> LineString:
 
 def _does_not_fit(site: Site, selector: Spaced, line: _Line, piece: LineString, fit: int) -> PlaceError:
     return PlaceError(
-        f"{selector.count} points {say_number(selector.apart_m)} m apart do not fit {line.words}: {fit} "
-        f"{'does' if fit == 1 else 'do'} on its {piece.length:.0f} m",
+        language.counted(
+            "{wanted} points {metres} m apart do not fit {line}: {count} does on its {length} m",
+            "{wanted} points {metres} m apart do not fit {line}: {count} do on its {length} m",
+            fit,
+            wanted=selector.count,
+            metres=say_number(selector.apart_m),
+            line=line.words,
+            length=Number(f"{piece.length:.0f}"),
+        ),
         where=site.name,
-        advice=f"ask for at most {fit}, or for points nearer to each other",
+        advice=message("ask for at most {count}, or for points nearer to each other", count=fit),
     )
 
 

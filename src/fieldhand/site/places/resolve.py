@@ -10,7 +10,7 @@ import shapely
 from shapely.geometry.base import BaseGeometry
 
 from fieldhand.errors import PlaceError
-from fieldhand.language import message
+from fieldhand.language import Number, message
 from fieldhand.site.context import Context
 from fieldhand.site.kinds import phrase
 from fieldhand.site.model import Place, Site
@@ -109,9 +109,15 @@ class Resolution:
         found = self.spots(selector)
         if len(found) > 1:
             raise PlaceError(
-                f"{len(found)} places are meant by {short(say_selector(selector), 160)!r} where one is needed",
+                message(
+                    "{count} places are meant by '{selector}' where one is needed",
+                    count=len(found),
+                    selector=short(say_selector(selector), 160),
+                ),
                 where=self.site.name,
-                advice=f"name one of them: {listed([p.id for p in found.keep(slice(9)).places])}",
+                advice=message(
+                    "name one of them: {places}", places=listed([p.id for p in found.keep(slice(9)).places])
+                ),
             )
         return found
 
@@ -167,9 +173,10 @@ class Resolution:
             case s.Bound(label=label):
                 places = self.context.bound.get(label, ())
                 if not places:
-                    known = listed(list(self.context.bound)) or "nothing yet"
+                    known = listed(list(self.context.bound)) or message("nothing yet")
                     raise PlaceError(
-                        f"nothing is called {short(label)!r} at this point", advice=f"named so far: {known}"
+                        message("nothing is called '{label}' at this point", label=short(label)),
+                        advice=message("named so far: {known}", known=known),
                     )
                 return Spots.of(self.site, places)
             case s.Union(parts=parts):
@@ -196,7 +203,10 @@ class Resolution:
                 return self._in_block(selector, of, tell)
             case s.Within(distance_m=distance):
                 if not (math.isfinite(distance) and distance > 0):
-                    raise PlaceError(f"a distance of {distance:g} m holds no tree", advice="ask for more than 0 m")
+                    raise PlaceError(
+                        message("a distance of {distance} m holds no tree", distance=Number(f"{distance:g}")),
+                        advice=message("ask for more than 0 m"),
+                    )
                 to = self._origin(selector.to)
                 return neighbours.within(neighbours.apart_from(of, to), to, distance)
 
@@ -327,7 +337,9 @@ class Resolution:
             return self.site.markers[name]
         if name == "charger":
             raise PlaceError(
-                "the site has no charger", where=self.site.name, advice='add a point of "kind": "charger" to its file'
+                message("the site has no charger"),
+                where=self.site.name,
+                advice=message('add a point of "kind": "charger" to its file'),
             )
         return self.site.start if name == "start" else self.site.home("return_to_end", self.context.here)
 
@@ -342,16 +354,19 @@ class Resolution:
     def _in_zone(self, selector: s.InZone, of: Spots, tell: Tell) -> Spots:
         """By the zones of that name; where there are none, by the block of that name."""
         if not (math.isfinite(selector.margin_m) and selector.margin_m >= 0):
-            raise PlaceError(f"no tree is {selector.margin_m:g} m from a zone", advice="give a margin of 0 m or more")
+            raise PlaceError(
+                message("no tree is {metres} m from a zone", metres=Number(f"{selector.margin_m:g}")),
+                advice=message("give a margin of 0 m or more"),
+            )
         inside = self._inside(selector.zone, of, selector.margin_m)
         if inside is None:
             if byrow.find_block(self.site, selector.zone) is None:
                 raise no_such_zone(self.site, selector.zone)
             if selector.margin_m:
                 raise PlaceError(
-                    f"distances are not measured from the block {short(selector.zone)!r}",
+                    message("distances are not measured from the block '{zone}'", zone=short(selector.zone)),
                     where=self.site.name,
-                    advice="name a zone, a tree or a marker to measure from",
+                    advice=message("name a zone, a tree or a marker to measure from"),
                 )
             tell.rule = "that is a block of the site"
             inside = byrow.in_block(of, s.InBlock(block=selector.zone))

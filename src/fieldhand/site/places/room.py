@@ -13,6 +13,7 @@ from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
 from fieldhand.errors import PlaceError
+from fieldhand.language import message
 from fieldhand.site.kinds import phrase
 from fieldhand.site.model import Site
 from fieldhand.site.places.byrow import find_block
@@ -37,7 +38,9 @@ def area_called(site: Site, name: str) -> BaseGeometry:
     zones = [z for z in zones if z.name == name] or zones
     if zones and all(z.kind == "keep_out" for z in zones):
         raise PlaceError(
-            f"{short(zones[0].name)} is a keep-out zone", where=site.name, advice="ask for points in another zone"
+            message("{name} is a keep-out zone", name=short(zones[0].name)),
+            where=site.name,
+            advice=message("ask for points in another zone"),
         )
     if zones:
         return unary_union([z.polygon for z in zones if z.kind != "keep_out"])

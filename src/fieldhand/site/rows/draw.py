@@ -8,6 +8,7 @@ from collections.abc import Hashable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldhand.language import counted, message
 from fieldhand.site.planting import Known
 from fieldhand.site.rows.assemble import Drawn, along_of, bearing, groups
 from fieldhand.site.rows.grouping import lines_of, row_spacing, together
@@ -212,8 +213,12 @@ def _why(row_of: Indices) -> str:
     if not lost:
         return ""
     if lost < count:
-        verb = "stands" if lost == 1 else "stand"
-        return f"{lost} of the {count} trees {verb} in no row"
+        return counted(
+            "{count} of the {trees} trees stands in no row",
+            "{count} of the {trees} trees stand in no row",
+            lost,
+            trees=count,
+        )
     if count < 3:
-        return "it takes three trees or more to see a row"
-    return f"the {count} trees stand scattered: no rows can be seen in how they stand"
+        return message("it takes three trees or more to see a row")
+    return message("the {count} trees stand scattered: no rows can be seen in how they stand", count=count)

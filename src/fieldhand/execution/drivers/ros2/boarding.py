@@ -16,6 +16,7 @@ from fieldhand.execution.drivers.ros2.opening import open_transport
 from fieldhand.execution.drivers.ros2.ros_clock import RosClock
 from fieldhand.execution.drivers.ros2.transport import Transport
 from fieldhand.execution.vehicle import Connection, Vehicle
+from fieldhand.language import message
 from fieldhand.robot.bindings import Ros2Bindings
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -31,9 +32,9 @@ def bound(robot: RobotProfile, by: Connection) -> Ros2Bindings:
     """
     if robot.ros2 is None:
         raise ProfileError(
-            f"the profile of {robot.name} does not say how the robot is reached over ROS 2",
+            message("the profile of {name} does not say how the robot is reached over ROS 2", name=robot.name),
             where=robot.source,
-            advice="add a part ros2 (docs/formats.md), or carry the mission out in simulation",
+            advice=message("add a part ros2 (docs/formats.md), or carry the mission out in simulation"),
         )
     namespace = robot.ros2.namespace if by.namespace is None else by.namespace
     return replace(robot.ros2, namespace=namespace, use_sim_time=robot.ros2.use_sim_time or by.sim_time)

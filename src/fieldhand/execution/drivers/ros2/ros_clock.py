@@ -13,6 +13,7 @@ from typing import Self
 
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.ros2.transport import Quality, Transport
+from fieldhand.language import message
 
 TOPIC, TYPE = "/clock", "rosgraph_msgs/msg/Clock"
 
@@ -134,7 +135,10 @@ def overlooked(transport: Transport) -> str:
     """What to know where the time of :data:`TOPIC` is not taken; empty where nobody says one."""
     if not any(peer.type == TYPE for peer in transport.writers_of(TOPIC)):
         return ""
-    return f"a simulation says its own time on {TOPIC}, and times are taken from this computer; for its own: --sim-time"
+    return message(
+        "a simulation says its own time on {topic}, and times are taken from this computer; for its own: --sim-time",
+        topic=TOPIC,
+    )
 
 
 def _seconds(stamp: object) -> float:
