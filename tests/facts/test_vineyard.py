@@ -39,8 +39,8 @@ def vineyard() -> Site:
     return read(*vines, point(LON, LAT - 2e-4, kind="start"), point(LON - 2e-4, LAT, kind="gate", name="gate"))
 
 
-def doubts(request: str, plan: str) -> tuple[Mismatch, ...]:
-    document = f"<task><task-composition><plan>{plan}</plan></task-composition></task>"
+def doubts(request: str, plan: str, constraints: str = "") -> tuple[Mismatch, ...]:
+    document = f"<task><task-composition><plan>{plan}</plan></task-composition>{constraints}</task>"
     draft = read_draft(document, capabilities_of(HUSKY))
     assert isinstance(draft, Draft), draft
     task = make_task(request=request, plan=draft.plan, measures={}, constraints=draft.constraints, nominal="stay")
@@ -113,6 +113,16 @@ RIGHT = [
         '</union></select><body><act count="2"><take_thermal_picture/></act></body></for-each>',
     ),
     (
+        "Take a picture of one vine of each variety in the south block.",
+        "<for-each><select><union>"
+        + "".join(
+            f'<take count="1"><where attribute="variety" test="eq" value="{name}"><in-block block="South"/></where>'
+            "</take>"
+            for name in ("Merlot", "Syrah")
+        )
+        + f"</union></select>{PICTURE}</for-each>",
+    ),
+    (
         "Go to the gate and take a picture of the vine nearest to it.",
         '<sequence><go-to><gate-is gate="gate"/></go-to><act><take_thermal_picture/><at><nearest><to><here/></to>'
         "</nearest></at></act></sequence>",
@@ -123,6 +133,23 @@ RIGHT = [
 @pytest.mark.parametrize(("request_", "plan"), RIGHT, ids=[request[:40] for request, _ in RIGHT])
 def test_a_right_plan_for_a_vineyard_is_not_doubted(request_: str, plan: str) -> None:
     assert doubts(request_, plan) == ()
+
+
+SPEED = '<act><take_thermal_picture/><at><tree-is tree="N1"/></at></act>'
+
+
+@pytest.mark.parametrize(
+    ("request_", "constraints", "doubted"),
+    [
+        ("Take a picture of N1, driving at 1.8 km per hour at most.", '<constraints speed-m-s="0.5"/>', False),
+        ("Take a picture of N1 at 0.5 m/s at most.", '<constraints speed-m-s="0.5"/>', False),
+        ("Take a picture of N1 at 0.5 m/s at most.", '<constraints speed-m-s="0.7"/>', True),
+        ("Take a picture of N1 at 0.5 m/s at most.", "", True),
+        ("Take a picture of N1.", '<constraints speed-m-s="0.7"/>', True),
+    ],
+)
+def test_a_speed_is_no_distance_and_is_the_one_that_is_said(request_: str, constraints: str, doubted: bool) -> None:
+    assert bool(doubts(request_, SPEED, constraints)) == doubted
 
 
 WRONG = [

@@ -12,7 +12,7 @@ from fieldhand.facts.words import Token
 
 AmountKind = Literal[
     "id", "row", "name", "rows", "trees", "captures", "corners", "times", "length", "time", "attribute", "percent",
-    "temperature", "unit", "ordinal", "plain",
+    "temperature", "speed", "unit", "ordinal", "plain",
 ]  # fmt: skip
 
 #: Words that may stand between the numbers of a list of names ("trees 4, 9 and 12").
@@ -156,6 +156,8 @@ def _amount(said: Sequence[Token], number: _Number, nouns: dict[int, Noun], unit
     )
     if number.ordinal:
         return made
+    if after in w.LENGTHS and (pace := _pace(said, k + 1)):
+        return replace(made, kind="speed", values=(value * w.LENGTHS[after] / pace,))
     if after in w.LENGTHS:
         return replace(made, kind="length", values=(value * w.LENGTHS[after],))
     if after in w.TIMES:
@@ -177,6 +179,12 @@ def _amount(said: Sequence[Token], number: _Number, nouns: dict[int, Noun], unit
         return replace(made, kind=name)
     counted = _counted(said, k, nouns)
     return made if counted is None else replace(made, kind=counted[0], actions=counted[1])
+
+
+def _pace(said: Sequence[Token], k: int) -> float:
+    """Return the seconds of a speed's unit of time: "/ s", "per hour", "a second"; 0 where no speed is said."""
+    per = [token.text for token in said[k : k + 2]]
+    return w.TIMES.get(per[1], 0.0) if len(per) == 2 and per[0] in ("/", "per", "a", "an") else 0.0
 
 
 def _name(before: Sequence[Token]) -> AmountKind | None:

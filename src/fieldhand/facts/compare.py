@@ -28,7 +28,7 @@ from fieldhand.task.words import listed, say_name
 #: Steps that are counted together.
 _MOST_STEPS = 40
 #: Numbers that count nothing, and those that count no captures.
-_NAMES = frozenset({"id", "row", "name", "length", "time", "percent", "temperature", "unit", "attribute"})
+_NAMES = frozenset({"id", "row", "name", "length", "time", "percent", "temperature", "speed", "unit", "attribute"})
 _PLACES = _NAMES | {"trees", "corners", "rows", "ordinal"}
 
 

@@ -37,6 +37,9 @@ def limits(said: Stated, plan: Planned) -> Iterator[Mismatch]:
             yield from _battery(said, plan, amount)
         elif amount.kind in ("time", "length"):
             yield from _dropped(said, plan, amount)
+        elif amount.kind == "speed" and not _drives(plan, amount.values[0]):
+            message = f"the request says '{amount.said}' as a speed, and the plan does not drive at that"
+            yield Mismatch(kind="limit", message=message)
     yield from _invented(said, plan)
     if said.as_many and not any(getattr(node, "optional", False) for node in plan.nodes):
         yield Mismatch(
@@ -83,6 +86,12 @@ def _dropped(said: Stated, plan: Planned, amount: Amount) -> Iterator[Mismatch]:
         yield Mismatch(kind="limit", message=f"the request says '{amount.said}', which the plan does not hold")
 
 
+def _drives(plan: Planned, metres_per_second: float) -> bool:
+    """Return True if the plan limits its speed to that."""
+    speed = plan.task.constraints.speed_m_s
+    return speed is not None and _close(speed, metres_per_second)
+
+
 def _parameters(plan: Planned) -> list[float]:
     """Numbers that actions are told, as metres where they are centimetres."""
     told = [
@@ -106,7 +115,7 @@ def _invented(said: Stated, plan: Planned) -> Iterator[Mismatch]:
             kind="limit", message=f"the plan keeps {reserve:g} % of the battery, which the request does not say"
         )
     speed = plan.task.constraints.speed_m_s
-    if speed is not None and not said.amounts:
+    if speed is not None and not any(_close(speed, x) for a in said.amounts for x in a.values):
         yield Mismatch(kind="limit", message=f"the plan drives at {speed:g} m/s, which the request does not say")
     for number in plan.numbers:
         if number.kind == "length" and not any(_close(number.value, x) for x in _stated(said, "length")):

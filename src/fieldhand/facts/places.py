@@ -22,6 +22,7 @@ _CHARGER = frozenset({"charger", "dock"})
 _UNNAMED = (s.Rows, s.InRow, s.RowOf, s.AlongRow, s.Across, s.EveryNth, s.Successive, s.Nth)
 #: Words of a request that says what is to be done when something goes wrong.
 _OF_FAULTS = w.words_in("fail fails failed fault error abort aborted wrong stuck problem battery charge budget low")
+_EACH_KIND = frozenset({"each", "every", "all", "per", "both", "different", "any"})
 _NUMBER = re.compile("-?[0-9]{1,9}")
 #: A side that is named by the one that was spoken of before.
 _OTHER_PART = re.compile(r"\bother (?:half|side|end|edge|corner|quarter)\b")
@@ -228,8 +229,11 @@ def _attributes(said: Stated, plan: Planned) -> Iterator[Mismatch]:
             yield Mismatch(kind="attribute", message=f"the request says '{word}', and the plan does not ask for that")
     if said.unknown:
         return
+    stems = {w.singular(word) for word in said.words}
     for node, attribute, value in plan.values:
         words = {t.text for t in _tokens(str(value))}
+        if said.words & _EACH_KIND and stems & {w.singular(t.text) for t in _tokens(attribute)}:
+            continue  # of each variety
         if isinstance(value, str) and not words & said.words:
             yield Mismatch(
                 kind="attribute",

@@ -70,5 +70,6 @@ def unheld(said: Stated) -> Iterator[Mismatch]:
             first = starts[match.start()]
             sentence = said.said[first].sentence
             remark = pattern is _REMARKS and not any(said.said[k].sentence == sentence for k in said.nouns)
-            if not remark and said.named.isdisjoint(range(first, first + len(match[0].split()))):
+            speed = first and said.said[first - 1].text in w.LENGTHS and match[0].startswith(("per ", "a ", "an "))
+            if not remark and not speed and said.named.isdisjoint(range(first, first + len(match[0].split()))):
                 yield Mismatch(kind="unheld", message=f"the request says '{match[0]}', and {why}")

@@ -188,6 +188,12 @@ def test_no_problem_asks_for_another_request(selector: str) -> None:
         assert not re.search(r"\b(?:ask for|say |name one)", problem.message), problem
 
 
+def test_the_values_that_there_are_are_told_where_a_group_lacks_one() -> None:
+    select = '<where attribute="variety" test="eq" value="Golden Hills"><half side="west"/></where>'
+    found = problems(f"<for-each><select>{select}</select><body><stop/></body></for-each>")
+    assert "the values are Kerman" in found[0].message
+
+
 def test_too_few_trees_apart_are_told_with_their_row_and_its_length() -> None:
     apart = '<apart apart-m="90" count="5"><rows first="2" last="2"/></apart>'
     found = problems(f"<for-each><select>{apart}</select><body><stop/></body></for-each>")

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from fieldhand.language import counted
 from fieldhand.site.kinds import phrase
 from fieldhand.site.model import Site
-from fieldhand.site.places.faults import no_such_attribute, no_such_value, not_a_number
+from fieldhand.site.places.faults import no_such_attribute, no_such_value, no_such_value_here, not_a_number
 from fieldhand.site.places.spots import Spots
 from fieldhand.site.places.tell import Tell
 from fieldhand.task.selectors import Test, Top, Value, Where
@@ -63,8 +63,17 @@ def where(spots: Spots, selector: Where, tell: Tell) -> Spots:
             raise no_such_value(spots.site, selector)
     elif math.isnan(wanted) or np.isnan(column.numbers).all():
         raise not_a_number(selector, "value" if math.isnan(wanted) else "attribute")
+    if not passed.any() and selector.test == "eq":
+        raise no_such_value_here(spots.site, selector, _values(spots, selector.attribute))
     tell_lacking(int((mine.codes < 0).sum()), selector.attribute, tell)
     return spots.keep(passed)
+
+
+def _values(spots: Spots, attribute: str) -> tuple[Value, ...]:
+    """Return the values that an attribute has among these places, each once."""
+    trees = [spots.site.trees[k] for k in spots.index[spots.is_tree].tolist()]
+    kept = (tree.properties[name] for tree in trees for name in tree.properties if phrase(name) == phrase(attribute))
+    return tuple(dict.fromkeys(kept))
 
 
 def tell_lacking(count: int, attribute: str, tell: Tell) -> None:

@@ -140,6 +140,15 @@ def no_such_value(site: Site, selector: Where) -> PlaceError:
     )
 
 
+def no_such_value_here(site: Site, selector: Where, values: Sequence[Value]) -> PlaceError:
+    """Some tree of the site has that value, but none of these."""
+    error = nothing(site, selector)
+    if not values:
+        return error
+    has = message("the values are {values}", values=listed([value_text(v) for v in values]))
+    return PlaceError(error.what, where=site.name, advice=has)
+
+
 def not_a_number(selector: Where | Top, which: Literal["value", "attribute"]) -> PlaceError:
     """A comparison that needs numbers has something else."""
     if which == "value" and isinstance(selector, Where):
