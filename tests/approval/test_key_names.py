@@ -20,7 +20,7 @@ from examples import examples
 from fieldhand.approval.bundle.container import MANIFEST, SIGNATURE, wrap
 from fieldhand.approval.bundle.opening import unseal
 from fieldhand.approval.keys.curve import is_sound
-from fieldhand.approval.keys.names import clean_name, skeleton
+from fieldhand.approval.keys.names import clean_name, look_alike
 from fieldhand.approval.keys.public import PublicKey, parse_public
 from fieldhand.approval.keys.trust import TrustStore
 from fieldhand.errors import BundleError, KeyFileError
@@ -96,8 +96,9 @@ def test_a_key_that_was_made_is_sound_and_so_is_no_sum_with_a_small_one(seed: in
 
 NAMES = {
     "hidden": ["A\u200bda", "Ada\u202e", "Ada\u00ad", "A\u0007da", "Ada\u3164", "Ada\ufe0f", "\u2066Ada\u2069"],
-    "stands for another": ["Ａda", "ﬁona", "Ⓐda", "Ada²"],
-    "mixes the scripts": ["Аda", "Аdа", "Adа", "Αda", "Ada山"],
+    "stands for another": ["Ａda", "Ａｄａ", "ﬁona", "Ⓐda", "Ada²", "𝐀𝐝𝐚", "𝒜da", "𝟏da", "ℵda", "ſam"],
+    "mixes the scripts": ["Аda", "Аdа", "Adа", "Αda", "Ada山", "Αдa"],
+    "no living language": ["ᎪᎠᎪ", "ᎠᎳᎢ", "ɑda", "ᴀᴅᴀ", "ǃda", "ⲀⲆⲀ", "ꓐꓲꓡꓡ", "𐐀𐐁", "Ѡда", "ꙁда", "Aԁa", "𐌀𐌁"],
     "mark without a letter": ["\u0301", "\u0301Ada", "1\u0301"],
     "stands for another|space": ["Ada\u00a0L", "Ada\u2003L", "Ada\u3000L"],
     "two spaces": ["Ada  L"],
@@ -125,6 +126,20 @@ def test_a_name_that_can_be_taken_for_another_is_refused_and_the_error_says_why(
         "Αθηνά",
         "山田たろう",
         "김철수",
+        "Łukasz Żółć",
+        "Đặng Thị Ánh",
+        "Þórður Guðmundsson",
+        "Ğül Işık",
+        "Əli",
+        "Ɗanladi Ƙofar",
+        "Ґрунт Їжак",
+        "Қазақ Әлия",
+        "Հայկ",
+        "דוד כהן",
+        "محمد علي",
+        "देवी",
+        "สมชาย",
+        "გიორგი",
         "O'Neil, A.",
     ],
 )
@@ -153,12 +168,24 @@ def test_a_name_that_is_taken_stays_the_same_and_says_all_that_it_holds(text: st
         ("Mark", "rnark"),
         ("caco", "сасо"),
         ("NIKO", "ΝΙΚΟ"),
+        ("niko", "ΝΙΚΟ"),
+        ("ПАВЕЛ", "Павел"),
+        ("bob", "ЬОЬ"),
+        ("oooo", "օօօօ"),
+        ("oooo", "σσσσ"),
+        ("Yaya", "үаүа"),
+        ("ΠΑΦ", "ПАФ"),
+        ("ΛΑΓ", "ЛАГ"),
+        ("hehe", "ћҽћҽ"),
+        ("oooo", "ഠഠഠഠ"),
+        ("333", "ЗЗЗ"),
+        ("666", "ббб"),
     ],
 )
 def test_a_second_key_with_a_name_that_looks_the_same_is_not_trusted(trusted: str, other: str, tmp_path: Path) -> None:
     store = TrustStore(tmp_path)
     first, second = signing_key(1).public, signing_key(2).public
-    assert skeleton(trusted) == skeleton(other)
+    assert look_alike(trusted, other)
     store.trust(first, name=trusted, at=NOW)
     with pytest.raises(KeyFileError, match="looks like"):
         store.trust(second, name=other, at=NOW)
@@ -167,3 +194,19 @@ def test_a_second_key_with_a_name_that_looks_the_same_is_not_trusted(trusted: st
     store.trust(second, name=f"{other} 2", at=NOW)
     store.revoke(first.fingerprint, at=NOW)
     store.trust(second, name=trusted, at=NOW)
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        ("Ada", "Ida"),
+        ("Anna", "Ahha"),
+        ("Павел", "Петр"),
+        ("Νίκος", "Νέος"),
+        ("Ada", "Ада Л"),
+        ("Bob", "Rob"),
+        ("1", "2"),
+    ],
+)
+def test_names_that_differ_are_two_names(one: str, other: str) -> None:
+    assert not look_alike(one, other)

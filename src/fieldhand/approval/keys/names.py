@@ -2,13 +2,15 @@
 
 A name is one line of letters of one script, digits 0 to 9, single spaces and punctuation. Refused are letters of two
 scripts, which may look alike (the a of Latin and of Cyrillic), hidden characters, and the other forms of a letter that
-Unicode has (full width, in a circle). Names of one script can look alike, too: :func:`skeleton` is the same for those
-that do (Unicode Technical Standard 39, with a table of the letters that matter for names).
+Unicode has (full width, in a circle). Only scripts that are in common use today are taken, and of those that look like
+each other only the letters of living languages: so the table of letters that look alike has an end. Names of one script
+can look alike, too: :func:`look_alike` finds those that do (Unicode Technical Standards 39 and Annex 31).
 """
 
 # ruff: noqa: RUF001
 from __future__ import annotations
 
+import re
 import unicodedata
 
 from fieldhand.errors import KeyFileError
@@ -17,15 +19,31 @@ from fieldhand.visible import find_hidden, visible
 MAX_NAME = 80
 #: Scripts that are written together in one name.
 _TOGETHER = (frozenset({"CJK", "HIRAGANA", "KATAKANA"}), frozenset({"CJK", "HANGUL"}), frozenset({"CJK", "BOPOMOFO"}))
-#: Letters that look like others, as they are written; what they look like.
+#: Scripts in common use, by the first word of the names of their letters (Unicode Standard Annex 31, Table 5).
+_SCRIPTS = frozenset({
+    "LATIN", "GREEK", "CYRILLIC", "ARMENIAN", "GEORGIAN", "HEBREW", "ARABIC", "THAANA", "ETHIOPIC", "DEVANAGARI",
+    "BENGALI", "GURMUKHI", "GUJARATI", "ORIYA", "TAMIL", "TELUGU", "KANNADA", "MALAYALAM", "SINHALA", "THAI", "LAO",
+    "TIBETAN", "MYANMAR", "KHMER", "HANGUL", "CJK", "HIRAGANA", "KATAKANA", "BOPOMOFO",
+})  # fmt: skip
+#: Letters without marks of living languages in the scripts that look like Latin. The table below covers these.
+_LETTERS = {
+    "LATIN": re.compile("[A-Za-zßæœøłđðþıħŋəɓɗɖƙƴƒɛɔɣʋÆŒØŁĐÐÞĦŊƏƁƊƉƘƳƑƐƆƔƲ]"),
+    "GREEK": re.compile("[\u0391-\u03a9\u03b1-\u03c9]"),
+    "CYRILLIC": re.compile("[\u0402-\u044f\u0452-\u045f\u0490-\u04ff]"),
+    "ARMENIAN": re.compile("[\u0531-\u0556\u0561-\u0586]"),
+}
+#: Letters that look like others, as they are written, and what they look like (Unicode's confusables of these letters).
 _LOOKS_LIKE = str.maketrans(
     {
-        **dict(zip("АВЕЅІЈКМНОРСТУХԚԜӀ", "ABESIJKMHOPCTYXQWI", strict=True)),
-        **dict(zip("авегѕіјкмнопрстухԁԛԝһӏьз", "abersijkmhonpctyxdqwhlb3", strict=True)),
+        **dict(zip("АВЕЅІЈКМНОРСТУХԚԜӀЗӠҮЬӨӘГПФЛ", "ABESIJKMHOPCTYXQWI33YbΘƏΓΠΦΛ", strict=True)),
+        **dict(zip("авегѕіјкмнопрстухԁԛԝһӏьзӡүөәфбґћҽӈӌ", "abersijkmhonpctyxdqwhlb33yθəφ6rheӊҷ", strict=True)),
         **dict(zip("ΑΒΕΖΗΙΚΜΝΟΡΤΥΧ", "ABEZHIKMNOPTYX", strict=True)),
-        **dict(zip("αγεηικνορτυχω", "ayenikvoptuxw", strict=True)),
-        **dict(zip("ՕՍօսհոցքզ", "OUouhngpq", strict=True)),
+        **dict(zip("αγεηικνορτυχωσςπβ", "ayenikvoptuxwocnß", strict=True)),
+        **dict(zip("ՕՍՏՓօսհոռցքզգած", "OUSΦouhnngpqqwδ", strict=True)),
         **dict(zip("ɑɡıɩℓøłđħŧſðþŁØĐÐ", "agiiloldhtsdpLODD", strict=True)),
+        **dict(zip("ŋɓɗɖƙƴƒɛɔɣʋŊƁƊƉƘƳƑƐƆƔƲ", "nbddkyfecyvNBDDKYFECYV", strict=True)),
+        **dict(zip("ჿഠဝዐଠሀყ", "ooooouy", strict=True)),
+        **dict(zip("ЫыЮюӔӕӇӋє", ("bI", "bi", "IO", "io", "AE", "ae", "Ӊ", "Ҷ", "e"), strict=True)),
     }
 )
 #: After case folding: what is told apart by a good font alone.
@@ -59,6 +77,15 @@ def skeleton(name: str) -> str:
     return text
 
 
+def look_alike(one: str, other: str) -> bool:
+    """Return True if a person may take one name for the other, also where one is in capitals."""
+    return skeleton(one) == skeleton(other) or _bare(one) == _bare(other)
+
+
+def _bare(name: str) -> str:
+    return "".join(c for c in unicodedata.normalize("NFKD", name).casefold() if unicodedata.category(c)[0] in "LN")
+
+
 def _fault(name: str) -> str:
     """Return why a text is no name; empty if it is one."""
     if not name:
@@ -88,9 +115,19 @@ def _fault(name: str) -> str:
         before = kind[0]
     if not any(c.isalnum() for c in name):
         return "it holds no letter and no digit"
+    bare = (c for c in unicodedata.normalize("NFD", name) if unicodedata.category(c)[0] == "L")
+    strange = next((c for c in bare if not _is_used(c)), "")
+    if strange:
+        return f"it holds a letter that no living language writes names with ({_named(strange)})"
     if len(scripts) > 1 and not any(scripts <= together for together in _TOGETHER):
         return f"it mixes the scripts {' and '.join(sorted(s.title() for s in scripts))}"
     return ""
+
+
+def _is_used(letter: str) -> bool:
+    """Return True for a letter, without its marks, of a script and a language in common use."""
+    script = _script(letter)
+    return script in _SCRIPTS and (script not in _LETTERS or _LETTERS[script].fullmatch(letter) is not None)
 
 
 def _script(letter: str) -> str:

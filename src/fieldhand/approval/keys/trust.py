@@ -12,7 +12,7 @@ from typing import Annotated, Literal, Protocol
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
-from fieldhand.approval.keys.names import clean_name, skeleton
+from fieldhand.approval.keys.names import clean_name, look_alike
 from fieldhand.approval.keys.public import KEY_BYTES, PublicKey, parse_fingerprint, require_sound
 from fieldhand.approval.keys.rights import make_folder, read_guarded, replace, require_own_folder
 from fieldhand.errors import KeyFileError
@@ -296,7 +296,7 @@ def _require_other_name(name: str, fingerprint: str, known: Mapping[str, KnownKe
         KeyFileError: There is one.
     """
     for other in known.values():
-        if other.state == "trusted" and other.fingerprint != fingerprint and skeleton(other.name) == skeleton(name):
+        if other.state == "trusted" and other.fingerprint != fingerprint and look_alike(other.name, name):
             raise KeyFileError(
                 f"the name '{name}' looks like '{other.name}', whose key {other.fingerprint} is trusted here",
                 where="--name",
