@@ -61,6 +61,8 @@ SAID = [
     (s.InZone(zone="wet corner", outside=True), None, "the trees outside the zone “wet corner”"),
     (s.Within(distance_m=20.0, to=TREE), None, "the trees within 20 m of tree 81"),
     (s.Take(count=1, of=s.AmongExtreme(side="north")), None, "the nearest of the northernmost trees"),
+    (s.Spread(count=5, of=YELLOW), None, "5 of the yellow trees, spread far from each other"),
+    (s.Spread(count=1), None, "of the trees the one nearest to their middle"),
     (s.Random(count=1), None, "one of the trees, drawn at random (seed 0)"),
     (s.Random(count=3, seed=7, of=YELLOW), None, "3 of the yellow trees, drawn at random (seed 7)"),
     (s.Nearest(to=TREE, adjacent=True, side="east"), None, "the tree next to tree 81, on its east side"),

@@ -5,6 +5,7 @@ Longer than other files: every selector stands once here, beside its brute force
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections import Counter
 from dataclasses import replace
@@ -45,6 +46,7 @@ from fieldhand.task.selectors import (
     Random,
     Selector,
     Spaced,
+    Spread,
     Successive,
     Take,
     Top,
@@ -411,6 +413,29 @@ def test_a_draw_depends_on_seed_and_ids_only(site, data):
     kept = data.draw(st.sets(st.sampled_from([t.place.id for t in site.trees])).map(lambda more: {*more, *drawn}))
     some = Union(parts=tuple(TreeIs(tree=t) for t in sorted(kept)))
     assert set(ids(Random(count=count, seed=seed, of=some), site)) == set(drawn)
+
+
+@given(sites(min_size=3, max_size=9), st.data())
+def test_trees_that_are_spread_stand_at_least_half_as_far_apart_as_any_choice_could(site, data):
+    count = data.draw(st.integers(2, len({t.place.xy for t in site.trees})))
+    xy = {t.place.id: t.place.xy for t in site.trees}
+
+    def nearest_two(names) -> float:
+        return min(math.dist(xy[a], xy[b]) for a, b in itertools.combinations(names, 2))
+
+    spread = ids(Spread(count=count), site)
+    assert len(set(spread)) == count
+    best = max(nearest_two(names) for names in itertools.combinations(xy, count))
+    assert nearest_two(spread) >= best / 2 - 1e-9
+    assert ids(Spread(count=count), site) == spread
+
+
+def test_one_that_is_spread_is_in_the_middle_and_more_than_there_are_are_refused():
+    site = site_of([(4.0 * k, 0.0) for k in range(5)])
+    assert ids(Spread(count=1), site) == [site.trees[2].place.id]
+    assert ids(Spread(count=3), site) == [site.trees[k].place.id for k in (0, 2, 4)]
+    with pytest.raises(PlaceError):
+        ids(Spread(count=6), site)
 
 
 def test_each_tree_is_drawn_as_often_as_any_other():

@@ -47,7 +47,7 @@ def places(selector: Selector) -> Range:
             return Range(low=count, high=count)
         case s.Extreme() | s.Middle() | s.EdgeMiddle() | s.Nearest() | s.Farthest() | s.Top() | s.Take() | s.Random():
             return Range(low=selector.count, high=selector.count)
-        case s.Adjacent() | s.Successive():
+        case s.Adjacent() | s.Successive() | s.Spread():
             return Range(low=selector.count, high=selector.count)
         case s.Ordered(of=of):
             return places(of)

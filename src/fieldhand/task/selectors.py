@@ -269,6 +269,14 @@ class Random:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Spread:
+    """``count`` of ``of``, spread over where they stand: far from each other. A single one is in the middle."""
+
+    count: int
+    of: Selector = Trees()
+
+
+@dataclass(frozen=True, kw_only=True)
 class InBlock:
     """Trees of one block, by the block's name or number."""
 
@@ -443,6 +451,7 @@ Selector = (
     | Within
     | Take
     | Random
+    | Spread
     | InBlock
     | Rows
     | RowOf
@@ -504,9 +513,20 @@ def is_single(selector: Selector) -> bool:
             return True
         case Corners(which=which):
             return len(which) == 1
-        case Extreme() | Middle() | EdgeMiddle() | Nearest() | Farthest() | Adjacent() | Top() | Take() | Random():
+        case (
+            Extreme()
+            | Middle()
+            | EdgeMiddle()
+            | Nearest()
+            | Farthest()
+            | Adjacent()
+            | Top()
+            | Take()
+            | Random()
+            | Spread()
+        ):
             return selector.count == 1
-        case Successive() | Spaced() | Apart() | PointsIn():
+        case Spread() | Successive() | Spaced() | Apart() | PointsIn():
             return selector.count == 1
         case Union(parts=inner):
             return len(inner) == 1 and is_single(inner[0])

@@ -7,6 +7,8 @@ Which places are right is told here from how the vineyard was planted, not by th
 
 from __future__ import annotations
 
+import itertools
+import math
 import random
 import re
 from collections.abc import Callable
@@ -136,6 +138,28 @@ def test_a_draw_is_of_the_vines_that_are_meant_and_not_of_the_nearest(
     assert outcome == outcome_of(request_)
     if count >= 10:
         assert max(v.y for v in drawn) - min(v.y for v in drawn) > 20.0
+
+
+@pytest.mark.parametrize(
+    ("request_", "count"),
+    [
+        ("Take pictures of 8 vines spread over the north block.", 8),
+        ("Measure CO2 at 5 vines spread across the north block.", 5),
+        ("Measure CO2 at 6 vines far apart from each other in the north block.", 6),
+    ],
+)
+def test_spread_vines_are_of_the_block_and_far_from_each_other(request_: str, count: int) -> None:
+    outcome = outcome_of(request_)
+    assert isinstance(outcome, Planned), outcome
+    spread = visited(outcome)
+    block = [v for v in vines() if north(v)]
+    assert len({v.id for v in spread}) == count
+    assert {v.id for v in spread} <= {v.id for v in block}
+    apart = min(math.dist((a.x, a.y), (b.x, b.y)) for a, b in itertools.combinations(spread, 2))
+    area = (max(v.x for v in block) - min(v.x for v in block)) * (max(v.y for v in block) - min(v.y for v in block))
+    # No more discs of that radius than these fit: with them the block is covered.
+    assert apart > 0.5 * math.sqrt(area / count)
+    assert unaccounted(outcome.task) == ()
 
 
 def test_two_draws_of_a_request_are_independent() -> None:

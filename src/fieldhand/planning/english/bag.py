@@ -24,6 +24,7 @@ class Bag:
         count: The number that it says.
         article: Its article, if it has one.
         each, any, another, as_many, up_to, more: Which quantifiers it has.
+        spread: It says that the trees are spread over something, by these words; none if it does not.
         plural: One of its nouns stands in the plural.
         ids: Trees that it names.
         compared: Comparisons, each with its terms, negation first.
@@ -38,6 +39,7 @@ class Bag:
     as_many: bool = False
     up_to: bool = False
     more: bool = False
+    spread: tuple[Term, ...] = ()
     plural: bool = False
     ids: list[str] = field(default_factory=list)
     compared: list[tuple[Term, ...]] = field(default_factory=list)
@@ -113,6 +115,7 @@ class Bag:
         """
         left = [t for kind, words in self._words.items() if kind not in _EMPTY for t in words]
         left += [t for group in self.compared for t in group]
+        left += self.spread
         if self.up_to or self.as_many or self.more:
             left += [t for t in self.phrase.quantity if t.kind in ("UPTO", "ASMANY", "MORE")]
         if left:

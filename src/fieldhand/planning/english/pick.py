@@ -297,6 +297,8 @@ def _some_of(bag: Bag, of: s.Selector, *, plural: bool, site: Site, single: bool
         )
     if bag.article == "some" and plural and count is None:
         raise how_many(bag.phrase, ("2", "4"), of_all=True)
+    if bag.spread:
+        return _spread(bag, of, plural=plural)
     if (drawn := bag.take("RANDOM")) is not None:
         return _drawn(bag, of, int(drawn.value or 0), plural=plural)
     bare = of == s.Trees()
@@ -322,6 +324,18 @@ def _drawn(bag: Bag, of: s.Selector, seed: int, *, plural: bool) -> Found:
         raise how_many(bag.phrase, ("5", "10"), of_all=True)
     number = bag.count or 1
     return Found(selector=s.Random(count=number, seed=seed, of=of), many=number > 1, counted=number)
+
+
+def _spread(bag: Bag, of: s.Selector, *, plural: bool) -> Found:
+    """Return some of a group, far from each other."""
+    if bag.each:
+        raise bag.fault(
+            message("all of them, or some, spread over it?"), message("say how many: '10 trees spread over the block'")
+        )
+    if plural and bag.count is None:
+        raise how_many(bag.phrase, ("5", "10"), of_all=True)
+    bag.spread, number = (), bag.count or 1
+    return Found(selector=s.Spread(count=number, of=of), many=number > 1, counted=number)
 
 
 def _every(bag: Bag, of: s.Selector, plural: bool, site: Site) -> Found:

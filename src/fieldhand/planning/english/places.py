@@ -55,7 +55,7 @@ _OF_ANCHOR = frozenset(
         "growing on",
     }
 )
-_SPREAD_ADVICE = message("free points are spread over a zone: 'at 5 points spread over the wet corner'")
+_SPREAD_ADVICE = message("say 'at 5 points spread over the wet corner', or '5 trees spread over the block'")
 _SEVERAL = frozenset({"them", "they", "both", "each", "every", "all", "these", "those"})
 _ANCHORED = ("NEAREST", "FARTHEST", "FAR", "STEP", "OPPOSITE")
 #: Relations that trees have, and rows do not.
@@ -408,8 +408,10 @@ def _row_of(bag: Bag, group: Group, relation: Term, behind: Found, inner: _Part)
 def _among(bag: Bag, group: Group, relation: Term, behind: Found, inner: _Part) -> None:
     """ "... in the northern half", "... of row 3", "... along row 3", "... spread over the wet corner"."""
     kind, terms = relation.kind, [relation, *inner.phrase.terms]
-    if kind == "SPREAD" and not (bag.has("PLACE") and isinstance(behind.selector, s.InZone)):
-        raise unclear(terms, message("trees are not spread"), _SPREAD_ADVICE)
+    if kind == "SPREAD" and bag.has("PLACE") and not isinstance(behind.selector, s.InZone):
+        raise unclear(terms, message("free points are spread over a zone"), _SPREAD_ADVICE)
+    if kind == "SPREAD" and not bag.has("PLACE"):
+        bag.spread = (relation,)
     if kind == "ALONG" and not (behind.rows or isinstance(behind.selector, s.Edge)):
         raise unclear(terms, message("along which row?"), message("name the row: 'along row 3'"))
     way = relation.text.lower().split() if kind == "ALONG" else []

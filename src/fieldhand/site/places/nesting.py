@@ -20,6 +20,7 @@ from fieldhand.task.selectors import (
     RowOf,
     Rows,
     Selector,
+    Spread,
     Successive,
     Take,
     Top,
@@ -38,7 +39,7 @@ def bare_ground(selector: Selector, *, picks_too: bool = True) -> Selector:
             mission so far.
     """
     match selector:
-        case Other() | Excluding() | Take() | Random() | Ordered():
+        case Other() | Excluding() | Take() | Random() | Spread() | Ordered():
             return bare_ground(selector.of, picks_too=picks_too)
         case Where() | Top() | Rows() | RowOf() | InRow() | EveryNth() | Successive() if picks_too:
             return bare_ground(selector.of, picks_too=picks_too)

@@ -30,6 +30,7 @@ from fieldhand.site.places.neighbours import Ground, Origin
 from fieldhand.site.places.nesting import bare_ground
 from fieldhand.site.places.pick_words import the_highest, the_middle_of_edge, the_most, the_nearest_to_marker
 from fieldhand.site.places.spots import Spots, joined
+from fieldhand.site.places.spread import spread
 from fieldhand.site.places.tell import Tell, rank, tell_passed_over
 from fieldhand.site.places.words import say_selector
 from fieldhand.task import selectors as s
@@ -38,7 +39,7 @@ _Source = s.Trees | s.TreeIs | s.Marker | s.GateIs | s.Here | s.Bound | s.Union
 _Region = s.Half | s.Quarter | s.Edge | s.AmongExtreme | s.InZone | s.InBlock | s.Within
 _Kept = s.Where | s.Other | s.Excluding | s.Rows | s.RowOf | s.InRow | s.EveryNth
 _Ranked = s.Extreme | s.Middle | s.EdgeMiddle | s.Nearest | s.Farthest | s.Top
-_Chained = s.Adjacent | s.Take | s.Random | s.Successive
+_Chained = s.Adjacent | s.Take | s.Random | s.Spread | s.Successive
 
 _EXTENT_RULE = "halves and quarters go by the middle lines of the extent along true north"
 
@@ -142,7 +143,7 @@ class Resolution:
                 return self._named(selector, of, tell)
             case s.Extreme() | s.Middle() | s.EdgeMiddle() | s.Nearest() | s.Farthest() | s.Top():
                 return self._ranked(selector, of, tell)
-            case s.Adjacent() | s.Take() | s.Random() | s.Successive():
+            case s.Adjacent() | s.Take() | s.Random() | s.Spread() | s.Successive():
                 return self._chained(selector, of, tell)
             case s.Ordered():
                 return ordering.ordered(of, selector, np.array(self.context.here.xy), tell)
@@ -294,9 +295,9 @@ class Resolution:
 
     def _chained(self, selector: _Chained, of: Spots, tell: Tell) -> Spots:
         """Several, each of which hangs on the ones before, or on the draw."""
-        near = of if isinstance(selector, s.Take | s.Random) else self._origin(selector.near)
+        near = of if isinstance(selector, s.Take | s.Random | s.Spread) else self._origin(selector.near)
         count = selector.count
-        if isinstance(selector, s.Take | s.Random):
+        if isinstance(selector, s.Take | s.Random | s.Spread):
             of = self._outside_keep_outs(of, tell).once(count)
         if count < 1 or len(of) < count:
             raise too_few(self.site, selector, count, len(of))
@@ -306,6 +307,8 @@ class Resolution:
                 return neighbours.short_drive(of, np.array(self.context.here.xy), count)
             case s.Random(seed=seed):
                 return draw.drawn(of, count, seed, tell)
+            case s.Spread():
+                return spread(of, count, tell)
             case s.Adjacent():
                 tell.rule = "each is a neighbour of one before it, in the same row first"
                 found = neighbours.side_by_side(of, near, count)

@@ -92,6 +92,8 @@ def _new_phrase(selector: s.Selector, saying: Saying) -> Phrase:
             return _taken(selector, saying)
         case s.Random():
             return _drawn(selector, saying)
+        case s.Spread():
+            return _spread(selector, saying)
         case s.InBlock(block=block, of=of):
             return saying.phrase(of).of_block(say_block(block))
         case s.Rows(of=of):
@@ -188,6 +190,13 @@ def _drawn(selector: s.Random, saying: Saying) -> Phrase:
         return one(message("one of {trees}, drawn at random (seed {seed})", trees=group, seed=seed))
     said = message("{count} of {trees}, drawn at random (seed {seed})", count=selector.count, trees=group, seed=seed)
     return many(said)
+
+
+def _spread(selector: s.Spread, saying: Saying) -> Phrase:
+    group = saying.phrase(selector.of).group()
+    if selector.count == 1:
+        return one(message("of {trees} the one nearest to their middle", trees=group))
+    return many(message("{count} of {trees}, spread far from each other", count=selector.count, trees=group))
 
 
 def _together(parts: tuple[s.Selector, ...], saying: Saying) -> Phrase:
