@@ -160,11 +160,12 @@ class Edge:
 
 @dataclass(frozen=True, kw_only=True)
 class Nearest:
-    """The ``count`` trees of ``of`` nearest to ``to`` that are not ``to``.
+    """The ``count`` trees of ``of`` nearest to ``to`` that are not ``to``, nearest first.
 
     ``adjacent`` asks for neighbours ("next to"): the same row is preferred. ``fresh`` passes over trees that were
     visited already ("nearby"). ``side`` keeps those that lie in that direction from ``to`` ("its neighbour
-    on the east"). :class:`InZone` as ``to`` is the zone itself ("nearest to the pond").
+    on the east"). :class:`InZone` as ``to``, ``origin`` or ``near`` is the zone itself ("nearest to
+    the pond").
     """
 
     to: Selector
