@@ -31,6 +31,7 @@ from fieldhand.language.message import (
     named,
 )
 from fieldhand.language.po import Entry, compiled, read_entries
+from fieldhand.language.recalling import QUANTITY, SHAPES, Effort, Sentence, sentences
 
 _Said = TypeVar("_Said")
 
@@ -41,24 +42,8 @@ _MISSING = "\x00"
 _FIGURES = frozenset({"metres", "least", "most"})
 
 
-#: Contexts of sentences that are known again in text from a file, or from a room that knows no language.
-_RECALLED = frozenset({"assumption", "question", "answer", "file", LOG})
 #: Sentences in a log that are longer than this are not known again.
 _LONGEST_RETOLD = 600
-_FIGURE = r"[-\N{MINUS SIGN}]?\d[\d,]*(?:\.\d+)?"
-_QUANTITY = rf"{_FIGURE}(?: [^\s,;]+)?"
-#: How placeholders of sentences that a log keeps are known again: figures, with a unit; clauses that must be known;
-#: words of a context; values; names as they stand.
-_SHAPES = {
-    **dict.fromkeys(("amount", "limit", "low", "high", "reading"), _QUANTITY),
-    **dict.fromkeys(("metres", "seconds", "percent", "factor", "chance", "used", "allowed", "level", "value"), _FIGURE),
-    "count": r"\d+",
-    "time": r"[\d:]+",
-    "name": r"[^\d;:]+?",
-    "id": r"[^:;,()]+?",
-    "ids": r"[^:;()]+?",
-    **dict.fromkeys(("action", "quantity", "role"), r"[^\s:]+"),
-}
 _KNOWN = frozenset({"known", "also", "how", "reason"})
 _WORDS = {"name": "name", "word": "level", "role": "role", "quantity": "quantity", "action": "action"}
 _VALUES = frozenset({"bound", "has"})
@@ -83,7 +68,7 @@ class Language:
     decimal: str = "."
     thousands: str = ","
     melts: Mapping[tuple[str, str], str]
-    patterns: Mapping[str, tuple[tuple[re.Pattern[str], str], ...]]
+    patterns: Mapping[str, tuple[Sentence, ...]]
 
     def say(self, text: str) -> str:
         """A message in this language; text that is none stays as it is."""
@@ -144,39 +129,40 @@ class Language:
 
     def _known_again(self, text: Message) -> Message | None:
         if text.context == LOG:
-            return self._retold(str(text))
-        for pattern, template in self.patterns.get(text.context, ()):
-            match = pattern.fullmatch(str(text))
-            if match is not None:
-                fills = match.groupdict().items()
-                return message(
-                    template, context=text.context, **{name: _recalled_fill(name, text) for name, text in fills}
-                )
+            return self._retold(str(text), Effort())
+        effort = Effort()
+        for sentence in self.patterns.get(text.context, ()):
+            found = sentence.fills_of(str(text), effort)
+            if found is not None:
+                fills = {name: _recalled_fill(name, part) for name, part in found.items()}
+                return message(sentence.template, context=text.context, **fills)
         return None
 
-    def _retold(self, text: str) -> Message | None:
+    def _retold(self, text: str, effort: Effort) -> Message | None:
         """Return the message that a log keeps as this text; None where no sentence or clause of it is known."""
-        if len(text) > _LONGEST_RETOLD:
+        if len(text) > _LONGEST_RETOLD or not effort.step():
             return None
         clauses = _clauses(text)
         if len(clauses) > 1:
-            retold = [self._retold(clause) for clause in clauses]
+            retold = [self._retold(clause, effort) for clause in clauses]
             said = [clause if known is None else known for known, clause in zip(retold, clauses, strict=True)]
             return joined("; ", said) if any(known is not None for known in retold) else None
-        for pattern, template in self.patterns.get(LOG, ()):
-            match = pattern.fullmatch(text)
-            refilled = {} if match is None else {n: self._refilled(n, part) for n, part in match.groupdict().items()}
+        for sentence in self.patterns.get(LOG, ()):
+            parts = sentence.fills_of(text, effort)
+            if parts is None:
+                continue
+            refilled = {name: self._refilled(name, part, effort) for name, part in parts.items()}
             fills = {name: part for name, part in refilled.items() if part is not None}
-            if match is not None and len(fills) == len(refilled):
-                return message(template, context=LOG, **fills)
+            if len(fills) == len(refilled):
+                return message(sentence.template, context=LOG, **fills)
         where, colon, what = text.partition(": ")
-        known = self._retold(what) if colon else None
+        known = self._retold(what, effort) if colon else None
         return None if known is None else joined(": ", (kept_in_log(where), known))
 
-    def _refilled(self, name: str, text: str) -> str | None:
+    def _refilled(self, name: str, text: str, effort: Effort) -> str | None:
         """Return what filled a placeholder of a sentence that a log keeps; None where that must be known and is not."""
         if name in _KNOWN:
-            return self._retold(text)
+            return self._retold(text, effort)
         if name in _WORDS:
             return named(text, _WORDS[name])
         if name == "ids":
@@ -185,11 +171,11 @@ class Language:
             if more is not None:
                 return message("{items} and {count} more", **more.groupdict())
             return text if last is None else message("{items} and {last}", **last.groupdict())
-        if name in _SHAPES and name not in _NAMES:
+        if name in SHAPES and name not in _NAMES:
             return Number(text)
-        if name in _VALUES and re.fullmatch(_QUANTITY, text):
+        if name in _VALUES and QUANTITY.fullmatch(text):
             return Number(text)
-        known = None if name in _NAMES else self._retold(text)
+        known = None if name in _NAMES else self._retold(text, effort)
         return text if known is None else known
 
     def _filled(self, template: str, fills: Mapping[str, Fill]) -> str:
@@ -269,7 +255,7 @@ def open_language(code: str) -> Language:
         decimal=header.get("X-Decimal", ".").strip('"'),
         thousands=header.get("X-Thousands", ",").strip('"'),
         melts=_melts(header.get("X-Melts", "")),
-        patterns=_patterns(entries),
+        patterns=sentences(entries),
     )
 
 
@@ -319,23 +305,3 @@ def _clauses(text: str) -> list[str]:
             found.append(text[begins:k])
             begins = k + 2
     return [*found, text[begins:]]
-
-
-def _patterns(entries: Iterable[Entry]) -> dict[str, tuple[tuple[re.Pattern[str], str], ...]]:
-    """Sentences of a context as patterns, those with the most words of their own first."""
-    found: dict[str, list[tuple[re.Pattern[str], str]]] = {}
-    for entry in entries:
-        if entry.context in _RECALLED:
-            shapes = _SHAPES if entry.context == LOG else {}
-            pattern, known = "", set[str]()
-            for k, part in enumerate(re.split(r"\{(\w+)\}", entry.template)):
-                if k % 2 == 0:
-                    pattern += re.escape(part)
-                else:
-                    pattern += f"(?P={part})" if part in known else f"(?P<{part}>{shapes.get(part, '.*?')})"
-                    known.add(part)
-            found.setdefault(entry.context, []).append((re.compile(pattern, re.DOTALL), entry.template))
-    return {
-        context: tuple(sorted(pairs, key=lambda p: -len(re.sub(r"\{\w+\}", "", p[1]))))
-        for context, pairs in found.items()
-    }
