@@ -15,6 +15,7 @@ from fieldhand.program.serve import compose
 from fieldhand.web.page import assets, page_router
 
 SCRIPTS = {name: asset.data.decode() for name, asset in assets().items() if name.endswith(".js")}
+REPLAY = (resources.files("fieldhand.exchange.replay") / "page.js").read_text(encoding="utf-8")
 
 
 class Page(HTMLParser):
@@ -89,12 +90,13 @@ def test_nothing_is_loaded_from_elsewhere() -> None:
         assert set(addresses) <= {"http://www.w3.org/2000/svg"}, name
 
 
-@pytest.mark.parametrize("name", SCRIPTS)
+@pytest.mark.parametrize("name", [*SCRIPTS, "replay"])
 def test_no_data_becomes_markup_or_code(name: str) -> None:
     forbidden = (
         r"innerHTML|outerHTML|insertAdjacentHTML|document\.write|\beval\(|new Function|createContextualFragment|srcdoc"
+        r"|DOMParser|setHTMLUnsafe|javascript:|setTimeout\(\s*[\"'`]|\.(?:href|src|location)\s*="
     )
-    assert not re.search(forbidden, SCRIPTS[name])
+    assert not re.search(forbidden, {**SCRIPTS, "replay": REPLAY}[name])
 
 
 def test_every_element_that_a_script_asks_for_is_there() -> None:
