@@ -114,3 +114,30 @@ def test_a_mission_sets_out_where_one_visit_is_safe_enough_although_the_way_take
     )
     assert found.visited[:, 0].all()
     assert (found.legs + found.last > 410.0).mean() <= 0.15
+
+
+def rows_with_headlands(away: float, budget: float) -> Problem:
+    """Return six rows of 120 stops, 1.8 m apart, that are left at their ends alone."""
+    row, along = np.repeat(np.arange(6), 120), 1.8 * np.tile(np.arange(120.0), 6)
+    row = np.concatenate([[-1], row, [-1]])
+    x = np.concatenate([[-away], 3.0 * row[1:-1], [-away]])
+    y = np.concatenate([[0.0], along, [0.0]])
+    ends = np.minimum(y[:, None] + y, 2 * 1.8 * 119 - y[:, None] - y)
+    distances = np.where(row[:, None] == row, np.abs(y[:, None] - y), np.abs(x[:, None] - x) + ends)
+    distances[0, -1] = distances[-1, 0] = 0.0
+    return Problem(
+        distances=distances,
+        rewards=np.concatenate([[0.0], np.ones(720), [0.0]]),
+        start=0,
+        end=721,
+        limits=(Limit(budget=budget),),
+    )
+
+
+@pytest.mark.parametrize("left", [360.0, 420.0])
+def test_a_price_is_found_for_the_safe_route_where_the_order_worth_most_cannot_be_safe(left):
+    # Along the row and home takes many short legs; straight home is one long leg, which is less certain.
+    policy = Policy(rows_with_headlands(140.0, 800.0), 0, daring=0.0, warm=range(21, 121))
+    policy.next(State(vertex=20, left=(left,), visited=frozenset(range(1, 21))))
+    assert policy.price is not None
+    assert 1.0 - policy.outlook.success <= 0.1 * 1.05

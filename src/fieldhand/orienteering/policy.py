@@ -162,6 +162,7 @@ class Policy:
                 not a number.
         """
         from fieldhand.orienteering.adaptive import LONG, Lookout, Order
+        from fieldhand.orienteering.annealing import stops_of
 
         began = time.perf_counter()
         self._check(state)
@@ -179,6 +180,7 @@ class Policy:
             return self._settle(state, lookout.order(lookout.free, 0.0, 0))
         certain = self._ground.cumulants[0] <= 0.0
         accepted = min(limit.failure_probability for limit in self._problem.limits)
+        safe: tuple[int, ...] = ()
         if certain or len(lookout.free) > LONG:
             # As likely to fail as is accepted, not as likely as not: a long last leg takes its risk all at once, when
             # no stop is left that could be skipped.
@@ -189,27 +191,32 @@ class Policy:
             if certain or len(route) > LONG:
                 ahead = Order(stops=route, first=0, worth=self._reward(route.tolist()), success=1.0)
                 return self._settle(state, ahead)
-            self._warm = tuple(route.tolist())
+            safe = tuple(route.tolist())
+            if self._price is None:
+                self._warm = safe
         collected = self._collected + self._reward(
             [*(state.visited - {self._problem.start, self._problem.end}), self._problem.end]
         )
         new = False
         if self._price is None:
-            new, self._price = True, self._priced(lookout, collected)
+            new, self._price = True, self._priced(lookout, collected, safe)
         elif not (self._begun or self._warm):
             self._plan(lookout.planned(self._price + collected, (), self._rounds(lookout)))
         self._begun = True
-        order = lookout.best(self._price + collected, self._warm)
+        bonus = self._price + collected
+        order = lookout.best(bonus, self._warm)
         if new and order.first == len(order.stops):
-            safe = self._safe_route(lookout, accepted)
-            if safe is not None:
-                vertex = self._settle(state, safe)
-                # What comes after that leg is planned from nothing.
-                self._price, self._warm, self._begun = None, (), False
-                return vertex
+            setting_out = self._safe_route(lookout, accepted, safe)
+            if setting_out is not None:
+                # The price is found anew after that leg, for what is left of this route.
+                self._price, self._begun = None, False
+                return self._settle(state, setting_out)
+        elif safe:
+            other = lookout.order(stops_of(safe, lookout.free), bonus, self._depth.insertions)
+            order = max(order, other, key=lambda one: one.value(bonus))
         while seconds is not None and time.perf_counter() - began < seconds:
-            order = lookout.bettered(order, self._price + collected)
-        self._last = (lookout, order, self._price + collected)
+            order = lookout.bettered(order, bonus)
+        self._last = (lookout, order, bonus)
         return self._settle(state, order)
 
     def chances(self) -> dict[int, float]:
@@ -241,11 +248,31 @@ class Policy:
                 f"of the limits is left: {', '.join(f'{x:g}' for x in state.left)}", advice=f"give {limits} numbers"
             )
 
-    def _priced(self, lookout: Lookout, collected: float) -> float:
-        """The least price at which the best order fails no more often than the limit that binds accepts."""
+    def _priced(self, lookout: Lookout, collected: float, safe: Sequence[int]) -> float:
+        """The least price at which the best order fails no more often than the limit that binds accepts.
+
+        Args:
+            lookout, collected: Where the mission stands; reward that is safe already.
+            safe: Stops of a fixed route planned at the accepted chance, where there is one. It can be safer than any
+                part of the order worth most at no price: many short legs are less uncertain than one long leg home.
+        """
+        from fieldhand.orienteering.annealing import stops_of
+
         accepted = 1.0 - _AIM * min(limit.failure_probability for limit in self._problem.limits)
+        planned = lookout.planned(collected, self._warm, self._rounds(lookout))
+        price, order = self._at_least_price(lookout, planned, collected, accepted)
+        if safe and order.success < accepted and order.first < len(order.stops):
+            begun = lookout.order(stops_of(safe, lookout.free), price + collected, 0)
+            safer = self._at_least_price(lookout, begun, collected, accepted)
+            # An order that shrank to nothing has a price that means nothing.
+            if safer[1].success > order.success and safer[1].first < len(safer[1].stops):
+                price, order = safer
+        self._plan(order)
+        return price
+
+    def _at_least_price(self, lookout: Lookout, order: Order, collected: float, accepted: float) -> tuple[float, Order]:
+        """The least price at which an order succeeds as often as is accepted, and what the order becomes at it."""
         price = 0.0
-        order = lookout.planned(collected, self._warm, self._rounds(lookout))
         for _ in range(_PRICINGS):
             expected = order.worth / max(order.success, 1e-9) + collected
             self._least_price = -self._daring * expected
@@ -259,18 +286,23 @@ class Policy:
             price = high
             order = lookout.order(order.stops, price + collected, self._depth.insertions)
             order = lookout.remade(order, price + collected)
-        self._plan(order)
-        return price
+        return price, order
 
-    def _safe_route(self, lookout: Lookout, accepted: float) -> Order | None:
+    def _safe_route(self, lookout: Lookout, accepted: float, safe: Sequence[int]) -> Order | None:
         """Return the route to set out on where no price leads to a visit; None where no visit is safe enough.
 
         A long first leg and a long last one take most of the accepted chance before anything is collected. Then no
         price between staying and risking too much may be found; it is, once the first leg is driven.
+
+        Args:
+            lookout, accepted: Where the mission stands; the chance of failing.
+            safe: Stops of a route that was found already, if any; it is searched for where they are not safe enough.
         """
         from fieldhand.orienteering.adaptive import Order
 
-        route = lookout.route(accepted, (), 100 * self._depth.rounds)
+        route = np.array(safe, dtype=np.int64)
+        if not (len(route) and lookout.is_safe(route)):
+            route = lookout.route(accepted, (), 100 * self._depth.rounds)
         if not len(route) or not lookout.is_safe(route):
             return None
         return Order(stops=route, first=0, worth=self._reward(route.tolist()), success=1.0)
