@@ -69,6 +69,7 @@ EXACT: list[tuple[str, Callable[[Vine], bool]]] = [
     ("Take pictures of every 4th vine in row 8 of the south block starting with the second.", lambda v: not north(v) and v.row == 8 and v.place % 4 == 2),
     ("Take pictures of the Syrah vines in row 7 of the south block.", lambda v: not north(v) and v.row == 7),
     ("Take a picture at each corner of the north block and then come home.", lambda v: north(v) and v.row in (1, ROWS) and v.place in (1, ALONG)),
+    ("Measure CO2 at N250, N300 and N2.", lambda v: v.id in ("N250", "N300", "N2")),
     ("Take a picture at the corners of both blocks.", lambda v: v.row in (1, ROWS) and v.place in (1, ALONG)),
 ]  # fmt: skip
 
@@ -111,6 +112,7 @@ Take as many pictures as you can of the south block with 30 % battery.
 Patrol the property line.
 Patrol the vineyard.
 Measure CO2 at vine N9999.
+Measure CO2 at N9999.
 If the battery is below 50 percent come home.
 Take pictures of random vines in the north block.
 """.strip().splitlines()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -118,6 +119,13 @@ class Lexicon:
         """Names of blocks that are not plain numbers."""
         return {_spelt(block.name): block.name for block in self.site.planting.blocks if not block.name.isdigit()}
 
+    @cached_property
+    def _coded(self) -> Mapping[str, str]:
+        """Ids of trees that are letters and a number, which mean trees without the word: "at N250"."""
+        taken = {word for phrase in (*self.own, *shared_vocabulary()) for word in phrase}
+        coded = re.compile(r"[^\W\d_]+\d+")
+        return {spelt: name for spelt, name in self.trees.items() if coded.fullmatch(spelt) and spelt not in taken}
+
     def _names(self, before: list[Term]) -> tuple[Mapping[str, str], str]:
         """The names that may stand behind what has been said, and of which kind they are."""
         at = len(before) - 1
@@ -138,7 +146,7 @@ class Lexicon:
             return {spelt: name for spelt, name in self.trees.items() if (spelt,) not in shared_vocabulary()}, "IDS"
         if listed:  # "row B and a picture": a name that is a word besides stands right behind "row"
             found = {spelt: name for spelt, name in found.items() if (spelt,) not in shared_vocabulary()}
-        return found, "NAMED"
+        return (found, "NAMED") if found else (self._coded, "IDS")
 
     def _name(self, words: list[Word], at: int, before: list[Term]) -> tuple[Term, int] | None:
         """The own name of a tree, a row or a block behind the word for it, where it is not a plain number."""
