@@ -98,7 +98,7 @@ class Corners:
 
 @dataclass(frozen=True, kw_only=True)
 class Extreme:
-    """The ``count`` trees farthest to one side ("the 3 most eastern trees")."""
+    """The ``count`` trees farthest to one side."""
 
     side: Side
     count: int = 1
@@ -211,7 +211,7 @@ class Excluding:
 
 @dataclass(frozen=True, kw_only=True)
 class Where:
-    """Trees whose attribute passes a test; text compares without regard to case."""
+    """Trees whose attribute passes a test, whatever its case."""
 
     attribute: str
     test: Test
@@ -271,7 +271,7 @@ class Random:
 
 @dataclass(frozen=True, kw_only=True)
 class Spread:
-    """``count`` of ``of``, spread over where they stand: far from each other. A single one is in the middle."""
+    """``count`` of ``of``, spread over where they stand: far from each other."""
 
     count: int
     of: Selector = Trees()
@@ -379,7 +379,7 @@ class Ordered:
 
 @dataclass(frozen=True, kw_only=True)
 class Nth:
-    """The ``nth`` place of ``of`` in its order; -1 is the last ("the second northernmost tree")."""
+    """The ``nth`` place of ``of`` in its order; -1 is the last."""
 
     nth: int
     of: Selector
