@@ -89,11 +89,13 @@ FAULTS = """\
 readings:
   co2: 380
 faults:
-  - fault: action_fails
-    action: take_thermal_picture
-    times: 2
-  - fault: blocked
-    tree: "9"
+  - {fault: action_fails, action: take_thermal_picture, times: 2}
+  - {fault: sensor_silent, quantity: co2, at: {id: "9"}}
+"""
+EMPTYING = """\
+charge_percent: 24
+faults:
+  - {fault: battery_drains, factor: 14}
 """
 
 
@@ -114,6 +116,16 @@ def test_a_mission_that_is_left_incomplete(command: Command) -> None:
     done = command("run", TIGHT, "--site", "demo", "--yes", "--confirm")
     assert not done.leaks(TIGHT)
     assert not command("status").leaks(TIGHT)
+
+
+@pytest.mark.parametrize(("request_", "world"), [(REQUEST, FAULTS), (TIGHT, EMPTYING)], ids=["faults", "emptying"])
+def test_a_mission_on_which_things_go_wrong(command: Command, tmp_path: Path, request_: str, world: str) -> None:
+    file = tmp_path / "world.yaml"
+    file.write_text(world)
+    done = command("run", request_, "--site", "demo", "--yes", "--confirm", "--world", str(file))
+    assert done.status == 1
+    assert not done.leaks(request_)
+    assert not command("status").leaks(request_)
 
 
 def test_the_plan_is_declined_or_nobody_is_there(command: Command) -> None:

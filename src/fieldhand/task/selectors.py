@@ -211,7 +211,7 @@ class Excluding:
 
 @dataclass(frozen=True, kw_only=True)
 class Where:
-    """Trees whose attribute passes a test, whatever its case."""
+    """Trees whose attribute passes a test; letter case is ignored."""
 
     attribute: str
     test: Test
