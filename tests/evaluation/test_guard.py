@@ -323,4 +323,6 @@ def test_the_robot_sets_out_along_the_order_that_was_forecast(seed):
     task = task_for(site, MANY, constraints=limited(150.0), nominal="return_to_end")
     forecast = next(s for s in walk(task, site, ROBOT, holds=lambda _: False).steps if s.kind == "visit-list")
     paper, _ = optional_mission(site, seed, limited(150.0))
-    assert paper.visited[:3] == tuple(p.id for p in forecast.places[:3])
+    shown = [p.id for p in forecast.places]
+    # A place that is as likely as one that is shown may come between.
+    assert [place for place in paper.visited if place in shown][:3] == shown[:3]

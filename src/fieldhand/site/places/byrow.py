@@ -27,6 +27,7 @@ from fieldhand.site.places.hand import tree_in_hand
 from fieldhand.site.places.spots import Spots
 from fieldhand.site.places.tell import Tell
 from fieldhand.site.planting import Block, Indices, Row
+from fieldhand.task import words
 from fieldhand.task.selectors import CountedFrom, EveryNth, InBlock, InRow, RowOf, Rows
 from fieldhand.task.words import COMPASS
 
@@ -222,7 +223,7 @@ def _no_such_range(site: Site, blocks: Sequence[Block], selector: Rows) -> Place
         if not has:
             return no_such_row(site, blocks, said)
         where[said] = [block_words(b) for b in has]
-    told = listed(
+    told = words.listed(
         [message("row {name} is in {blocks}", name=short(said), blocks=listed(names)) for said, names in where.items()]
     )
     return PlaceError(
