@@ -112,7 +112,7 @@ def _miss(attempt: Attempt, frames: Sequence[Frame], verdict: Verdict) -> None:
 
 
 def _left_undone(attempt: Attempt, frames: Iterable[Frame]) -> Iterator[tuple[Node, Sequence[Place], bool]]:
-    """What the nodes in hand still had before them: (node, places as far as they are known, whether optional)."""
+    """Give all that the nodes in hand still had before them: (node, places as far as known, whether optional)."""
     for frame in reversed(list(frames)):
         if frame.tour is not None and (undone := frame.tour.undone()):
             yield frame.node, undone, frame.node.is_optional
@@ -136,7 +136,7 @@ def _work_of(node: Node, attempt: Attempt) -> Iterator[tuple[Node, Sequence[Plac
 
 
 def first_places_of(node: plan.Optional, attempt: Attempt) -> tuple[Place, ...]:
-    """Where an optional step begins, as far as that is known now."""
+    """Return the places at which an optional step begins, as far as they are known now."""
     first = next((inner for inner in plan.walk(node.body) if inner.selector is not None), node)
     return _places_of(first, attempt)
 

@@ -119,7 +119,7 @@ class Tour:
 
     @property
     def is_last_resort(self) -> bool:
-        """Whether the visit in hand is one that was put off: now it is worth waiting for."""
+        """True if the visit in hand was put off before: now it is worth waiting for."""
         return bool(self.cut_off) and self.place == self.cut_off[0].place
 
     def permit(self, place: Place) -> None:

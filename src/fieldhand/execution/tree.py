@@ -82,7 +82,7 @@ class MissionTree(NodeBehavior):
 
     @property
     def between(self) -> bool:
-        """Whether one round or visit is over and the next has not begun."""
+        """True between two rounds or visits: one is over and the next has not begun."""
         return self._performer.between
 
     def give_up(self, verdict: Verdict) -> None:

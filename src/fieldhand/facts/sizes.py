@@ -12,7 +12,7 @@ from fieldhand.task.frames import Task
 
 
 class Sizes:
-    """How many places each selector of a plan names.
+    """Count the places that each selector of a plan names.
 
     The plan is followed step by step, every branch of it, as if each visit list were visited whole: where the robot is
     then seldom changes how many places a selector names. What has been visited before does, so those sizes are only

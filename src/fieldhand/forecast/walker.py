@@ -226,7 +226,7 @@ class Walker(Trail):
         return Tour(self._some(node, visits, closed))
 
     def _takes(self, node: Optional) -> bool:
-        """Whether an optional step is done."""
+        """Decide on an optional step: True if it is done."""
         if self.optional == "none":
             return False
         if self.optional == "told":

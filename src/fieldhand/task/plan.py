@@ -65,7 +65,7 @@ def walk(node: Node) -> Iterator[Node]:
 
 
 def is_optional(node: Node) -> bool:
-    """Whether the budget guard may shed the node, or visits of it, and the mission goes on."""
+    """True if the budget guard may shed the node, or visits of it, and the mission goes on."""
     return node.is_optional
 
 

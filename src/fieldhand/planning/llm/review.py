@@ -170,5 +170,5 @@ def _no_attribute(name: str, site: Site, where: str) -> Problem:
 
 
 def _said(error: TaskError | PlaceError) -> str:
-    """What is wrong and what there is; without advice to ask for something else, which only a person may follow."""
+    """Say the fault and what there is; without advice to ask for something else, which only a person may follow."""
     return f"{error.what}; {error.advice}" if error.advice and not _TO_A_PERSON.match(error.advice) else error.what

@@ -97,5 +97,5 @@ class PlanNode(ABC):
 
     @property
     def is_optional(self) -> bool:
-        """Whether the budget guard may shed the node, or visits of it, and the mission goes on."""
+        """True if the budget guard may shed the node, or visits of it, and the mission goes on."""
         return False
