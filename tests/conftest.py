@@ -13,7 +13,7 @@ from hypothesis import settings
 # Every run draws the same examples: what fails here fails for everyone. Others, and of expensive properties many more,
 # are drawn with --hypothesis-profile=thorough, which is how to look for what these miss.
 # No example has a time limit: how long one takes depends on what else the machine does.
-settings.register_profile("steady", derandomize=True, deadline=None)
+settings.register_profile("steady", derandomize=True, max_examples=50, deadline=None)
 settings.register_profile("thorough", derandomize=False, max_examples=300, deadline=None)
 settings.load_profile("steady")
 
