@@ -9,7 +9,7 @@ import pytest
 
 from fieldhand import mission, past
 from fieldhand.errors import InputError
-from fieldhand.evaluation.report_facts import end_of
+from fieldhand.evaluation.report.log_facts import end_of
 from fieldhand.execution.world import World
 from fieldhand.task.codec import encode
 from fieldhand.task.event_lines import to_json

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from fieldhand.approval.checks import Problem
     from fieldhand.approval.keys.trust import TrustStore
     from fieldhand.approval.readback import ReadBack
-    from fieldhand.evaluation.report import ReportFiles
+    from fieldhand.evaluation.report.writing import ReportFiles
     from fieldhand.execution.guard import Guard
     from fieldhand.execution.journal.records import Tape
     from fieldhand.execution.orders import Order
@@ -379,7 +379,7 @@ def report(
     Raises:
         OutputError: The folder cannot be written.
     """
-    from fieldhand.evaluation.report import write_report
+    from fieldhand.evaluation.report.writing import write_report
 
     return write_report(
         folder,

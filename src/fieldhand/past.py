@@ -5,6 +5,7 @@ log ──report_log──▶ report  events ──conclude──▶ report, his
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
@@ -24,9 +25,12 @@ if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
     from fieldhand.evaluation.calibration.fit import Calibration
     from fieldhand.evaluation.calibration.steps import Driven
-    from fieldhand.evaluation.report import ReportFiles
+    from fieldhand.evaluation.report.writing import ReportFiles
     from fieldhand.forecast.estimate import Estimate
     from fieldhand.task.authorization import Authorization, AuthorizedTask
+
+#: Fields of events that must be finite numbers. Positions may be unknown.
+_FIGURES = ("t", "leg_m", "travelled_m", "charge_percent")
 
 
 def history_folder(environ: Mapping[str, str]) -> Path:
@@ -97,10 +101,9 @@ def report_log(
     """
     import hashlib
 
-    from fieldhand.evaluation.report import write_report
-    from fieldhand.evaluation.report_facts import require_fitting
+    from fieldhand.evaluation.report.writing import write_report
 
-    require_fitting(log.events, task, site, robot, where=log.where)
+    _require_log_of(task, site, robot, log)
     assessment = mission.assess(task, log.events, robot)
     rests = [*hashes, *([("event log", log.sha256)] if log.sha256 else [])]
     if authorization is None:
@@ -119,6 +122,43 @@ def report_log(
         hashes=rests,
     )
     return files, assessment
+
+
+def _require_log_of(task: Task, site: Site, robot: RobotProfile, log: Log) -> None:
+    """Require that a log is one of this Task, on this site, by this robot.
+
+    Raises:
+        InputError: The log has no beginning, is of another mission, or has figures out of range; says which.
+    """
+    from fieldhand.evaluation.report.log_facts import start_of
+
+    started = start_of(log.events)
+    if started is None:
+        raise InputError(
+            "has no line that says of which mission it is",
+            where=log.where,
+            advice="give the whole log, from its first line",
+        )
+    for what, wanted, found in (
+        ("Task", task.id, started.task),
+        ("robot", robot.name, started.robot),
+        ("site", site.name, started.site),
+    ):
+        if wanted != found:
+            raise InputError(
+                f"is of the {what} {found!r}, not {wanted!r}",
+                where=log.where,
+                advice=f"give the {what} that it was made with",
+            )
+    for number, event in enumerate(log.events, start=1):
+        for name in _FIGURES:
+            value = getattr(event, name, 0.0)
+            if not math.isfinite(value) or abs(value) > 1e12:
+                raise InputError(
+                    f"{name} of event {number} ({event.event}) is {value}, which no mission has",
+                    where=log.where,
+                    advice="was the log edited?",
+                )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,7 +10,7 @@ import pytest
 from fieldhand.approval.preview import draw_map
 from fieldhand.approval.readback import read_back
 from fieldhand.approval.stops import Leg, Plan, Stop, plan_of
-from fieldhand.evaluation.report_maps import draw_map as report_map
+from fieldhand.evaluation.report.maps import draw_map as report_map
 from fieldhand.forecast.estimate import estimate
 from fieldhand.site.drawing.blocks import block_words
 from fieldhand.site.drawing.choices import choices_picture

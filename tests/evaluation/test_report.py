@@ -18,14 +18,14 @@ from lxml import html
 
 from fieldhand.errors import OutputError
 from fieldhand.evaluation.outcome import judge
-from fieldhand.evaluation.report import write_report
-from fieldhand.evaluation.report_data import COLUMNS, observations_csv, observations_geojson
-from fieldhand.evaluation.report_facts import branch_taken
-from fieldhand.evaluation.report_maps import draw_map, report_maps
-from fieldhand.evaluation.report_marks import driven_ways
-from fieldhand.evaluation.report_page import _printable as page_text
-from fieldhand.evaluation.report_places import PlaceNames
-from fieldhand.evaluation.report_readings import MOST_ROWS, relation, summaries
+from fieldhand.evaluation.report.log_facts import branch_taken
+from fieldhand.evaluation.report.maps import draw_map, report_maps
+from fieldhand.evaluation.report.marks import driven_ways
+from fieldhand.evaluation.report.observations import COLUMNS, observations_csv, observations_geojson
+from fieldhand.evaluation.report.page import _printable as page_text
+from fieldhand.evaluation.report.place_names import PlaceNames
+from fieldhand.evaluation.report.readings import MOST_ROWS, relation, summaries
+from fieldhand.evaluation.report.writing import write_report
 from fieldhand.forecast.estimate import estimate
 from fieldhand.site.geojson import parse_site
 from fieldhand.task.authorization import Authorization
@@ -386,15 +386,15 @@ def test_no_two_names_on_a_map_cover_each_other():
 def test_a_map_shows_captures_that_measure_nothing_and_those_that_failed():
     events = log(captured(readings={}), captured("5", status="failed"))
     (drawn,) = report_maps(SITE, events, summaries(TASK, ROBOT, events))
-    meanings = [meaning for _, _, meaning in drawn.marks]
+    meanings = [meaning for _, _, meaning in drawn.legend]
     assert {"Take a thermal picture", "failed", "driven", "given up, though to be done"} <= set(meanings)
     tried_again = log(captured("5", status="failed"), captured("5", attempt=2))
     (drawn,) = report_maps(SITE, tried_again, summaries(TASK, ROBOT, tried_again))
-    assert "failed" not in [meaning for _, _, meaning in drawn.marks]
+    assert "failed" not in [meaning for _, _, meaning in drawn.legend]
 
 
 def test_ways_are_where_the_log_says_in_local_metres():
-    first, second = driven_ways(SITE, log())
+    (first, _), (second, _) = driven_ways(SITE, log())
     assert first[0] == pytest.approx(SITE.start.xy, abs=1e-3)
     assert second[-1] == pytest.approx(SITE.by_id["20"].place.xy, abs=1e-3)
 
@@ -459,16 +459,16 @@ def test_faults_doubts_and_interruptions_stand_under_right_headings(tmp_path):
 
 def test_the_map_tells_what_no_way_led_to_from_what_the_budget_left_out():
     (shown,) = report_maps(SITE, faulty_log(), summaries(TASK, ROBOT, faulty_log()))
-    meanings = [meaning for _, _, meaning in shown.marks]
+    meanings = [meaning for _, _, meaning in shown.legend]
     for meaning in ("something stands in the way", "no way led there", "capture in doubt", "went on after a power cut"):
         assert meaning in meanings
     assert "given up, though to be done" in meanings
     without = [e for e in faulty_log() if not isinstance(e, Shed) or e.cause == "unreachable"]
     (shown,) = report_maps(SITE, without, summaries(TASK, ROBOT, without))
-    assert "given up, though to be done" not in [meaning for _, _, meaning in shown.marks]
+    assert "given up, though to be done" not in [meaning for _, _, meaning in shown.legend]
     came = [*faulty_log()[:-1], captured("5"), captured("16")]
     (shown,) = report_maps(SITE, came, summaries(TASK, ROBOT, came))
-    assert "no way led there" not in [meaning for _, _, meaning in shown.marks]
+    assert "no way led there" not in [meaning for _, _, meaning in shown.legend]
 
 
 def test_the_bars_show_what_every_other_mission_and_nine_in_ten_stay_within(tmp_path):

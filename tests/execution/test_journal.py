@@ -13,7 +13,7 @@ import pytest
 from fieldhand.clock import SimulatedClock
 from fieldhand.errors import JournalError
 from fieldhand.evaluation.outcome import judge
-from fieldhand.evaluation.report_data import observations_csv
+from fieldhand.evaluation.report.observations import observations_csv
 from fieldhand.execution import mission_clock
 from fieldhand.execution.journal import store
 from fieldhand.execution.journal.desk import Desk

@@ -96,7 +96,7 @@ def to_folder(ctx: typer.Context, param: typer.CallbackParam, path: Path | None)
 
 def left_in(folder: Path) -> tuple[Path, ...]:
     """What a mission leaves behind in a folder: Task, map, events, and the report, its page first."""
-    from fieldhand.evaluation.report import ReportFiles
+    from fieldhand.evaluation.report.writing import ReportFiles
 
     return (*(folder / name for name in ("task.xml", "map.png", "events.jsonl")), *ReportFiles.within(folder).paths)
 

@@ -1,4 +1,4 @@
-"""The report of a mission: one page that stands alone, and the observations as CSV and GeoJSON beside it."""
+"""Write the report of a mission: its page, and its observations as CSV and GeoJSON."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fieldhand.errors import OutputError
-from fieldhand.evaluation.report_data import observations_csv, observations_geojson
-from fieldhand.evaluation.report_left_out import not_reached
-from fieldhand.evaluation.report_text import tell
+from fieldhand.evaluation.report.content import compose
+from fieldhand.evaluation.report.log_facts import places_ahead
+from fieldhand.evaluation.report.observations import observations_csv, observations_geojson
 from fieldhand.files import write_whole
 from fieldhand.forecast.estimate import Estimate
 from fieldhand.robot.model import RobotProfile
@@ -21,7 +21,7 @@ from fieldhand.task.results import Event, GoalOutcome
 
 @dataclass(frozen=True, kw_only=True)
 class ReportFiles:
-    """Where a report was written."""
+    """Paths of the files of a report."""
 
     page: Path
     csv: Path
@@ -29,14 +29,14 @@ class ReportFiles:
 
     @classmethod
     def within(cls, folder: Path) -> ReportFiles:
-        """Those of a report in this folder."""
+        """Return the paths for a report in a folder."""
         return cls(
             page=folder / "report.html", csv=folder / "observations.csv", geojson=folder / "observations.geojson"
         )
 
     @property
     def paths(self) -> tuple[Path, ...]:
-        """All of them, the one to read first first."""
+        """All paths, the page first."""
         return (self.page, self.csv, self.geojson)
 
 
@@ -53,17 +53,16 @@ def write_report(
     signed: str = "",
     hashes: Sequence[tuple[str, str]] = (),
 ) -> ReportFiles:
-    """Write the report of a mission into a folder, which is made if needed; files of the same names are replaced.
+    """Write the report of a mission into a folder, creating it if needed and replacing files of the same names.
 
     Args:
-        folder: Where to.
-        task, site, robot: What was carried out, where and with what.
-        events: The event log; it may have been cut off.
-        outcomes: What came of each goal, from :func:`fieldhand.evaluation.outcome.judge`.
-        authorization: Who approved what; None where that is not known.
-        estimate: What it was expected to take; None leaves the comparison out.
-        signed: Whose signature the mission has, in words; empty where there is none.
-        hashes: SHA-256 of what the report rests on beside what was approved, each with its name.
+        task, site, robot: The mission's Task, site and robot.
+        events: The event log, which may be cut off.
+        outcomes: The outcome of each goal, from :func:`fieldhand.evaluation.outcome.judge`.
+        authorization: The approval, or None if not known.
+        estimate: The forecast, or None to leave the comparison out.
+        signed: The signer, in words; empty if the mission is not signed.
+        hashes: Name and SHA-256 of each input beside those approved.
 
     Raises:
         OutputError: The folder or a file in it cannot be written.
@@ -73,7 +72,7 @@ def write_report(
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as fault:
         raise _cannot_write(folder, fault) from None
-    told = tell(
+    content = compose(
         task=task,
         site=site,
         robot=robot,
@@ -84,18 +83,18 @@ def write_report(
         signed=signed,
         hashes=hashes,
     )
-    from fieldhand.evaluation.report_maps import report_maps
-    from fieldhand.evaluation.report_page import page
+    from fieldhand.evaluation.report.maps import report_maps
+    from fieldhand.evaluation.report.page import render_page
 
     _write(files.csv, observations_csv(events))
     _write(files.geojson, observations_geojson(events))
-    _write(files.page, page(told, report_maps(site, events, told.summaries, not_reached(task, events))))
+    _write(files.page, render_page(content, report_maps(site, events, content.summaries, places_ahead(task, events))))
     return files
 
 
 def _write(path: Path, text: str) -> None:
     try:
-        # No translation of line ends: CSV has its own.
+        # Bytes, because CSV has line ends of its own.
         write_whole(path, text.encode("utf-8", errors="replace"))
     except OSError as fault:
         raise _cannot_write(path, fault) from None

@@ -1,4 +1,4 @@
-"""The maps of a report: what was driven and, for each quantity, what was read where, as drawings that scale."""
+"""Maps of a report, as SVG: the drives and, for each quantity, the readings."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.evaluation.report_facts import captures
-from fieldhand.evaluation.report_incidents import draw_incidents
-from fieldhand.evaluation.report_marks import (
+from fieldhand.evaluation.report.log_facts import captures, failed_targets
+from fieldhand.evaluation.report.marks import (
     COLOURS,
-    Mark,
+    LegendEntry,
     draw_drives,
     draw_failed,
+    draw_incidents,
     draw_left_out,
     draw_plain,
     draw_readings,
@@ -26,10 +26,10 @@ from fieldhand.evaluation.report_marks import (
     last_stand,
     metres_of,
     placed,
-    unreached,
+    trees_xy,
     write_values,
 )
-from fieldhand.evaluation.report_readings import Summary
+from fieldhand.evaluation.report.readings import Summary
 from fieldhand.site.drawing import colours
 from fieldhand.site.drawing.blocks import draw_blocks, name_blocks
 from fieldhand.site.drawing.ground import (
@@ -60,11 +60,11 @@ Floats = NDArray[np.float64]
 XY = tuple[float, float]
 
 TREE = "#cfd6cc"
-#: Inches: wide as a phone, so that what is written on the map is read there and on paper.
+#: Inches: as wide as a phone, so that text on the map is legible there and on paper.
 _WIDE_IN, _TALLEST_IN, _LEAST_IN = 4.3, 5.6, 1.6
-#: So many maps, and trees that are drawn one by one.
+#: Maps per report, and trees drawn as vectors.
 _MOST, _MOST_TREES = 6, 800
-#: How large the map of the whole site is below one of the part where the work is.
+#: Size of the overview of the whole site, as a part of the map of the work above it.
 _WHOLE = 0.55
 
 
@@ -73,12 +73,12 @@ class ReportMap:
     """One map.
 
     Attributes:
-        title: The quantity, or what was done where nothing was measured.
+        title: The quantity, or the actions if nothing was measured.
         svg: The drawing.
-        width, height: Of the drawing, in CSS pixels.
-        summary: The readings that it shows; None where nothing was measured.
-        scale: Colours from the lowest to the highest reading; empty where all are alike.
-        marks: Shape, colour and meaning of each kind of mark that is on it.
+        width, height: Size of the drawing in CSS pixels.
+        summary: The readings shown, or None if nothing was measured.
+        scale: Colours from the lowest to the highest reading; empty if all are equal.
+        legend: One entry per kind of mark on the map.
     """
 
     title: str
@@ -87,34 +87,35 @@ class ReportMap:
     height: float
     summary: Summary | None
     scale: tuple[str, ...]
-    marks: tuple[Mark, ...]
+    legend: tuple[LegendEntry, ...]
 
 
 def report_maps(
-    site: Site, events: Sequence[Event], read: Sequence[Summary], missed: Sequence[str] = ()
+    site: Site, events: Sequence[Event], read: Sequence[Summary], ahead: Sequence[str] = ()
 ) -> tuple[ReportMap, ...]:
-    """A map for each quantity that was read, and one for captures that measured nothing.
+    """Draw a map for each quantity that was read, and one for captures that measured nothing.
 
     Args:
-        site, events: What was driven where.
+        site, events: The site and the event log.
         read: The quantities.
-        missed: Trees that were to be visited and were not come to.
+        ahead: Trees still to be visited when the mission ended.
     """
     plain = [e for e in captures(events) if e.status == "success" and not e.readings]
     shown: list[Summary | None] = list(read[:_MOST])
     if plain or not shown:
         shown.append(None)
-    return tuple(_map(site, events, summary, plain if summary is None else [], missed) for summary in shown)
+    return tuple(_map(site, events, summary, plain if summary is None else [], ahead) for summary in shown)
 
 
 def draw_map(
-    site: Site, events: Sequence[Event], summary: Summary | None, missed: Sequence[str] = ()
-) -> tuple[Figure, list[Mark]]:
-    """A map as a figure that belongs to no window, and the marks that are on it.
+    site: Site, events: Sequence[Event], summary: Summary | None, ahead: Sequence[str] = ()
+) -> tuple[Figure, list[LegendEntry]]:
+    """Draw a map on a figure that belongs to no window; return it with its legend.
 
     Args:
-        site, events: What was driven where.
-        summary: The quantity by which captures are coloured; None for those that measured nothing.
+        site, events: The site and the event log.
+        summary: The quantity by which captures are coloured, or None for captures that measured nothing.
+        ahead: Trees still to be visited when the mission ended.
     """
     figure = _figure(site)
     ax = figure.axes[0]
@@ -128,19 +129,19 @@ def draw_map(
     size = _ground(ax, site)
     labels = labels_on(ax, site)
     disc = disc_diameter(ax, np.array(work).reshape(-1, 2), float(np.clip(1.5 * math.sqrt(size), 5.0, 9.5)))
-    marks = draw_drives(ax, site, events)
-    marks += draw_left_out(ax, site, events, missed, disc)
-    marks += draw_incidents(ax, site, events, disc)
+    legend = draw_drives(ax, site, events)
+    legend += draw_left_out(ax, site, events, ahead, disc)
+    legend += draw_incidents(ax, site, events, disc)
     if summary is None:
-        marks += draw_plain(ax, site, [e for e in good if not e.readings], disc)
+        legend += draw_plain(ax, site, [e for e in good if not e.readings], disc)
     else:
         draw_readings(ax, site, good, summary, disc)
-    marks += draw_failed(ax, site, events, disc)
-    for x, y in (*last_stand(site, events), *unreached(site, events)):
+    legend += draw_failed(ax, site, events, disc)
+    for x, y in (*last_stand(site, events), *trees_xy(site, failed_targets(events))):
         labels.keep_free(labels.at((float(x), float(y))), 5.0)
     if summary is not None:
         write_values(labels, site, good, summary, disc)
-    labels.avoid([(float(x), float(y)) for x, y in way] for way in driven_ways(site, events))
+    labels.avoid([(float(x), float(y)) for x, y in way] for way, _ in driven_ways(site, events))
     if window is None:
         draw_scale_and_north(ax)
         name_ground(ax, labels, site)
@@ -148,11 +149,11 @@ def draw_map(
         draw_scale(ax)
         name_zones(labels, site)
         name_rows_within(ax, labels, site)
-    return figure, marks + _marker_marks(site)
+    return figure, legend + _marker_entries(site)
 
 
 def _draw_whole(figure: Figure, site: Site, events: Sequence[Event], window: Window) -> None:
-    """Make room below the map for a small one of the whole site, which shows where the window lies."""
+    """Draw an overview of the whole site below the map, with the outline of the map's window."""
     ax = figure.axes[0]
     limits, tall = (ax.get_xlim(), ax.get_ylim()), float(figure.get_size_inches()[1])
     small, gap = tall * _WHOLE, 0.1
@@ -174,12 +175,12 @@ def _draw_whole(figure: Figure, site: Site, events: Sequence[Event], window: Win
 
 
 def _map(
-    site: Site, events: Sequence[Event], summary: Summary | None, plain: Sequence[Acted], missed: Sequence[str]
+    site: Site, events: Sequence[Event], summary: Summary | None, plain: Sequence[Acted], ahead: Sequence[str]
 ) -> ReportMap:
     with warnings.catch_warnings():
-        # A name in a script that the drawing's font lacks is a row of boxes there; the page has it in full.
+        # A name in a script that the font lacks is drawn as boxes; the page shows it in full.
         warnings.filterwarnings("ignore", message="Glyph .* missing from font", category=UserWarning)
-        figure, marks = draw_map(site, events, summary, missed)
+        figure, legend = draw_map(site, events, summary, ahead)
         svg = _svg(figure)
     width, height = figure.get_size_inches()
     done = [capitalised(say_action(action)) for action in dict.fromkeys(e.action for e in plain)]
@@ -190,12 +191,12 @@ def _map(
         height=round(96 * height),
         summary=summary,
         scale=_scale(summary),
-        marks=tuple(dict.fromkeys(marks)),
+        legend=tuple(dict.fromkeys(legend)),
     )
 
 
 def _svg(figure: Figure) -> bytes:
-    """The figure as a drawing without date, programs' names or addresses, the same for the same mission."""
+    """Return the figure as SVG without metadata, so that equal missions give equal bytes."""
     from matplotlib import rc_context
 
     out = io.BytesIO()
@@ -207,16 +208,13 @@ def _svg(figure: Figure) -> bytes:
 
 
 def _scale(summary: Summary | None, steps: int = 24) -> tuple[str, ...]:
-    """The colour scale as colours from its low to its high end."""
+    """Return the colours of the scale from its low to its high end."""
     from matplotlib import colormaps
     from matplotlib.colors import to_hex
 
     if summary is None or not summary.values or max(summary.values) - min(summary.values) < 1e-9:
         return ()
     return tuple(to_hex(colour) for colour in colormaps[COLOURS](np.linspace(0.0, 1.0, steps)))
-
-
-# --- the ground --------------------------------------------------------------------------------------------------
 
 
 def _figure(site: Site) -> Figure:
@@ -228,7 +226,7 @@ def _figure(site: Site) -> Figure:
     figure = Figure(figsize=(_WIDE_IN, tall), facecolor="white")
     FigureCanvasAgg(figure)
     ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-    # The picture's shape is bounded, the ground's is not: what is missing is added on both sides.
+    # The picture's aspect ratio is bounded, the site's is not: pad both sides equally.
     metres = max((east - west) / _WIDE_IN, (north - south) / tall)
     wide, high = metres * _WIDE_IN, metres * tall
     ax.set_xlim((west + east - wide) / 2, (west + east + wide) / 2)
@@ -238,7 +236,7 @@ def _figure(site: Site) -> Figure:
 
 
 def _ground(ax: Axes, site: Site) -> float:
-    """Zones, rows, trees and markers, quiet beneath what was done; returns the area of a tree's dot."""
+    """Draw zones, rows, trees and markers in muted colours; return the area of a tree's dot."""
     from matplotlib.collections import LineCollection
 
     draw_zones(ax, site)
@@ -255,6 +253,6 @@ def _ground(ax: Axes, site: Site) -> float:
     return size
 
 
-def _marker_marks(site: Site) -> list[Mark]:
-    """Start, end and charger for the legend: their names would cover what was read beside them."""
+def _marker_entries(site: Site) -> list[LegendEntry]:
+    """Return legend entries for start, end and charger, whose names on the map would cover readings."""
     return [(name if name in colours.MARKERS else "disc", *marker_look(name)[1:]) for name in site.markers]

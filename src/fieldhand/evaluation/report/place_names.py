@@ -1,4 +1,4 @@
-"""Where a tree stands as a grower says it, and many trees in few words: "row 2 positions 4 to 9"."""
+"""Names of trees by row and position, and of many trees in few words: "row 2 positions 4 to 9"."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from fieldhand.site.model import Site
 from fieldhand.site.places.faults import short
 from fieldhand.task.words import listed
 
-#: Rows, runs of positions and ids beyond these are counted, not named.
+#: Most rows, runs or ids named, and the longest name in characters.
 _MOST_NAMED, _LONGEST = 24, 40
 
 
@@ -31,17 +31,17 @@ class PlaceNames:
                 self._at[site.trees[int(tree)].place.id] = (number, int(slot))
 
     def where(self, kind: str, place: str) -> str:
-        """Row and position of a tree; empty for what stands in no row."""
+        """Return the row and position of a tree, or nothing for a place in no row."""
         found = self._at.get(place) if kind == "tree" else None
         return "" if found is None else f"{self._rows[found[0]]}, position {found[1]}"
 
     def name(self, kind: str, place: str) -> str:
-        """What a place is called: "tree 152", "the end marker"."""
+        """Return the name of a place: "tree 152", "the end marker"."""
         known = short(place, _LONGEST)
         return {"tree": f"tree {known}", "marker": f"the {known} marker"}.get(kind, known)
 
     def many(self, places: Sequence[str]) -> str:
-        """Many trees, each once: by row and runs of positions, those in no row by their ids."""
+        """Name trees, each once, by row and runs of positions, or by id if in no row."""
         ids = list(dict.fromkeys(places))
         rows: dict[int, list[int]] = {}
         for place in ids:
@@ -59,7 +59,7 @@ class PlaceNames:
 
 
 def _positions(slots: Sequence[int]) -> str:
-    """ "position 4", "positions 4 to 9 and 12"."""
+    """Return "position 4", or "positions 4 to 9 and 12"."""
     runs: list[list[int]] = []
     for slot in slots:
         if runs and slot == runs[-1][-1] + 1:

@@ -1,4 +1,4 @@
-"""The marks of a mission on a map of its report: ways, captures, values, what was left out."""
+"""What is drawn of a mission on a map of its report: drives, captures, values, work left out, incidents."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.evaluation.report_facts import captures, end_of, out_of_reach
-from fieldhand.evaluation.report_readings import Summary
+from fieldhand.evaluation.report.log_facts import captures, cut_off_places, end_of, failed_targets, no_way_led_to
+from fieldhand.evaluation.report.readings import Summary
 from fieldhand.site.drawing.labels import Labels
 from fieldhand.site.model import Site
-from fieldhand.task.results import Acted, Arrived, Driving, Event, Faulted, Shed
+from fieldhand.task.results import Acted, Arrived, Driving, Event, InDoubt, Obstructed, Resumed, Shed
 from fieldhand.task.words import capitalised, say_action
 
 if TYPE_CHECKING:
@@ -21,25 +21,20 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 XY = tuple[float, float]
-#: Shape, colour and meaning, for the legend.
-Mark = tuple[str, str, str]
+#: An entry of the legend: shape, colour and meaning.
+LegendEntry = tuple[str, str, str]
 
-#: Of even lightness steps, told apart by readers who see red and green, or blue and yellow, alike, and in grey.
+#: Perceptually uniform; legible with colour blindness and in grey.
 COLOURS = "viridis"
-WAY, INK, LEFT_OUT, FAILED = "#26324f", "#2f2f2f", "#8a5a00", "#b3261e"
+WAY, INK, LEFT_OUT, FAILED, DOUBT = "#26324f", "#2f2f2f", "#8a5a00", "#b3261e", "#6a1b9a"
 #: Captures that measured nothing, by action (Okabe and Ito 2008).
 PLAIN = ("#0072b2", "#d55e00", "#cc79a7", "#e69f00")
-#: Points high are values; so many of them are written on a map at most.
+#: Font size of values in points, and the most values written on a map.
 FONT, _MOST_VALUES = 7.0, 60
 
 
-def driven_ways(site: Site, events: Sequence[Event]) -> list[Floats]:
-    """Each drive of the log in local metres, shape (n, 2); drives of which the log holds no way are left out."""
-    return [way for way, _ in ways(site, events)]
-
-
-def ways(site: Site, events: Sequence[Event]) -> list[tuple[Floats, bool]]:
-    """The way of each drive in local metres, and whether the robot arrived."""
+def driven_ways(site: Site, events: Sequence[Event]) -> list[tuple[Floats, bool]]:
+    """Return the logged way of each drive in local metres, shape (n, 2), and True if the robot arrived."""
     found: list[tuple[Floats, bool]] = []
     arrived = False
     for event in reversed(events):
@@ -53,10 +48,10 @@ def ways(site: Site, events: Sequence[Event]) -> list[tuple[Floats, bool]]:
     return found[::-1]
 
 
-def draw_drives(ax: Axes, site: Site, events: Sequence[Event]) -> list[Mark]:
-    """The way of each drive, dashed where it did not arrive, and where the robot stood at the end."""
-    marks: list[Mark] = []
-    drives = ways(site, events)
+def draw_drives(ax: Axes, site: Site, events: Sequence[Event]) -> list[LegendEntry]:
+    """Draw the way of each drive, dashed if it did not arrive, and the last position of the robot."""
+    entries: list[LegendEntry] = []
+    drives = driven_ways(site, events)
     since = math.inf
     for way, arrived in drives:
         style: Any = "solid" if arrived else (0, (3, 2))
@@ -77,32 +72,34 @@ def draw_drives(ax: Axes, site: Site, events: Sequence[Event]) -> list[Mark]:
                 zorder=11,
             )
     if any(arrived for _, arrived in drives):
-        marks.append(("line", WAY, "driven"))
+        entries.append(("line", WAY, "driven"))
     if any(not arrived for _, arrived in drives):
-        marks.append(("dashed", WAY, "did not arrive"))
+        entries.append(("dashed", WAY, "did not arrive"))
     for x, y in last_stand(site, events):
         ax.plot(x, y, "o", markersize=9, color="none", markeredgecolor=WAY, markeredgewidth=1.6, zorder=16)
-        marks.append(("ring", WAY, "robot at the end"))
-    return marks
+        entries.append(("ring", WAY, "robot at the end"))
+    return entries
 
 
 def last_stand(site: Site, events: Sequence[Event]) -> Floats:
-    """Where the robot was when the mission was over, shape (1, 2); (0, 2) where the log does not say."""
+    """Return the robot's position at the end of the mission, shape (1, 2), or (0, 2) if the log lacks it."""
     ended = end_of(events)
     if ended is None or not (math.isfinite(ended.lat) and math.isfinite(ended.lon)):
         return np.zeros((0, 2))
     return np.asarray(site.projection.metres([ended.lat], [ended.lon]), dtype=np.float64)
 
 
-def draw_left_out(ax: Axes, site: Site, events: Sequence[Event], missed: Sequence[str], disc: float) -> list[Mark]:
-    """Trees that were given up or not come to, and those that a drive did not reach."""
-    marks: list[Mark] = []
-    # Those to which no way led have a mark of their own.
-    shed = [e for e in events if isinstance(e, Shed) and not out_of_reach(e)]
+def draw_left_out(
+    ax: Axes, site: Site, events: Sequence[Event], ahead: Sequence[str], disc: float
+) -> list[LegendEntry]:
+    """Draw trees that were given up or not reached, and those to which a drive failed."""
+    entries: list[LegendEntry] = []
+    # Those to which no way led are drawn by draw_incidents.
+    shed = [e for e in events if isinstance(e, Shed) and not no_way_led_to(e)]
     groups: tuple[tuple[str, str, Sequence[str]], ...] = (
         ("ring", "left out", [p for e in shed if e.optional for p in e.places]),
         ("cross", "given up, though to be done", [p for e in shed if not e.optional for p in e.places]),
-        ("dot", "not reached", missed),
+        ("dot", "not reached", ahead),
     )
     shapes: dict[str, dict[str, Any]] = {
         "ring": {"marker": "o", "markerfacecolor": "none"},
@@ -110,33 +107,56 @@ def draw_left_out(ax: Axes, site: Site, events: Sequence[Event], missed: Sequenc
         "dot": {"marker": ".", "markerfacecolor": LEFT_OUT},
     }
     for shape, word, places in groups:
-        xy = _trees(site, places)
+        xy = trees_xy(site, places)
         if len(xy):
             ax.plot(
                 *(xy[:, 0], xy[:, 1]), linestyle="none", markersize=0.75 * disc, markeredgecolor=LEFT_OUT,
                 markeredgewidth=1.3, zorder=12, gid="left out", **shapes[shape],
             )  # fmt: skip
-            marks.append((shape, LEFT_OUT, word))
-    xy = unreached(site, events)
+            entries.append((shape, LEFT_OUT, word))
+    xy = trees_xy(site, failed_targets(events))
     if len(xy):
         ax.plot(xy[:, 0], xy[:, 1], "s", color="none", markersize=disc + 2, markeredgecolor=FAILED, zorder=15)
-        marks.append(("square", FAILED, "a drive did not get there"))
-    return marks
+        entries.append(("square", FAILED, "a drive did not get there"))
+    return entries
 
 
-def unreached(site: Site, events: Sequence[Event]) -> Floats:
-    """Where drives that failed were to lead, shape (n, 2)."""
-    towards, missed = "", []
-    for event in events:
-        if isinstance(event, Driving):
-            towards = event.place
-        elif isinstance(event, Faulted) and event.fault == "drive_failed":
-            missed.append(towards)
-    return _trees(site, missed)
+def draw_incidents(ax: Axes, site: Site, events: Sequence[Event], disc: float) -> list[LegendEntry]:
+    """Draw obstacles known at the end, trees to which no way led, captures in doubt and power cuts."""
+    from matplotlib.collections import PolyCollection
+
+    entries: list[LegendEntry] = []
+    areas = _blocked_areas(site, events)
+    if areas:
+        ax.add_collection(
+            PolyCollection(areas, facecolors=f"{FAILED}55", edgecolors=FAILED, linewidths=1.0, zorder=9), autolim=False
+        )
+        entries.append(("area", FAILED, "something stands in the way"))
+    xy = trees_xy(site, cut_off_places(events))
+    if len(xy):
+        ax.plot(
+            *(xy[:, 0], xy[:, 1]), "x", markersize=0.75 * disc, markeredgecolor=FAILED, markeredgewidth=1.6, zorder=12,
+            gid="out of reach",
+        )  # fmt: skip
+        entries.append(("cross", FAILED, "no way led there"))
+    for x, y in metres_of(site, [e for e in events if isinstance(e, InDoubt)]):
+        ax.plot(x, y, "o", color="none", markersize=disc + 4, markeredgecolor=DOUBT, markeredgewidth=1.4, zorder=15)
+        entries.append(("ring", DOUBT, "capture in doubt"))
+    for x, y in metres_of(site, [e for e in events if isinstance(e, Resumed)]):
+        ax.plot(x, y, "D", color="white", markersize=0.6 * disc, markeredgecolor=DOUBT, markeredgewidth=1.2, zorder=15)
+        entries.append(("diamond", DOUBT, "went on after a power cut"))
+    return entries
+
+
+def _blocked_areas(site: Site, events: Sequence[Event]) -> list[Floats]:
+    """Return the areas that the robot avoided at the end, in local metres, each of shape (n, 2)."""
+    last = next((e for e in reversed(events) if isinstance(e, Obstructed)), None)
+    found = [np.asarray(area, dtype=np.float64).reshape(-1, 2) for area in (() if last is None else last.blocked)]
+    return [site.projection.metres(a[:, 0], a[:, 1]) for a in found if len(a) > 2 and np.isfinite(a).all()]
 
 
 def draw_readings(ax: Axes, site: Site, good: Sequence[Acted], summary: Summary, disc: float) -> None:
-    """Captures coloured by value; the last reading of a place lies on top."""
+    """Draw captures coloured by value, the last reading of a place on top."""
     from matplotlib import colormaps
 
     shown = [e for e in good if math.isfinite(e.readings.get(summary.quantity, math.nan))]
@@ -154,19 +174,19 @@ def draw_readings(ax: Axes, site: Site, good: Sequence[Acted], summary: Summary,
     dots.set_gid("readings")
 
 
-def draw_plain(ax: Axes, site: Site, plain: Sequence[Acted], disc: float) -> list[Mark]:
-    """Captures that measured nothing, coloured by what was done."""
-    marks: list[Mark] = []
+def draw_plain(ax: Axes, site: Site, plain: Sequence[Acted], disc: float) -> list[LegendEntry]:
+    """Draw captures that measured nothing, coloured by action."""
+    entries: list[LegendEntry] = []
     for k, action in enumerate(dict.fromkeys(e.action for e in plain)):
         xy = metres_of(site, [e for e in plain if e.action == action])
         colour = PLAIN[k % len(PLAIN)]
         ax.plot(xy[:, 0], xy[:, 1], "o", color=colour, markersize=disc, markeredgecolor=INK, zorder=13)
-        marks.append(("disc", colour, capitalised(say_action(action))))
-    return marks
+        entries.append(("disc", colour, capitalised(say_action(action))))
+    return entries
 
 
-def draw_failed(ax: Axes, site: Site, events: Sequence[Event], disc: float) -> list[Mark]:
-    """Captures that failed and did not succeed when tried again."""
+def draw_failed(ax: Axes, site: Site, events: Sequence[Event], disc: float) -> list[LegendEntry]:
+    """Draw captures that failed and did not succeed when retried."""
     good = {(e.node, e.action, e.place) for e in captures(events) if e.status == "success"}
     failed = [e for e in placed(events) if e.status != "success" and (e.node, e.action, e.place) not in good]
     if not failed:
@@ -177,7 +197,7 @@ def draw_failed(ax: Axes, site: Site, events: Sequence[Event], disc: float) -> l
 
 
 def write_values(labels: Labels, site: Site, good: Sequence[Acted], summary: Summary, disc: float) -> None:
-    """The last reading of each place beside it, where it covers nothing; none where there are many."""
+    """Write the last reading of each place beside it where there is room; write none if there are too many."""
     last = {(e.kind, e.place): e for e in good if math.isfinite(e.readings.get(summary.quantity, math.nan))}
     spots = {key: labels.at((float(x), float(y))) for key, (x, y) in zip(
         last, metres_of(site, list(last.values())), strict=True)}  # fmt: skip
@@ -192,7 +212,7 @@ def write_values(labels: Labels, site: Site, good: Sequence[Acted], summary: Sum
 
 
 def _around(at: XY, size: XY, gap: float) -> list[XY]:
-    """Above, below, right and left of a symbol, then at its corners."""
+    """Return centres for a label above, below, right and left of a symbol, then at its corners."""
     (x, y), (width, height) = at, size
     over, beside = gap + height / 2, gap + width / 2
     straight = [(x, y + over), (x, y - over), (x + beside, y), (x - beside, y)]
@@ -201,17 +221,22 @@ def _around(at: XY, size: XY, gap: float) -> list[XY]:
 
 
 def placed(events: Sequence[Event]) -> list[Acted]:
-    """The captures of which the log says where they were made."""
-    return [e for e in captures(events) if math.isfinite(e.lat) and math.isfinite(e.lon)]
+    """Return the captures whose position the log holds."""
+    return [e for e in captures(events) if _has_position(e)]
 
 
-def metres_of(site: Site, events: Sequence[Acted]) -> Floats:
-    """Return where captures were made, shape (n, 2)."""
-    if not events:
-        return np.zeros((0, 2))
-    return np.asarray(site.projection.metres([e.lat for e in events], [e.lon for e in events]), dtype=np.float64)
+def metres_of(site: Site, events: Sequence[Acted | InDoubt | Resumed]) -> Floats:
+    """Return the known positions of events in local metres, shape (n, 2)."""
+    known = [(e.lat, e.lon) for e in events if _has_position(e)]
+    degrees = np.asarray(known, dtype=np.float64).reshape(-1, 2)
+    return np.asarray(site.projection.metres(degrees[:, 0], degrees[:, 1]), dtype=np.float64).reshape(-1, 2)
 
 
-def _trees(site: Site, places: Sequence[str]) -> Floats:
+def _has_position(event: Acted | InDoubt | Resumed) -> bool:
+    return math.isfinite(event.lat) and math.isfinite(event.lon)
+
+
+def trees_xy(site: Site, places: Sequence[str]) -> Floats:
+    """Return the positions of trees in local metres, each once, shape (n, 2); skip places that are no trees."""
     found = [site.by_id[p].place.xy for p in dict.fromkeys(places) if p in site.by_id]
     return np.asarray(found, dtype=np.float64).reshape(-1, 2)

@@ -28,9 +28,9 @@ COLUMNS = (
 
 
 def observations_csv(events: Sequence[Event]) -> str:
-    """One row a reading, and one a capture that read nothing, failed or is in doubt; times in seconds, degrees WGS 84.
+    """Return CSV with a row per reading, and per capture that read nothing, failed or is in doubt.
 
-    Text that a spreadsheet would take for a formula begins with an apostrophe, so that it stays text.
+    Times are seconds, positions degrees WGS 84. Text that a spreadsheet would evaluate gets a leading apostrophe.
     """
     rows: list[tuple[object, ...]] = [COLUMNS]
     for event in _tried(events):
@@ -57,13 +57,13 @@ def observations_csv(events: Sequence[Event]) -> str:
 
 
 def observations_geojson(events: Sequence[Event]) -> str:
-    """One point feature a capture; readings are properties by quantity, units by ``<quantity>_unit``."""
+    """Return GeoJSON with a point per capture: readings as properties by quantity, units as ``<quantity>_unit``."""
     features = [_feature(event) for event in _tried(events)]
     return visible_json({"type": "FeatureCollection", "features": features}, indent=1) + "\n"
 
 
 def _tried(events: Sequence[Event]) -> list[Acted | InDoubt]:
-    """The captures, and those in doubt: nobody knows whether they were made."""
+    """Return the captures, with those that may or may not have been made."""
     return [e for e in events if isinstance(e, Acted | InDoubt)]
 
 

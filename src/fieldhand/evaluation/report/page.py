@@ -1,4 +1,4 @@
-"""The report as one page that needs nothing beside it: no script, no network, nothing that a name could break."""
+"""Render the report as one HTML page without scripts, links or other files."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from functools import cache
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
-from fieldhand.evaluation.report_maps import ReportMap
-from fieldhand.evaluation.report_text import GOAL_HEAD, HEADINGS, TABLE_HEAD, Report
+from fieldhand.evaluation.report.content import GOAL_HEAD, HEADINGS, TABLE_HEAD, Report
+from fieldhand.evaluation.report.maps import ReportMap
 from fieldhand.visible import visible
 
 if TYPE_CHECKING:
     from jinja2 import Template
 
 
-def page(report: Report, maps: Sequence[ReportMap]) -> str:
-    """The page as HTML; all text in it is escaped."""
+def render_page(report: Report, maps: Sequence[ReportMap]) -> str:
+    """Return the page as HTML with all text escaped."""
     return _template().render(
         r=report,
         h=HEADINGS,
@@ -34,12 +34,12 @@ def _map_record(drawn: ReportMap) -> dict[str, Any]:
         "title": drawn.title,
         "width": f"{drawn.width:.0f}",
         "height": f"{drawn.height:.0f}",
-        # An image of its own: what is inside it cannot reach the page, and its names cannot meet those of other maps.
+        # An embedded image is isolated: its content cannot affect the page, nor its ids clash with other maps.
         "data": base64.b64encode(drawn.svg).decode("ascii"),
         "scale": drawn.scale,
         "lowest": f"{read.say(min(read.values))}{read.unit}" if read is not None and known else "",
         "highest": f"{read.say(max(read.values))}{read.unit}" if read is not None and known else "",
-        "marks": drawn.marks,
+        "legend": drawn.legend,
         "facts": read.words if read is not None else (),
     }
 
@@ -49,18 +49,18 @@ def _template() -> Template:
     from jinja2 import Environment, StrictUndefined
     from markupsafe import Markup
 
-    folder = resources.files("fieldhand.evaluation") / "page"
+    folder = resources.files("fieldhand.evaluation.report")
     environment = Environment(
         autoescape=True, undefined=StrictUndefined, finalize=_printable, keep_trailing_newline=True
     )
     template = environment.from_string((folder / "report.html").read_text(encoding="utf-8"))
-    # The style sheet is this program's own; nothing else goes in unescaped.
+    # The style sheet ships with the package; nothing else is inserted unescaped.
     template.globals["css"] = Markup((folder / "report.css").read_text(encoding="utf-8"))  # noqa: S704
     return template
 
 
 def _printable(value: Any) -> Any:
-    """Return text with its hidden characters made visible, line ends kept; anything else as it is."""
+    """Return text with hidden characters made visible and line ends kept; return other values unchanged."""
     from markupsafe import Markup
 
     return visible(value, lines=True) if isinstance(value, str) and not isinstance(value, Markup) else value

@@ -1,4 +1,4 @@
-"""The readings of a mission as a grower reads them: each beside the thresholds that matter, and all in short."""
+"""Readings of a mission: a row each, related to the thresholds that the Task tests, and a summary per quantity."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from fieldhand.clock import clock_time
-from fieldhand.evaluation.report_facts import captures
-from fieldhand.evaluation.report_places import PlaceNames
+from fieldhand.evaluation.report.log_facts import captures
+from fieldhand.evaluation.report.place_names import PlaceNames
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.conditions import Between, Compare, Level, walk
 from fieldhand.task.frames import Task
@@ -17,13 +17,13 @@ from fieldhand.task.plan import walk as walk_plan
 from fieldhand.task.results import Acted, Event, InDoubt
 from fieldhand.task.words import capitalised, say_action, say_name, say_number, say_unit
 
-#: More readings than this stand in the CSV file alone.
+#: Most readings in the page; the CSV file has all.
 MOST_ROWS = 1_000
 
 
 @dataclass(frozen=True, kw_only=True)
 class ReadingRow:
-    """A row of the table: when, where, what was read or done, and how it stands to the thresholds."""
+    """A row of the table: time, place, what was read or done, and its relation to the thresholds."""
 
     time: str
     where: str
@@ -35,16 +35,16 @@ class ReadingRow:
 
 @dataclass(frozen=True, kw_only=True)
 class Summary:
-    """All readings of one quantity in short.
+    """Summary of all readings of one quantity.
 
     Attributes:
         quantity: Its name in the profile.
-        name: As it is said.
-        unit: As it is printed behind a number, with the space between.
-        values: In the order in which they were read.
-        decimals: As many as tell the values apart.
-        thresholds: That the Task holds its readings against, ascending, by the node that reads.
-        words: Count, lowest, mean and highest, and how many lie above each threshold of those held against it.
+        name: Its name in words.
+        unit: Its unit with a leading space, as printed after a number.
+        values: All values in the order of reading.
+        decimals: Decimals needed to distinguish the values.
+        thresholds: Thresholds that the Task tests, ascending, by the node that reads.
+        words: Count, lowest, mean and highest, and per threshold the readings above it of those tested against it.
     """
 
     quantity: str
@@ -56,12 +56,12 @@ class Summary:
     words: tuple[tuple[str, str], ...]
 
     def say(self, value: float) -> str:
-        """A value with as many decimals as the others."""
+        """Format a value with the decimals of this summary."""
         return say_fixed(value, self.decimals)
 
 
 def summaries(task: Task, robot: RobotProfile, events: Sequence[Event]) -> tuple[Summary, ...]:
-    """The quantities that were read, in the order in which they came up."""
+    """Return a summary per quantity read, in the order of first readings."""
     made = [e for e in captures(events) if e.status == "success"]
     limits = thresholds(task, robot)
     found = []
@@ -85,9 +85,9 @@ def summaries(task: Task, robot: RobotProfile, events: Sequence[Event]) -> tuple
 
 
 def reading_rows(summary: Mapping[str, Summary], events: Sequence[Event], names: PlaceNames) -> tuple[ReadingRow, ...]:
-    """A row a reading, and one a capture that measured nothing or is in doubt.
+    """Return a row per reading, and per capture that measured nothing or is in doubt.
 
-    Those beyond :data:`MOST_ROWS` are left to the CSV.
+    Stops soon after :data:`MOST_ROWS`; the CSV has the rest.
     """
     rows: list[ReadingRow] = []
     for event in events:
@@ -99,9 +99,9 @@ def reading_rows(summary: Mapping[str, Summary], events: Sequence[Event], names:
 
 
 def thresholds(task: Task, robot: RobotProfile) -> Mapping[tuple[str, str], tuple[float, ...]]:
-    """Return what the Task's conditions hold readings against, by the node that reads and the quantity, ascending.
+    """Return the thresholds that the Task's conditions test, ascending, by the node that reads and the quantity.
 
-    A reading that no condition asks about has none, whatever words the profile has for its quantity.
+    A reading that no condition tests has none, even if the profile defines levels for its quantity.
     """
     asked: dict[tuple[str, str], set[float]] = {}
     for node in walk_plan(task.composition.plan):
@@ -111,7 +111,7 @@ def thresholds(task: Task, robot: RobotProfile) -> Mapping[tuple[str, str], tupl
 
 
 def relation(value: float, limits: Sequence[float], digits: int, unit: str) -> str:
-    """Return how a reading relates to its thresholds: "1.4 °C above 34 °C"; empty where there are none."""
+    """Return how a reading relates to its thresholds: "1.4 °C above 34 °C"; empty if there are none."""
     said = []
     for limit in limits:
         apart = abs(value - limit)
@@ -119,26 +119,26 @@ def relation(value: float, limits: Sequence[float], digits: int, unit: str) -> s
         if apart == 0.0:
             said.append(f"exactly {say_number(limit)}{unit}")
         else:
-            # So many decimals that a reading beside its threshold is never said to lie on it.
+            # Enough decimals that a reading near its threshold is never printed as equal to it.
             finer = max(digits, min(6, math.ceil(-math.log10(apart))))
             said.append(f"{say_fixed(apart, finer)}{unit} {side} {say_number(limit)}{unit}")
     return "; ".join(said)
 
 
 def decimals(values: Sequence[float]) -> int:
-    """As many decimals as show about a hundredth of the spread of some values."""
+    """Return the decimals that show about a hundredth of the spread of values."""
     spread = max(values) - min(values) if values else 0.0
     size = spread if spread > 1e-9 else max((abs(v) for v in values), default=0.0)
     return 0 if size <= 0.0 else min(max(1 - math.floor(math.log10(size / 4)), 0), 6)
 
 
 def say_fixed(value: float, digits: int) -> str:
-    """A number with so many decimals."""
+    """Format a number with a given number of decimals and a true minus sign."""
     return f"{value:.{digits}f}".replace("-", "\N{MINUS SIGN}")
 
 
 def _unit(unit: str) -> str:
-    """A unit as it stands behind a number."""
+    """Return a unit with a leading space, or nothing for none."""
     said = say_unit(unit)
     return f" {said}" if said else ""
 
@@ -174,7 +174,7 @@ def _in_short(values: Sequence[float], digits: int, unit: str) -> Iterator[tuple
 def _above(
     quantity: str, made: Sequence[Acted], held: Mapping[str, Sequence[float]], unit: str
 ) -> Iterator[tuple[str, str]]:
-    """Yield how many readings lie above each threshold, of those that are held against it."""
+    """Yield per threshold the number of readings above it, of those tested against it."""
     for limit in sorted({limit for limits in held.values() for limit in limits}):
         values = [e.readings.get(quantity, math.nan) for e in made if limit in held.get(e.node, ())]
         known = [value for value in values if math.isfinite(value)]

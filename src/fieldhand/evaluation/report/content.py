@@ -1,7 +1,4 @@
-"""What the report of a mission says, in plain text, in the order in which it is read; how it looks is said elsewhere.
-
-Every sentence and heading of the report is made here or in the modules that this one calls, none in the page itself.
-"""
+"""The content of a report as plain text, in reading order, with every sentence and heading of the page."""
 
 from __future__ import annotations
 
@@ -9,11 +6,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from fieldhand.evaluation.outcome import because, judge_end
-from fieldhand.evaluation.report_facts import branch_taken, captures, start_of, used
-from fieldhand.evaluation.report_left_out import LeftOut, left_out
-from fieldhand.evaluation.report_places import PlaceNames
-from fieldhand.evaluation.report_readings import MOST_ROWS, ReadingRow, Summary, reading_rows, summaries
-from fieldhand.evaluation.report_story import Folded, conditions, faults
+from fieldhand.evaluation.report.incidents import Folded, LeftOut, conditions, faults, left_out
+from fieldhand.evaluation.report.log_facts import branch_taken, captures, start_of, used
+from fieldhand.evaluation.report.place_names import PlaceNames
+from fieldhand.evaluation.report.readings import MOST_ROWS, ReadingRow, Summary, reading_rows, summaries
 from fieldhand.forecast.estimate import Estimate, Figure
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -26,7 +22,7 @@ from fieldhand.task.words import capitalised, listed, say_action, say_count, say
 
 _MARKS = {"success": "✓ met", "failure": "✗ not met", "indeterminate": "? not known"}
 
-#: Headings and heads of tables, by what stands below them.
+#: Headings of sections and tables, by key of the page.
 HEADINGS = {
     "page": "Mission report",
     "asked": "What was asked",
@@ -52,7 +48,7 @@ TABLE_HEAD = ("Time", "Place", "Reading", "Against its threshold")
 
 @dataclass(frozen=True, kw_only=True)
 class GoalRow:
-    """A goal, how much of it was done, and why not more."""
+    """A goal, how much of it was done, and why no more."""
 
     goal: str
     done: str
@@ -64,10 +60,10 @@ class GoalRow:
 
 @dataclass(frozen=True, kw_only=True)
 class Bar:
-    """What was used of a resource beside its forecast and its limit.
+    """A bar of a resource: what was used beside its forecast and its limit.
 
     Attributes:
-        used, mean, middle, high, limit: As parts of the bar's length, 0 to 1; None where it is not known.
+        used, mean, middle, high, limit: Parts of the bar's length, 0 to 1; None if not known.
         words: The same in words.
     """
 
@@ -83,7 +79,7 @@ class Bar:
 
 @dataclass(frozen=True, kw_only=True)
 class Report:
-    """All that a report says, but its maps."""
+    """The content of a report, without its maps."""
 
     title: str
     subtitle: str
@@ -104,7 +100,7 @@ class Report:
     record: tuple[tuple[str, str], ...]
 
 
-def tell(
+def compose(
     *,
     task: Task,
     site: Site,
@@ -116,16 +112,16 @@ def tell(
     signed: str = "",
     hashes: Sequence[tuple[str, str]] = (),
 ) -> Report:
-    """What there is to say of a mission.
+    """Compose the content of a mission's report.
 
     Args:
-        task, site, robot: What was carried out, where and with what.
-        events: The event log; it may have been cut off.
-        outcomes: What came of each goal.
-        authorization: Who approved what; None where that is not known.
-        estimate: What it was expected to take; None leaves the comparison out.
-        signed: Whose signature the mission has, in words; empty where there is none.
-        hashes: SHA-256 of what the report rests on, each with its name.
+        task, site, robot: The mission's Task, site and robot.
+        events: The event log, which may be cut off.
+        outcomes: The outcome of each goal.
+        authorization: The approval, or None if not known.
+        estimate: The forecast, or None to leave the comparison out.
+        signed: The signer, in words; empty if the mission is not signed.
+        hashes: Name and SHA-256 of each further input.
     """
     names = PlaceNames(site)
     read = summaries(task, robot, events)
@@ -160,7 +156,7 @@ def _subtitle(robot: RobotProfile, site: Site, authorization: Authorization | No
 def _verdict(
     task: Task, robot: RobotProfile, events: Sequence[Event], outcomes: Sequence[GoalOutcome]
 ) -> tuple[str, str]:
-    """Return how it ended, in a word, and the outcome in one line."""
+    """Return how the mission ended, in a word, and the outcome in one line."""
     status, reason, found = judge_end(task, events, robot.energy.reserve_percent)
     met = sum(o.outcome == "success" for o in outcomes)
     goals = f"{met} of {say_count(len(outcomes), 'goal')} met" if outcomes else "no goals"
@@ -186,7 +182,7 @@ def _tiles(events: Sequence[Event]) -> tuple[tuple[str, str], ...]:
 
 
 def _words(task: Task) -> tuple[tuple[str, str], ...]:
-    """What became of the words of the request; nothing where the Task does not say it."""
+    """Return what became of each word of the request, or nothing if the Task does not record it."""
     if not has_ranges(task):
         return ()
     pieces = account(task)
@@ -213,14 +209,14 @@ def _goal_rows(task: Task, events: Sequence[Event], outcomes: Sequence[GoalOutco
 
 
 def _without_reasons(why: str, reasons: Iterable[str]) -> str:
-    """Why no more was done, without what the section on what was left out says at length."""
+    """Remove reasons that the section on work left out gives at length."""
     for reason in reasons:
         why = why.replace(reason, "")
     return why
 
 
 def _bars(task: Task, events: Sequence[Event], estimate: Estimate | None) -> Iterable[Bar]:
-    """Driven distance, time and battery against the forecast of the branch that was taken, and against the budget."""
+    """Yield distance, time and battery against the forecast of the branch taken and the budget."""
     metres, seconds, percent = used(events)
     branch = branch_taken(events, estimate) if estimate else None
     limits: dict[BudgetKind, float] = {b.kind: b.limit for b in task.constraints.budgets}
