@@ -25,7 +25,7 @@ from fieldhand.exchange.btcpp import read_tree, write_tree
 from fieldhand.exchange.mcap.reading import read_mcap
 from fieldhand.exchange.mcap.writing import McapLog
 from fieldhand.execution.log import read_events
-from fieldhand.execution.world import load_world
+from fieldhand.execution.world_file import load_world
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import builtin_names, parse_profile, profile_bytes
 from fieldhand.site.content import content_sha256

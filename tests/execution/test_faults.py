@@ -26,8 +26,8 @@ from fieldhand.execution.world import (
     Spot,
     World,
     WorldFault,
-    parse_world,
 )
+from fieldhand.execution.world_file import parse_world
 from fieldhand.robot.model import Patience
 from fieldhand.site.model import Site
 from fieldhand.task.build import FAULTED_EXITS

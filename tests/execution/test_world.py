@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from fieldhand.errors import WorldError
 from fieldhand.execution import world as w
-from fieldhand.execution.world import World, load_world
+from fieldhand.execution.world import World
+from fieldhand.execution.world_file import MAX_BYTES, load_world, parse_world
 from fieldhand.strict_yaml import read_yaml
 
 
@@ -184,7 +185,7 @@ def test_every_mistake_of_a_file_is_said_at_once_with_its_place(
         "\n".join([*text, "faults:", *(f"- {line}" for line, _ in faults), "- {fault: disk_full, at_s: 3}"])
     )
     with pytest.raises(WorldError) as caught:
-        w.parse_world(content, source="w.yaml")
+        parse_world(content, source="w.yaml")
     line = str(caught.value)
     assert line.startswith(f"w.yaml: {count} mistakes: ")
     for said in says:
@@ -197,7 +198,7 @@ def test_of_very_many_mistakes_ten_are_said_and_the_others_counted() -> None:
     with pytest.raises(
         WorldError, match=r"30 mistakes: faults\[0\]: .*faults\[9\]: .*; and 20 more; see docs"
     ) as caught:
-        w.parse_world({"faults": [3] * 30})
+        parse_world({"faults": [3] * 30})
     assert "faults[10]" not in str(caught.value)
 
 
@@ -211,6 +212,6 @@ def test_files_that_cannot_be_read(tmp_path: Path) -> None:
     with pytest.raises(WorldError, match="is not UTF-8"):
         load_world(binary)
     large = tmp_path / "l.yaml"
-    large.write_text("#" * (w.MAX_BYTES + 1))
+    large.write_text("#" * (MAX_BYTES + 1))
     with pytest.raises(WorldError, match="is larger than"):
         load_world(large)

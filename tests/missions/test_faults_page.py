@@ -12,8 +12,8 @@ import yaml
 from fieldhand import mission
 from fieldhand.errors import OutputError
 from fieldhand.evaluation.telling import Teller
-from fieldhand.execution.world import parse_world
 from fieldhand.execution.world_faults import AnyFault
+from fieldhand.execution.world_file import parse_world
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot

@@ -19,7 +19,8 @@ from fieldhand.bench.missions.cases import Expected
 from fieldhand.bench.missions.ground import load_ground
 from fieldhand.bench.missions.judge import judge
 from fieldhand.bench.missions.log import read_log
-from fieldhand.execution.world import World, parse_world
+from fieldhand.execution.world import World
+from fieldhand.execution.world_file import parse_world
 from fieldhand.planning.llm.replay import replay
 from fieldhand.planning.llm.transcript import read_transcript
 from fieldhand.planning.planner import Planned

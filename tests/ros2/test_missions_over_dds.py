@@ -34,7 +34,8 @@ from fieldhand.execution.drivers.ros2 import boarding
 from fieldhand.execution.drivers.ros2.boarding import board
 from fieldhand.execution.journal import store
 from fieldhand.execution.vehicle import Vehicle
-from fieldhand.execution.world import World, parse_world
+from fieldhand.execution.world import World
+from fieldhand.execution.world_file import parse_world
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot, profile_bytes

@@ -77,7 +77,8 @@ def run(
     from fieldhand.cli.flight import Kept, Orders, fly, parse_speed
     from fieldhand.cli.inputs import Ground, GroundFiles, read_ground
     from fieldhand.cli.outputs import require_folder
-    from fieldhand.execution.world import World, load_world
+    from fieldhand.execution.world import World
+    from fieldhand.execution.world_file import load_world
     from fieldhand.language import spoken
 
     language = spoken(lang, os.environ)

@@ -60,7 +60,8 @@ def sim_robot(
     from fieldhand.execution.drivers.ros2.twin.serving import serve
     from fieldhand.execution.drivers.ros2.twin.state import Identity, read_state, write_state
     from fieldhand.execution.interrupts import ctrl_c_as_request
-    from fieldhand.execution.world import World, load_world
+    from fieldhand.execution.world import World
+    from fieldhand.execution.world_file import load_world
 
     clock = ScaledClock(_paced(speed))
     ground = open_ground(site, robot, lenient=lenient)

@@ -1,4 +1,4 @@
-"""The world of a simulation: what sensors would read, and what goes wrong. Read from YAML by :func:`load_world`.
+"""The world of a simulation: what sensors would read, and what goes wrong (:mod:`.world_file` reads it from YAML).
 
 A world names trees by id or by latitude and longitude, so that it does not depend on how a program numbers them.
 Whether it fits a site and a robot is checked where it is used (:mod:`fieldhand.execution.drivers.groundtruth`).
@@ -7,17 +7,8 @@ Whether it fits a site and a robot is checked where it is used (:mod:`fieldhand.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from datetime import datetime
-from pathlib import Path
-from typing import Any
-
-from fieldhand.errors import WorldError
-from fieldhand.files import FileFault, read_file
-from fieldhand.language import message, recalled
-
-#: A world of a value for each of 3,000 trees is 200 kB; a file beyond this is something else.
-MAX_BYTES = 5_000_000
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -177,68 +168,3 @@ class World:
     begins: datetime | None = None
     source: str = "world"
     data: bytes | None = field(default=None, repr=False, compare=False)
-
-
-def load_world(path: Path) -> World:
-    """The world of a YAML file (docs/formats.md, "World file").
-
-    Raises:
-        WorldError: It cannot be read or used; says which key, and what to do.
-    """
-    try:
-        return decode_world(read_file(path, MAX_BYTES), source=str(path))
-    except FileFault as fault:
-        advice = message("give the path of a YAML file")
-        if fault.kind == "too large":
-            advice = message("is it a world file?")
-        raise WorldError(recalled(fault.what, "file"), where=str(path), advice=advice) from None
-
-
-def decode_world(data: bytes, *, source: str) -> World:
-    """Return the world of the bytes of a YAML file, with these bytes.
-
-    Args:
-        data: The file.
-        source: What to call it in messages.
-
-    Raises:
-        WorldError: It cannot be used; says which key, and what to do.
-    """
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        raise WorldError("is not UTF-8 text", where=source, advice="save it as UTF-8") from None
-    return replace(parse_world(_content(text, source), source=source), data=data)
-
-
-def parse_world(content: Mapping[str, Any], *, source: str = "world") -> World:
-    """The world that the content of a world file says.
-
-    Args:
-        content: As YAML or JSON gives it.
-        source: What to call it in messages.
-
-    Raises:
-        WorldError: It cannot be used; says which key, and what to do.
-    """
-    from fieldhand.execution.world_file import world_of
-
-    return world_of(content, source=source)
-
-
-def _content(text: str, source: str) -> dict[Any, Any]:
-    from fieldhand.strict_yaml import YamlFault, read_yaml
-
-    try:
-        content = read_yaml(text)
-    except YamlFault as fault:
-        where = f"{source}, line {fault.line}" if fault.line else source
-        advice = "correct that line" if fault.line else "see docs/formats.md, 'World file'"
-        raise WorldError(f"is not YAML: {fault.what}", where=where, advice=advice) from None
-    if content is None:
-        raise WorldError("is empty", where=source, advice="leave --world out for a world without surprises")
-    if not isinstance(content, dict):
-        raise WorldError(
-            "is not a mapping of keys to values", where=source, advice="begin with readings:, faults: or seed:"
-        )
-    return content

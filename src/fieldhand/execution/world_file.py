@@ -1,10 +1,12 @@
-"""The edge of a world file: pydantic models of its YAML, and its mistakes in words."""
+"""World files: read from YAML, validated by pydantic models, with their mistakes in words."""
 
 from __future__ import annotations
 
 import difflib
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from datetime import datetime
+from pathlib import Path
 from typing import Annotated, Any, get_args
 
 from pydantic import (
@@ -22,7 +24,13 @@ from pydantic_core import ErrorDetails
 from fieldhand.errors import WorldError
 from fieldhand.execution.world import Truth, World
 from fieldhand.execution.world_faults import AnyFault, FaultModel, SpotModel, Strict
+from fieldhand.files import FileFault, read_file
+from fieldhand.language import message, recalled
+from fieldhand.strict_yaml import YamlFault, read_yaml
 from fieldhand.visible import find_hidden_within
+
+#: A world of a value for each of 3,000 trees is 200 kB; a file beyond this is something else.
+MAX_BYTES = 5_000_000
 
 GUIDE = "see docs/formats.md, 'World file'"
 _CORRECT = "correct the value"
@@ -77,11 +85,47 @@ class WorldModel(Strict):
     begins: Annotated[AwareDatetime, AfterValidator(_of_our_time)] | None = None
 
 
-def world_of(content: Mapping[str, Any], *, source: str) -> World:
-    """The world that a file's YAML says.
+def load_world(path: Path) -> World:
+    """Return the world of a YAML file (docs/formats.md, "World file").
 
     Raises:
-        WorldError: A key is unknown, missing, or its value is of no use; or nobody can see all of it.
+        WorldError: It cannot be read or used; says which key, and what to do.
+    """
+    try:
+        return decode_world(read_file(path, MAX_BYTES), source=str(path))
+    except FileFault as fault:
+        advice = message("give the path of a YAML file")
+        if fault.kind == "too large":
+            advice = message("is it a world file?")
+        raise WorldError(recalled(fault.what, "file"), where=str(path), advice=advice) from None
+
+
+def decode_world(data: bytes, *, source: str) -> World:
+    """Return the world of the bytes of a YAML file, with these bytes.
+
+    Args:
+        data: The file.
+        source: What to call it in messages.
+
+    Raises:
+        WorldError: It cannot be used; says which key, and what to do.
+    """
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise WorldError("is not UTF-8 text", where=source, advice="save it as UTF-8") from None
+    return replace(parse_world(_content(text, source), source=source), data=data)
+
+
+def parse_world(content: Mapping[str, Any], *, source: str = "world") -> World:
+    """Return the world that the content of a world file describes.
+
+    Args:
+        content: As YAML or JSON gives it.
+        source: What to call it in messages.
+
+    Raises:
+        WorldError: A key is unknown or missing, a value is invalid, or text is hidden; says which, and what to do.
     """
     found = find_hidden_within(content)
     if found is not None:
@@ -104,6 +148,22 @@ def world_of(content: Mapping[str, Any], *, source: str) -> World:
         begins=model.begins,
         source=source,
     )
+
+
+def _content(text: str, source: str) -> dict[Any, Any]:
+    try:
+        content = read_yaml(text)
+    except YamlFault as fault:
+        where = f"{source}, line {fault.line}" if fault.line else source
+        advice = "correct that line" if fault.line else "see docs/formats.md, 'World file'"
+        raise WorldError(f"is not YAML: {fault.what}", where=where, advice=advice) from None
+    if content is None:
+        raise WorldError("is empty", where=source, advice="leave --world out for a world without surprises")
+    if not isinstance(content, dict):
+        raise WorldError(
+            "is not a mapping of keys to values", where=source, advice="begin with readings:, faults: or seed:"
+        )
+    return content
 
 
 def _explained(error: ValidationError, source: str) -> WorldError:

@@ -286,7 +286,8 @@ class FolderContents:
         Raises:
             JournalError, NotApprovedError, BundleError, NotTrustedError: As :func:`open_mission`.
         """
-        from fieldhand.execution.world import World, decode_world
+        from fieldhand.execution.world import World
+        from fieldhand.execution.world_file import decode_world
 
         folder, about, files = self.folder, self.about, self.files
         try:

@@ -113,7 +113,8 @@ def compose_station(
     from fieldhand import missions, past
     from fieldhand.approval.memory import approval_memory, trust_store
     from fieldhand.delivery.verified import acceptance
-    from fieldhand.execution.world import World, load_world
+    from fieldhand.execution.world import World
+    from fieldhand.execution.world_file import load_world
     from fieldhand.robot.loader import load_robot
     from fieldhand.site.geojson import open_site
 

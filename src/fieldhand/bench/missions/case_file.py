@@ -28,7 +28,7 @@ from fieldhand.bench.missions.cases import Case, CaseWorld, Expected
 from fieldhand.bench.missions.ground import Ground, load_ground
 from fieldhand.bench.missions.places import Attributes, Place, Positions
 from fieldhand.errors import CaseError
-from fieldhand.execution.world import parse_world
+from fieldhand.execution.world_file import parse_world
 from fieldhand.files import FileFault, read_file
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
