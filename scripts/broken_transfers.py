@@ -46,11 +46,11 @@ from fieldhand.approval.keys.signing import SigningKeys
 from fieldhand.approval.keys.trust import TrustStore
 from fieldhand.delivery.link import RobotLink, open_client
 from fieldhand.errors import DeliveryError
+from fieldhand.places.selectors import TreeIs
 from fieldhand.robot.loader import load_robot, profile_bytes
 from fieldhand.site.geojson import open_site, site_files
 from fieldhand.task.build import make_task
 from fieldhand.task.plan import Act
-from fieldhand.task.selectors import TreeIs
 
 KINDS = ("cut", "corrupt", "stuffed", "lost answer", "killed agent", "killed sender")
 TOKEN = "0123456789abcdef" * 2

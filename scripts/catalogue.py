@@ -19,11 +19,11 @@ sys.path.insert(0, str(SOURCE.parent))
 
 from fieldhand.language.message import Message  # noqa: E402
 from fieldhand.language.po import Entry, read_entries  # noqa: E402
+from fieldhand.language.words import say_action, say_captures, say_name  # noqa: E402
+from fieldhand.places.attribute_words import say_attribute, say_with_article  # noqa: E402
 from fieldhand.planning.english.languages import known_languages  # noqa: E402
 from fieldhand.planning.english.vocabulary import vocabulary  # noqa: E402
 from fieldhand.robot.loader import builtin_names, load_robot  # noqa: E402
-from fieldhand.site.places.attribute_words import say_attribute, say_with_article  # noqa: E402
-from fieldhand.task.words import say_action, say_captures, say_name  # noqa: E402
 
 #: Words of the built-in orchard, of site files everywhere, and of Tasks: they come from data, not from the source.
 ATTRIBUTES = (
@@ -71,7 +71,7 @@ def _of_file(tree: ast.Module) -> Iterator[Entry]:
             yield Entry(template=texts[0], many=texts[1], context=str(context), said=())
 
 
-#: Contexts of ordinals (`fieldhand.site.places.row_words`).
+#: Contexts of ordinals (`fieldhand.places.row_words`).
 _ORDINALS = ("tree", "row", "one")
 
 

@@ -19,6 +19,7 @@ import faulted_flights
 from faulted_flights import Flown, random_plan, small_site
 from fieldhand import mission
 from fieldhand.execution.world import BatteryDrains, Blocked, Spot, World, WorldFault
+from fieldhand.places.selectors import TreeIs, Trees
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
 from fieldhand.task.build import make_task
@@ -26,7 +27,6 @@ from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, Node, Sequence
 from fieldhand.task.results import Event
-from fieldhand.task.selectors import TreeIs, Trees
 from rig import authorized
 
 #: What floating-point sums may differ by.

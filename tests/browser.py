@@ -14,6 +14,7 @@ from fastapi import FastAPI
 from fieldhand import mission
 from fieldhand.api.app import create_app
 from fieldhand.api.work import Limits
+from fieldhand.places.selectors import Corners, Here, Nearest, Quarter, Where
 from fieldhand.planning.planner import Answer, Outcome, Planned, Planner
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
@@ -24,7 +25,6 @@ from fieldhand.task.codec import encode
 from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import Budget, Constraints, Resource, Task
 from fieldhand.task.plan import Act, ForEach, If, Node, Sequence
-from fieldhand.task.selectors import Corners, Here, Nearest, Quarter, Where
 
 LOCAL = frozenset({"localhost", "127.0.0.1", "::1"})
 

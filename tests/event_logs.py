@@ -10,12 +10,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from random import Random
 
+from fieldhand.places.selectors import Farthest, Half, Here, TreeIs
 from fieldhand.task.build import make_task
 from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Optional, Repeat, Sequence, Stop, Try
 from fieldhand.task.results import Acted, Arrived, Decided, Ended, Event, Exited, Faulted, Shed, Started, Visiting
-from fieldhand.task.selectors import Farthest, Half, Here, TreeIs
 
 HOT = Compare(reading="r", quantity="canopy_temperature", test="lt", value=33, unit="degC")
 ACTIONS = ("take_thermal_picture", "read_co2", "read_ambient_temperature")

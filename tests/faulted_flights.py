@@ -32,6 +32,7 @@ from fieldhand.execution.world import (
     World,
     WorldFault,
 )
+from fieldhand.places.selectors import TreeIs, Trees, Union
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import Patience, RobotProfile
 from fieldhand.site.geojson import open_site, parse_site
@@ -41,7 +42,6 @@ from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import FaultedExit, Task
 from fieldhand.task.plan import Act, ForEach, GoTo, Node, Optional, Repeat, Sequence, Try, selector_of, walk
 from fieldhand.task.results import Event
-from fieldhand.task.selectors import TreeIs, Trees, Union
 from rig import authorized
 
 #: Metres within which a robot is at an exit.

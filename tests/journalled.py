@@ -15,10 +15,10 @@ from fieldhand.execution.journal.store import Journal, create
 from fieldhand.execution.orders import Order
 from fieldhand.execution.runtime import Result, run
 from fieldhand.execution.world import World
+from fieldhand.places.selectors import Half, Take, TreeIs
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.conditions import Compare
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Sequence, Try
-from fieldhand.task.selectors import Half, Take, TreeIs
 from rig import authorized, husky, orchard, task_for
 
 PICTURE = "take_thermal_picture"

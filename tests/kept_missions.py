@@ -8,11 +8,11 @@ from functools import cache
 from fieldhand import mission, missions
 from fieldhand.approval.authorize import EveryWarning
 from fieldhand.execution.world_file import decode_world
+from fieldhand.places.selectors import TreeIs
 from fieldhand.robot.loader import parse_profile, profile_bytes
 from fieldhand.site.geojson import site_files, site_of
 from fieldhand.task.build import make_task
 from fieldhand.task.plan import Act
-from fieldhand.task.selectors import TreeIs
 
 WORLD = b"readings:\n  co2: 380\n"
 

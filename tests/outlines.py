@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import fields
 
+from fieldhand.places import selectors as s
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
-from fieldhand.task import selectors as s
 from fieldhand.task.frames import Task
 
 SHORT = {"take_thermal_picture": "picture", "take_picture": "picture", "read_co2": "co2"}

@@ -10,8 +10,8 @@ from fieldhand.evaluation.guard import BudgetGuard
 from fieldhand.forecast.routes import beginning, drives_for, standing
 from fieldhand.forecast.service import reward_of, service_of
 from fieldhand.forecast.state import Choice, MissionState, Spent, Verdict, Visit
+from fieldhand.places.context import Context
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.context import Context
 from fieldhand.site.drives import Drives
 from fieldhand.site.model import Place, Site
 from fieldhand.task.frames import Task

@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
+from fieldhand.places import selectors as s
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
-from fieldhand.task import selectors as s
 from fieldhand.task.build import make_task
 from fieldhand.task.frames import Budget, Constraints, Task
 

@@ -24,7 +24,7 @@ from fieldhand.task.build import FAULTED_EXITS, make_task
 from fieldhand.task.frames import Constraints, FaultedExit, Task, Then
 from fieldhand.task.plan import Node
 from fieldhand.task.results import Acted, Event
-from fieldhand.task.selectors import Value
+from fieldhand.terms import Value
 
 Kind = TypeVar("Kind")
 

@@ -20,11 +20,11 @@ from fieldhand.approval.bundle.signature import sign_manifest
 from fieldhand.approval.keys.public import PublicKey
 from fieldhand.approval.keys.signing import SigningKey
 from fieldhand.approval.keys.trust import KnownKey
+from fieldhand.places.selectors import TreeIs
 from fieldhand.robot.loader import parse_profile, profile_bytes
 from fieldhand.site.formats.files import SiteFiles
 from fieldhand.site.geojson import site_of
 from fieldhand.task.plan import Act
-from fieldhand.task.selectors import TreeIs
 from orchards import at, task_for
 from sites import collection, point
 

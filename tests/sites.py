@@ -11,12 +11,12 @@ import numpy as np
 from hypothesis import strategies as st
 from shapely.geometry import Polygon
 
-from fieldhand.site.context import Context
+from fieldhand.places.context import Context
 from fieldhand.site.geojson import parse_site
 from fieldhand.site.model import Place, Site, Tree, Zone, ZoneKind
 from fieldhand.site.planting import Block, Planting, Row
 from fieldhand.site.projection import Projection
-from fieldhand.task.selectors import Value
+from fieldhand.terms import Value
 
 XY = tuple[float, float]
 HOME = Projection(37.0, -120.0)

@@ -14,6 +14,7 @@ from typing import Any, Literal, Union, get_args, get_origin
 
 from hypothesis import strategies as st
 
+from fieldhand.places.selectors import Selector
 from fieldhand.task.build import make_task
 from fieldhand.task.capabilities import (
     ActionCapability,
@@ -26,7 +27,7 @@ from fieldhand.task.codec_shapes import hints_of
 from fieldhand.task.conditions import Between, Compare, Condition, Level
 from fieldhand.task.frames import Budget, Constraints, FaultedExit, Resource, Task
 from fieldhand.task.plan import Act, Node, Span
-from fieldhand.task.selectors import Selector, Value
+from fieldhand.terms import Value
 from fieldhand.visible import find_hidden
 
 #: A robot with every kind of parameter, an action that measures two quantities and a quantity without level words.

@@ -28,6 +28,7 @@ from command import Run, fieldhand
 from fieldhand.approval.authorize import EveryWarning, approve
 from fieldhand.approval.bundle.opening import unseal
 from fieldhand.approval.bundle.packing import pack
+from fieldhand.places.selectors import TreeIs, Where
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.llm.scripted import ScriptedEndpoint
 from fieldhand.robot.loader import parse_profile, profile_bytes
@@ -38,7 +39,6 @@ from fieldhand.task.build import make_task
 from fieldhand.task.codec import encode
 from fieldhand.task.frames import Resource
 from fieldhand.task.plan import Act, ForEach, Sequence
-from fieldhand.task.selectors import TreeIs, Where
 from hostile import (
     FORMULA,
     SEEN,

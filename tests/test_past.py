@@ -11,10 +11,10 @@ from fieldhand import mission, past
 from fieldhand.errors import InputError
 from fieldhand.evaluation.report.log_facts import end_of
 from fieldhand.execution.world import World
+from fieldhand.places.selectors import Corners
 from fieldhand.task.codec import encode
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.plan import Act, ForEach
-from fieldhand.task.selectors import Corners
 from orchards import husky, orchard, task_for
 
 SITE, ROBOT = orchard(), husky()

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from browser import Says, browser, corner_xml, task_of
+from fieldhand.places.selectors import TreeIs
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Planned, Reason, Refused
 from fieldhand.robot.model import RobotProfile
@@ -16,7 +17,6 @@ from fieldhand.site.geojson import load_demo
 from fieldhand.site.model import Site
 from fieldhand.task.codec import decode
 from fieldhand.task.plan import Act, walk
-from fieldhand.task.selectors import TreeIs
 
 
 @pytest.fixture(scope="module")

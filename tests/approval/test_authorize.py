@@ -13,9 +13,9 @@ import fieldhand
 from fieldhand.approval.authorize import EveryWarning, approve
 from fieldhand.approval.checks import check
 from fieldhand.errors import NotApprovedError, NotConfirmedError
+from fieldhand.places.selectors import TreeIs
 from fieldhand.task.codec import decode, encode
 from fieldhand.task.plan import Act
-from fieldhand.task.selectors import TreeIs
 from orchards import husky, orchard, task_for
 
 SITE, ROBOT = orchard(), husky()

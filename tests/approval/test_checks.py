@@ -12,13 +12,13 @@ from fieldhand.approval.branch_checks import driven_through
 from fieldhand.approval.checks import check, examine
 from fieldhand.forecast.routes import drives_for
 from fieldhand.forecast.walk import walk as walk_through
+from fieldhand.places.selectors import Bound, Corners, InZone, Marker, Other, Take, TreeIs, Trees, Where
 from fieldhand.site.drives import Drive
 from fieldhand.site.model import Zone
 from fieldhand.task.codec import encode
 from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import Budget, Constraints, Resource
 from fieldhand.task.plan import Act, ForEach, GoTo, If, Sequence
-from fieldhand.task.selectors import Bound, Corners, InZone, Marker, Other, Take, TreeIs, Trees, Where
 from orchards import block, husky, orchard, task_for
 
 SITE, ROBOT = orchard(), husky()

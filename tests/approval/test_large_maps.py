@@ -12,13 +12,13 @@ from fieldhand.approval.readback import read_back
 from fieldhand.approval.stops import Leg, Plan, Stop, plan_of
 from fieldhand.evaluation.report.maps import draw_map as report_map
 from fieldhand.forecast.estimate import estimate
+from fieldhand.places.selectors import Corners
 from fieldhand.site.drawing.blocks import block_words
 from fieldhand.site.drawing.choices import choices_picture
 from fieldhand.site.geojson import parse_site
 from fieldhand.site.orchards import random_orchard
 from fieldhand.task.plan import ForEach
 from fieldhand.task.results import Acted, Arrived, Driving
-from fieldhand.task.selectors import Corners
 from orchards import husky, orchard, task_for
 
 #: Names of all kinds that stand on maps.

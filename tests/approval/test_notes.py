@@ -6,10 +6,10 @@ from dataclasses import replace
 
 from fieldhand.approval.checks import examine
 from fieldhand.approval.readback import read_back
+from fieldhand.places.selectors import AlongRow, Selector, Top, TreeIs
 from fieldhand.site.geojson import load_demo
 from fieldhand.site.model import Site
 from fieldhand.task.plan import Act, ForEach, Sequence
-from fieldhand.task.selectors import AlongRow, Selector, Top, TreeIs
 from orchards import husky, orchard, task_for
 
 SITE = orchard(rows=8, columns=4)

@@ -10,10 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.approval.clauses import say_act, say_condition
-from fieldhand.site.places.words import say_selector
+from fieldhand.places import selectors as s
+from fieldhand.places.words import say_selector
 from fieldhand.task import conditions as c
-from fieldhand.task import selectors as s
 from fieldhand.task.plan import Act
+from fieldhand.terms import Side, Test
 from orchards import husky
 from strategies import ROVER, Parts
 
@@ -212,9 +213,7 @@ PLAIN = st.sampled_from(("yellow", "Kerman", "old"))
 
 
 @settings(max_examples=60, deadline=None)
-@given(
-    value=PLAIN, test=st.sampled_from(get_args(s.Test)), count=st.integers(1, 9), side=st.sampled_from(get_args(s.Side))
-)
+@given(value=PLAIN, test=st.sampled_from(get_args(Test)), count=st.integers(1, 9), side=st.sampled_from(get_args(Side)))
 def test_names_with_underscores_are_said_without(value, test, count, side):
     selector = s.Top(
         attribute="trunk_girth_cm",

@@ -9,10 +9,10 @@ from fieldhand.approval.readback import read_back
 from fieldhand.approval.stops import plan_of
 from fieldhand.errors import OutputError
 from fieldhand.forecast.estimate import estimate
+from fieldhand.places.selectors import Corners, TreeIs, Trees
 from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, If, Optional, Sequence
-from fieldhand.task.selectors import Corners, TreeIs, Trees
 from orchards import block, husky, orchard, task_for
 
 SITE, ROBOT = orchard(), husky()

@@ -10,10 +10,7 @@ from hypothesis import strategies as st
 
 from fieldhand.approval.readback import read_back
 from fieldhand.forecast.estimate import estimate
-from fieldhand.task.conditions import Compare, Level
-from fieldhand.task.frames import Budget, Constraints, FaultedExit
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Optional, Repeat, Sequence, Stop, Try, walk
-from fieldhand.task.selectors import (
+from fieldhand.places.selectors import (
     Bound,
     Corners,
     Extreme,
@@ -26,6 +23,9 @@ from fieldhand.task.selectors import (
     Trees,
     Where,
 )
+from fieldhand.task.conditions import Compare, Level
+from fieldhand.task.frames import Budget, Constraints, FaultedExit
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Optional, Repeat, Sequence, Stop, Try, walk
 from orchards import husky, orchard, task_for
 
 PICTURE, CO2 = "take_thermal_picture", "read_co2"

@@ -13,10 +13,10 @@ from fieldhand.bench.draw import Draft
 from fieldhand.bench.fly import fly
 from fieldhand.bench.referee import Ruling, judge
 from fieldhand.execution.world import ActionFails, Spot, World
+from fieldhand.places.selectors import TreeIs, Trees, Union
 from fieldhand.task.frames import Budget, Constraints, Task
 from fieldhand.task.plan import Act, AnyOrder, ForEach, Node, Repeat, Sequence, Try, walk
 from fieldhand.task.results import Acted, Arrived, Decided, Ended, Event, Exited, Shed, Visiting
-from fieldhand.task.selectors import TreeIs, Trees, Union
 from rig import BudgetOf, Rig, husky, of_type, orchard, task_for
 
 PICTURE = Act(id="", action="take_thermal_picture")

@@ -11,10 +11,10 @@ from fieldhand.bench.repeated import Mission, compare, summarized
 from fieldhand.bench.scenes import made_block
 from fieldhand.errors import SiteError
 from fieldhand.forecast.estimate import estimate
+from fieldhand.places.selectors import Trees
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach
-from fieldhand.task.selectors import Trees
 from orchards import husky, orchard, task_for
 
 SITE, ROBOT = orchard(), husky()

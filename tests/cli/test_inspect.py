@@ -15,11 +15,11 @@ from fieldhand.approval.authorize import EveryWarning, approve
 from fieldhand.approval.bundle.container import MANIFEST, SIGNATURE, wrap
 from fieldhand.approval.bundle.packing import pack
 from fieldhand.approval.bundle.signature import sign_manifest
+from fieldhand.places.selectors import TreeIs
 from fieldhand.robot.loader import parse_profile, profile_bytes
 from fieldhand.site.geojson import site_of
 from fieldhand.task.codec import decode, encode
 from fieldhand.task.plan import Act
-from fieldhand.task.selectors import TreeIs
 from orchards import task_for
 from signed import WHEN, manifest_of, members_of, orchard_files, signing_key
 from terminal import screen

@@ -17,11 +17,11 @@ from fieldhand.forecast.routes import drives_for, visits_in_order
 from fieldhand.forecast.state import Spent, Visit
 from fieldhand.forecast.walk import walk
 from fieldhand.orienteering.tail import exceeding
+from fieldhand.places.selectors import TreeIs, Trees
 from fieldhand.site.geojson import load_site
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, Repeat, Sequence
 from fieldhand.task.results import Shed
-from fieldhand.task.selectors import TreeIs, Trees
 from orchards import block, husky, orchard, task_for
 from paper import Paper
 

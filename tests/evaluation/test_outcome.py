@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from event_logs import HOT, Paper, random_plan, task_of
 from fieldhand.evaluation.outcome import judge
+from fieldhand.places.selectors import Corners, Half, TreeIs, Trees
 from fieldhand.task.plan import Act, AnyOrder, ForEach, If, Repeat, Sequence, Stop, Try
 from fieldhand.task.results import Acted, Arrived, Decided, Ended, Exited, Faulted, Shed, Visiting
-from fieldhand.task.selectors import Corners, Half, TreeIs, Trees
 
 seeds = st.integers(0, 2**32)
 PICTURE = Act(id="", action="take_thermal_picture")

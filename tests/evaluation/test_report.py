@@ -27,6 +27,7 @@ from fieldhand.evaluation.report.place_names import PlaceNames
 from fieldhand.evaluation.report.readings import MOST_ROWS, relation, summaries
 from fieldhand.evaluation.report.writing import write_report
 from fieldhand.forecast.estimate import estimate
+from fieldhand.places.selectors import Corners
 from fieldhand.site.geojson import parse_site
 from fieldhand.task.authorization import Authorization
 from fieldhand.task.conditions import Compare
@@ -50,7 +51,6 @@ from fieldhand.task.results import (
     Visiting,
     Waited,
 )
-from fieldhand.task.selectors import Corners
 from fieldhand.visible import visible
 from orchards import husky, orchard, task_for
 

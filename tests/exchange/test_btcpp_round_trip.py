@@ -7,11 +7,11 @@ from hypothesis import HealthCheck, given, reject, settings
 
 from fieldhand.errors import TaskError
 from fieldhand.exchange.btcpp import read_tree, write_tree
+from fieldhand.places.selectors import Corners, Trees
 from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
 from fieldhand.task.conditions import AllOf, Compare, Not, TreeHas
 from fieldhand.task.frames import Task
-from fieldhand.task.selectors import Corners, Trees
 from strategies import ROVER, Parts
 
 MEASURES = {"read_co2": (("co2", "ppm"),)}

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import yaml
 
+from fieldhand.places.selectors import First
 from fieldhand.robot.loader import parse_profile
 from fieldhand.task.plan import Act
 from fieldhand.task.results import Acted
-from fieldhand.task.selectors import First
 from rig import Rig, of_type
 
 

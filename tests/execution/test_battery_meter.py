@@ -13,11 +13,11 @@ from hypothesis import strategies as st
 from fieldhand.execution.battery import STEP_PERCENT, BatteryMeter
 from fieldhand.execution.drivers.simulation import SimulatedDriver
 from fieldhand.execution.world import World
+from fieldhand.places.selectors import Trees
 from fieldhand.robot.loader import load_robot, parse_profile, profile_bytes
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.plan import Act, ForEach
 from fieldhand.task.results import Acted, LimitCrossed
-from fieldhand.task.selectors import Trees
 from rig import Rig, husky, of_type
 
 HOLD_S, FASTEST = 3.0, 0.15

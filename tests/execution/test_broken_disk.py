@@ -12,10 +12,10 @@ from fieldhand.errors import FieldhandError
 from fieldhand.execution import mission_clock
 from fieldhand.execution.drivers.protocol import ActionGoal
 from fieldhand.execution.journal.store import Journal
+from fieldhand.places.selectors import TreeIs
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.plan import Act, Sequence
 from fieldhand.task.results import InDoubt, Resumed
-from fieldhand.task.selectors import TreeIs
 from journalled import PICTURE, Cut, Field
 from rig import captured, of_type
 

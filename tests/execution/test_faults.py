@@ -28,6 +28,7 @@ from fieldhand.execution.world import (
     WorldFault,
 )
 from fieldhand.execution.world_file import parse_world
+from fieldhand.places.selectors import TreeIs, Trees, Union
 from fieldhand.robot.model import Patience
 from fieldhand.site.model import Site
 from fieldhand.task.build import FAULTED_EXITS
@@ -49,7 +50,6 @@ from fieldhand.task.results import (
     Started,
     Waited,
 )
-from fieldhand.task.selectors import TreeIs, Trees, Union
 from planted_sites import upright
 from rig import Rig, authorized, captured, husky, of_type, orchard, task_for
 

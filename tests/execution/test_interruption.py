@@ -15,11 +15,11 @@ from fieldhand.execution.drivers.simulation import SimulatedDriver
 from fieldhand.execution.interrupts import ctrl_c_as_request
 from fieldhand.execution.runtime import Result, run
 from fieldhand.execution.world import ActionFails, Blocked, Spot, World
+from fieldhand.places.selectors import Half, Take, TreeIs
 from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import FaultedExit
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Repeat, Sequence, Try
 from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event, Exited
-from fieldhand.task.selectors import Half, Take, TreeIs
 from rig import Rig, authorized, captured, husky, of_type, task_for
 
 PICTURE = "take_thermal_picture"

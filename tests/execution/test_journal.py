@@ -19,10 +19,10 @@ from fieldhand.execution.journal import store
 from fieldhand.execution.journal.desk import Desk
 from fieldhand.execution.journal.store import Journal
 from fieldhand.execution.orders import Order
+from fieldhand.places.selectors import TreeIs
 from fieldhand.task.event_lines import from_json, to_json
 from fieldhand.task.plan import Act
 from fieldhand.task.results import Acted, Continued, Ended, Exited, InDoubt, Paused, Resumed, Shed
-from fieldhand.task.selectors import TreeIs
 from journalled import PICTURE, Field, PowerCut
 from rig import BudgetOf, captured, husky, of_type, orchard, task_for
 

@@ -9,9 +9,9 @@ import pytest
 
 from fieldhand.errors import InputError, OutputError, TaskError
 from fieldhand.execution.log import EventLog, read_events
+from fieldhand.places.selectors import Half, TreeIs
 from fieldhand.task.plan import Act, ForEach
 from fieldhand.task.results import Ended
-from fieldhand.task.selectors import Half, TreeIs
 from rig import Rig
 
 PLAN = ForEach(id="", select=Half(side="north"), body=Act(id="", action="take_thermal_picture"), optional=True)

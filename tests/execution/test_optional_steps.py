@@ -10,9 +10,9 @@ from fieldhand.evaluation.outcome import judge
 from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.world import ActionFails, World
 from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
+from fieldhand.places.selectors import TreeIs, Union
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, Node, Optional, Repeat, Sequence, Stop, Try
 from fieldhand.task.results import Exited, Faulted, Shed
-from fieldhand.task.selectors import TreeIs, Union
 from rig import BudgetOf, Rig, captured, husky, of_type, task_for
 
 PICTURE = "take_thermal_picture"

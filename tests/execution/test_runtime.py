@@ -29,6 +29,7 @@ from fieldhand.execution.world import (
     World,
 )
 from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
+from fieldhand.places.selectors import Half, Selector, TreeIs, Trees, Union
 from fieldhand.task.conditions import Compare
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Constraints, FaultedExit
@@ -46,7 +47,6 @@ from fieldhand.task.results import (
     Started,
     Waited,
 )
-from fieldhand.task.selectors import Half, Selector, TreeIs, Trees, Union
 from rig import BudgetOf, Rig, authorized, captured, husky, of_type, orchard, task_for
 
 PICTURE, CO2 = "take_thermal_picture", "read_co2"

@@ -13,10 +13,7 @@ from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.tree import compile_tree
 from fieldhand.execution.world import ActionFails, DriveFails, SensorSilent, Spot, Truth, World
 from fieldhand.forecast.routes import drives_for
-from fieldhand.task.conditions import Compare, TreeHas
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Sequence, Stop, Try, walk
-from fieldhand.task.results import Acted, Arrived, Decided, Driving, Faulted, Visiting
-from fieldhand.task.selectors import (
+from fieldhand.places.selectors import (
     Bound,
     Excluding,
     Farthest,
@@ -30,6 +27,9 @@ from fieldhand.task.selectors import (
     TreeIs,
     Union,
 )
+from fieldhand.task.conditions import Compare, TreeHas
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Sequence, Stop, Try, walk
+from fieldhand.task.results import Acted, Arrived, Decided, Driving, Faulted, Visiting
 from rig import BudgetOf, Rig, captured, husky, of_type, orchard, task_for
 
 PICTURE, CO2, AIR = "take_thermal_picture", "read_co2", "read_ambient_temperature"

@@ -16,6 +16,7 @@ from fieldhand.evaluation.telling import Teller
 from fieldhand.execution.world import BatteryDrains, World
 from fieldhand.forecast.state import Spent
 from fieldhand.language import open_language
+from fieldhand.places.selectors import TreeIs, Trees
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.drives import Drives
 from fieldhand.site.stopping import CLEAR_M, safe_stop
@@ -23,7 +24,6 @@ from fieldhand.task.frames import Budget, Constraints, FaultedExit
 from fieldhand.task.limit_words import say_crossing
 from fieldhand.task.plan import Act, ForEach
 from fieldhand.task.results import Acted, Driving, Ended, Event, Exited, LimitCrossed, Shed, Started
-from fieldhand.task.selectors import TreeIs, Trees
 from rig import Rig, husky, of_type, orchard, task_for
 
 PLAN = ForEach(id="", select=Trees(), body=Act(id="", action="read_co2"))

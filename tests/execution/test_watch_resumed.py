@@ -19,10 +19,10 @@ from fieldhand.execution.journal import store
 from fieldhand.execution.journal.store import create
 from fieldhand.execution.runtime import Result, run
 from fieldhand.execution.world import BatteryDrains, World
+from fieldhand.places.selectors import TreeIs, Trees
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.plan import Act, ForEach, Sequence
 from fieldhand.task.results import Event, LimitCrossed, Resumed
-from fieldhand.task.selectors import TreeIs, Trees
 from journalled import Cut, PowerCut
 from rig import authorized, captured, husky, of_type, orchard, task_for
 

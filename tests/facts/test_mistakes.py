@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 import english_requests
 import row_requests
 from fieldhand.facts import mismatches
+from fieldhand.places import selectors as s
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
 from fieldhand.task import plan as p
-from fieldhand.task import selectors as s
 from fieldhand.task.build import make_task
 from fieldhand.task.frames import Task
 from plan_mutants import mutants

@@ -15,6 +15,7 @@ import yaml
 import english_requests
 import row_requests
 from fieldhand.facts import mismatches
+from fieldhand.places import selectors as s
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.llm.answer import TaskAnswer, read_answer
 from fieldhand.planning.llm.chat import Reply
@@ -27,7 +28,6 @@ from fieldhand.site.geojson import load_site, open_site
 from fieldhand.site.model import Site
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
-from fieldhand.task import selectors as s
 from fieldhand.task.build import make_task
 from fieldhand.task.codec import Draft
 from fieldhand.task.frames import Task

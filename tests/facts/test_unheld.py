@@ -7,10 +7,10 @@ from functools import cache
 import pytest
 
 from fieldhand.facts import mismatches
+from fieldhand.places import selectors as s
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
-from fieldhand.task import selectors as s
 from fieldhand.task.build import make_task
 from sites import point, read
 

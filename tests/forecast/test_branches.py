@@ -16,11 +16,11 @@ from fieldhand.forecast import branches as exploration
 from fieldhand.forecast import walker
 from fieldhand.forecast.branches import branches
 from fieldhand.forecast.estimate import estimate
+from fieldhand.places.selectors import Bound, Here, Nearest, Other, Take, TreeIs, Trees
 from fieldhand.task.conditions import Compare, Level, TreeHas
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, If, Node, Optional, Repeat, Sequence, Stop, Try
 from fieldhand.task.results import Acted, Decided
-from fieldhand.task.selectors import Bound, Here, Nearest, Other, Take, TreeIs, Trees
 from orchards import block, husky, orchard, task_for
 from rig import Rig
 

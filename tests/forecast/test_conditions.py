@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from fieldhand.forecast.conditions import Facts, evaluate
 from fieldhand.task.conditions import AllOf, AnyOf, Between, Compare, Condition, Level, Not, TreeHas
-from fieldhand.task.selectors import Test, Value
+from fieldhand.terms import Test, Value
 from rig import husky, orchard
 
 SITE = orchard()

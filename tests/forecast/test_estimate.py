@@ -14,11 +14,11 @@ from fieldhand.forecast.rest import rest_after
 from fieldhand.forecast.routes import drives_for
 from fieldhand.forecast.state import Spent, Visit
 from fieldhand.orienteering.tail import exceeding
-from fieldhand.site.context import Context
+from fieldhand.places.context import Context
+from fieldhand.places.selectors import Marker, TreeIs, Trees
 from fieldhand.task.conditions import Level
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, If, Repeat, Sequence
-from fieldhand.task.selectors import Marker, TreeIs, Trees
 from orchards import husky, orchard, task_for
 
 SITE = orchard()

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from fieldhand.bench.site.orchard import benchmark_orchard
 from fieldhand.forecast.legs import legs_between
 from fieldhand.forecast.limits import resources_of
 from fieldhand.forecast.optional import policy_for, visits_problem
@@ -11,7 +12,6 @@ from fieldhand.forecast.routes import beginning, drives_for, standing
 from fieldhand.forecast.state import Spent, Visit
 from fieldhand.orienteering.policy import State
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.bench.orchard import benchmark_orchard
 from fieldhand.site.geojson import parse_site
 from fieldhand.task.frames import Budget, Constraints
 from orchards import orchard

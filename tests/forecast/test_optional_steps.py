@@ -12,12 +12,12 @@ from fieldhand.forecast.rest import rest_after
 from fieldhand.forecast.routes import beginning, drives_for
 from fieldhand.forecast.visits import Visits
 from fieldhand.forecast.walk import walk
-from fieldhand.site.context import Context
+from fieldhand.places.context import Context
+from fieldhand.places.selectors import First, Here, Nearest, TreeIs, Trees, Where
 from fieldhand.task import plan as p
 from fieldhand.task.conditions import TreeHas
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Optional, Repeat, Sequence, Stop
-from fieldhand.task.selectors import First, Here, Nearest, TreeIs, Trees, Where
 from rig import husky, orchard, task_for
 
 SITE, ROBOT = orchard(), husky()

@@ -17,11 +17,11 @@ from fieldhand.forecast.routes import (
     steps_in_order,
     visits_in_order,
 )
-from fieldhand.site.context import Context
+from fieldhand.places.context import Context
+from fieldhand.places.selectors import Extreme, TreeIs, Trees, Where
 from fieldhand.task.build import number
 from fieldhand.task.conditions import TreeHas
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Repeat, Sequence, Try
-from fieldhand.task.selectors import Extreme, TreeIs, Trees, Where
 from orchards import husky, orchard, task_for
 
 SITE = orchard()
@@ -117,7 +117,7 @@ def test_home_counts_only_for_what_ends_the_plan_and_the_mission_goes_home():
 
 def test_a_drive_between_two_places_is_the_length_that_the_order_counted():
     yellow = Where(attribute="leaf_color", test="eq", value="yellow")
-    from fieldhand.site.places import resolve
+    from fieldhand.places.resolution import resolve
 
     places = standing(DRIVES, SITE.start, resolve(yellow, SITE, Context(here=SITE.start)))
     matrix = DRIVES.lengths(places)

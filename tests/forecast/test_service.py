@@ -3,9 +3,9 @@
 import pytest
 
 from fieldhand.forecast.service import service_of
+from fieldhand.places.selectors import Trees
 from fieldhand.task.conditions import Level
 from fieldhand.task.plan import Act, ForEach, GoTo, If, Repeat, Sequence, Stop, Try
-from fieldhand.task.selectors import Trees
 from orchards import husky
 
 ROBOT = husky()

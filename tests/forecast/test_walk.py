@@ -7,10 +7,10 @@ import pytest
 from fieldhand.errors import PlaceError, TaskError
 from fieldhand.forecast.branches import branches
 from fieldhand.forecast.walk import walk
+from fieldhand.places.selectors import Bound, Here, Marker, Nearest, Other, TreeIs, Trees, Where
 from fieldhand.task.conditions import Level
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Repeat, Sequence, Stop, Try
-from fieldhand.task.selectors import Bound, Here, Marker, Nearest, Other, TreeIs, Trees, Where
 from orchards import block, husky, orchard, task_for
 
 SITE = orchard()

@@ -22,7 +22,7 @@ from fieldhand.language import (
     shaped,
     spoken,
 )
-from fieldhand.task.words import capitalised, listed, say_action, say_duration, say_number, say_quantity
+from fieldhand.language.words import capitalised, listed, say_action, say_duration, say_number, say_quantity
 
 SPANISH: Language = open_language("es")
 

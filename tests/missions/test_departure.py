@@ -21,11 +21,11 @@ from fieldhand.execution.journal import store
 from fieldhand.execution.vehicle import Connection, Vehicle
 from fieldhand.execution.world import World
 from fieldhand.forecast.routes import beginning, drives_for
+from fieldhand.places.selectors import Trees
 from fieldhand.site.geojson import open_site
 from fieldhand.site.model import Site
 from fieldhand.task.plan import Act, ForEach
 from fieldhand.task.results import Acted, Event, Resumed
-from fieldhand.task.selectors import Trees
 from kept_missions import inputs
 from rig import husky, orchard, task_for
 

@@ -10,11 +10,11 @@ from shapely.geometry import Point
 from fieldhand import mission
 from fieldhand.approval.checks import check
 from fieldhand.forecast.estimate import estimate
+from fieldhand.places.selectors import Corners, TreeIs
 from fieldhand.site.model import Zone
 from fieldhand.task.frames import Budget, Constraints, Task
 from fieldhand.task.plan import Act, AnyOrder, ForEach, Node, Optional, Sequence
 from fieldhand.task.results import Acted, Shed
-from fieldhand.task.selectors import Corners, TreeIs
 from flights import Flight, fly_request, fly_task
 from orchards import husky, orchard, task_for
 

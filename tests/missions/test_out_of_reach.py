@@ -7,15 +7,15 @@ from dataclasses import replace
 from shapely.geometry import Point, box
 
 from fieldhand.approval.checks import check
+from fieldhand.places.context import Context
+from fieldhand.places.resolution import resolve
+from fieldhand.places.selectors import Take, Trees
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
-from fieldhand.site.context import Context
 from fieldhand.site.model import Site, Zone
-from fieldhand.site.places import resolve
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach
 from fieldhand.task.results import Acted, Shed
-from fieldhand.task.selectors import Take, Trees
 from flights import fly_task
 from orchards import husky, orchard, task_for
 

@@ -18,13 +18,7 @@ from shapely.ops import unary_union
 
 from examples import examples
 from fieldhand.execution.world import Blocked, Spot, World
-from fieldhand.site.geojson import parse_site
-from fieldhand.site.model import Site
-from fieldhand.site.orchards import make_orchard, random_shapes
-from fieldhand.site.projection import Projection
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, Node, Sequence, Try
-from fieldhand.task.results import Arrived, Driving, Ended, Faulted
-from fieldhand.task.selectors import (
+from fieldhand.places.selectors import (
     AlongRow,
     Corners,
     EveryNth,
@@ -39,6 +33,12 @@ from fieldhand.task.selectors import (
     Take,
     TreeIs,
 )
+from fieldhand.site.geojson import parse_site
+from fieldhand.site.model import Site
+from fieldhand.site.orchards import make_orchard, random_shapes
+from fieldhand.site.projection import Projection
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, Node, Sequence, Try
+from fieldhand.task.results import Arrived, Driving, Ended, Faulted
 from rig import Rig, husky, of_type
 
 HOME = Projection(37.0, -120.0)

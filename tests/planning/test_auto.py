@@ -8,6 +8,7 @@ from typing import cast
 import pytest
 
 from fieldhand.errors import ModelError, RequestError
+from fieldhand.places.selectors import First
 from fieldhand.planning.auto import AutoPlanner
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Reason, Refused
 from fieldhand.robot.model import RobotProfile
@@ -15,7 +16,6 @@ from fieldhand.site.model import Site
 from fieldhand.task.build import make_task
 from fieldhand.task.codec import decode, encode
 from fieldhand.task.plan import GoTo
-from fieldhand.task.selectors import First
 
 PLAN = GoTo(id="", place=First())
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from fieldhand.places import selectors as s
 from fieldhand.planning.foreseen import foreseeable
-from fieldhand.task import selectors as s
 
 START, POND = s.Marker(name="start"), s.InZone(zone="pond")
 

@@ -17,9 +17,9 @@ from fieldhand.execution.drivers.protocol import ActionGoal, Progress
 from fieldhand.execution.drivers.ros2.dds.names import reply_name, request_name, wire_type
 from fieldhand.execution.drivers.ros2.dds.transport import DdsTransport
 from fieldhand.execution.runtime import Result
+from fieldhand.places.selectors import TreeIs
 from fieldhand.task.plan import Act, GoTo, Node, Sequence
 from fieldhand.task.results import Acted, Driving, Faulted, Waited
-from fieldhand.task.selectors import TreeIs
 from patience import until
 from rig import captured, of_type
 from ros2.far_robot import FarRobot, Meeting

@@ -10,10 +10,10 @@ from fieldhand.evaluation.failsafe import Failsafe
 from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.runtime import run
 from fieldhand.execution.world import BatteryDrains, World
+from fieldhand.places.selectors import TreeIs
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.plan import Act
 from fieldhand.task.results import Acted, Ended, LimitCrossed
-from fieldhand.task.selectors import TreeIs
 from rig import authorized, husky, of_type, task_for
 from ros2.test_twin_contract import OverATwin
 from ros2.twin_rig import SITE

@@ -10,13 +10,13 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from fieldhand.errors import TaskError
+from fieldhand.places.selectors import Corners, Half, Here, Nearest, Selector, Trees, Where
 from fieldhand.task.codec import decode, decode_draft, encode
 from fieldhand.task.codec_shapes import FAMILIES, all_shapes, shape_of
 from fieldhand.task.conditions import Condition, TreeHas
 from fieldhand.task.frames import Budget, Command, Composition, Constraints, Task
 from fieldhand.task.plan import Act, GoTo, If, Node, Sequence, Stop
 from fieldhand.task.schema import validate
-from fieldhand.task.selectors import Corners, Half, Here, Nearest, Selector, Trees, Where
 from strategies import ROVER, Parts, numbers, texts, values
 
 PARTS = Parts(ROVER)

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import pytest
 
+from fieldhand.places.selectors import Bound, Corners, First, Here, Nearest, Trees
 from fieldhand.task.build import make_task
 from fieldhand.task.conditions import AllOf, Between, Compare, Level, Not
 from fieldhand.task.frames import Goal, Variable
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Optional, Repeat, Sequence, Stop, Try
 from fieldhand.task.references import references
-from fieldhand.task.selectors import Bound, Corners, First, Here, Nearest, Trees
 from strategies import ROVER
 
 MEASURES = {"probe_soil": (("soil_moisture", "percent"), ("soil_ph", "pH")), "read_co2": (("co2", "ppm"),)}

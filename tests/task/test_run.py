@@ -8,6 +8,7 @@ from typing import Any
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fieldhand.places.selectors import TreeIs, Trees
 from fieldhand.task import requests as ask
 from fieldhand.task.build import make_task
 from fieldhand.task.nodes.base import Failed, GivenUp, Stopped
@@ -26,7 +27,6 @@ from fieldhand.task.plan import (
     walk,
 )
 from fieldhand.task.run import Run, carry_out
-from fieldhand.task.selectors import TreeIs, Trees
 
 WORD = ("", "a", "b")
 

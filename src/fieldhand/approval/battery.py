@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from fieldhand.approval.problem import Problem
 from fieldhand.forecast.limits import reserve_percent
 from fieldhand.language import message
+from fieldhand.language.words import say_number
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.frames import Task
-from fieldhand.task.words import say_number
 
 
 def battery_problems(task: Task, robot: RobotProfile) -> Iterator[Problem]:

@@ -15,13 +15,13 @@ from fieldhand.forecast.service import service_of
 from fieldhand.forecast.state import Work
 from fieldhand.forecast.ways import cost_model
 from fieldhand.language import message
+from fieldhand.language.words import say_duration, say_number, say_rounded
 from fieldhand.orienteering.tail import quantile_table, standardised
+from fieldhand.places.context import Context
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.context import Context
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Act, ForEach, Optional, is_optional, walk
-from fieldhand.task.words import say_duration, say_number, say_rounded
 
 #: A mission that is more likely than not to run short is not approved; one that may is, with a warning.
 _HOPELESS = 0.5

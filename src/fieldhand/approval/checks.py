@@ -22,18 +22,18 @@ from fieldhand.errors import FieldhandError, PlaceError, TaskError
 from fieldhand.forecast.estimate import Estimate, estimate, explore
 from fieldhand.forecast.routes import beginning, drives_for
 from fieldhand.language import message, named
+from fieldhand.places.context import Context
+from fieldhand.places.resolution import resolve, resolve_one
+from fieldhand.places.selectors import Selector, is_relative
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.context import Context
 from fieldhand.site.drives import Drives
 from fieldhand.site.model import Place, Site
-from fieldhand.site.places import resolve, resolve_one
 from fieldhand.task.codec import encode
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import ForEach, Node, Optional, selector_of, walk
 from fieldhand.task.references import references
 from fieldhand.task.schema import validate
-from fieldhand.task.selectors import Selector, is_relative
 
 __all__ = ["Examination", "Problem", "check", "examine"]
 

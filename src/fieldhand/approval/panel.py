@@ -12,8 +12,8 @@ from fieldhand.approval.readback import ReadBack, say_totals
 from fieldhand.approval.sentences import Line
 from fieldhand.approval.stops import Certainty, Plan
 from fieldhand.language import Language, message
+from fieldhand.language.words import capitalised, say_action
 from fieldhand.task.frames import Task
-from fieldhand.task.words import capitalised, say_action
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist

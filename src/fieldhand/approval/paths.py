@@ -9,10 +9,10 @@ from fieldhand.approval.clauses import say_condition
 from fieldhand.forecast.figures import BranchEstimate
 from fieldhand.forecast.steps import Decision
 from fieldhand.language import joined, message
+from fieldhand.language.words import listed, say_action, say_times
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task import plan
 from fieldhand.task.frames import Fault, Task
-from fieldhand.task.words import listed, say_action, say_times
 
 FAULTS: dict[Fault, str] = {
     "action_failed": message("an action fails for good"),

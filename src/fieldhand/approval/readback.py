@@ -17,13 +17,13 @@ from fieldhand.forecast.estimate import BranchEstimate, Estimate, Figure
 from fieldhand.forecast.limits import ResourceKind, reserve_percent
 from fieldhand.forecast.steps import Walk
 from fieldhand.language import counted, joined, message, recalled
+from fieldhand.language.words import capitalised, listed, say_duration, say_number, say_rounded
+from fieldhand.places.explanation import notes
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
-from fieldhand.site.places import notes
 from fieldhand.task.build import FAULTED_EXITS
 from fieldhand.task.frames import Budget, FaultedExit, Task, Then
 from fieldhand.task.plan import selector_of
-from fieldhand.task.words import capitalised, listed, say_duration, say_number, say_rounded
 
 __all__ = ["Line", "ReadBack", "Totals", "read_back"]
 

@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from fieldhand.forecast.steps import Outlook, Walk
+from fieldhand.places.selectors import is_relative
 from fieldhand.site.model import Place
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import ForEach, GoTo, Node, children, is_optional, selector_of
-from fieldhand.task.selectors import is_relative
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,15 +9,14 @@ from fieldhand.approval.clauses import say_act, say_condition
 from fieldhand.approval.resolved import Found
 from fieldhand.approval.visits import in_order, say_expected, say_expected_visits, say_ids
 from fieldhand.language import counted, message, shaped
+from fieldhand.language.words import CORNERS, say_marker, say_name, say_number, say_times, say_tree
+from fieldhand.places.selectors import Corners, Marker, Selector, TreeIs, Trees, Union, is_single
+from fieldhand.places.words import say_places, say_selector
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
-from fieldhand.site.places.saying import say_marker, say_tree
-from fieldhand.site.places.words import say_places, say_selector
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Task, Then
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Optional, Repeat, Sequence, Stop, Try
-from fieldhand.task.selectors import Corners, Marker, Selector, TreeIs, Trees, Union, is_single
-from fieldhand.task.words import CORNERS, say_name, say_number, say_times
 
 Names = dict[str, str]
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from fieldhand.approval.resolved import Found
 from fieldhand.language import counted, message
-from fieldhand.site.places.words import say_places, say_selector
+from fieldhand.language.words import say_rounded
+from fieldhand.places.selectors import Selector
+from fieldhand.places.words import say_places, say_selector
 from fieldhand.task.plan import ForEach
-from fieldhand.task.selectors import Selector
-from fieldhand.task.words import say_rounded
 
 #: Optional visits that are less likely than this are named as those that go first, where they are no more than so many.
 _SURE, _NAMED = 0.9, 6

@@ -9,11 +9,12 @@ from typing import Literal
 import numpy as np
 
 from fieldhand.bench.scenes import WORTH
+from fieldhand.places.selectors import EveryNth, Half, Nearest, Other, Selector, TreeIs, Trees, Union, Where
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.conditions import Compare
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Sequence
-from fieldhand.task.selectors import EveryNth, Half, Nearest, Other, Selector, Side, TreeIs, Trees, Union, Where
+from fieldhand.terms import Side
 
 _SIDES: tuple[Side, ...] = ("north", "east", "south", "west")
 

@@ -10,9 +10,10 @@ from collections.abc import Sequence
 
 from fieldhand.bench.account import Account, Made, Undone
 from fieldhand.errors import PlaceError
-from fieldhand.site.context import Context
+from fieldhand.places.context import Context
+from fieldhand.places.resolution import resolve
+from fieldhand.places.selectors import Selector, is_relative
 from fieldhand.site.model import Site
-from fieldhand.site.places import resolve
 from fieldhand.task import plan as p
 from fieldhand.task.results import (
     Acted,
@@ -28,7 +29,6 @@ from fieldhand.task.results import (
     Started,
     Visiting,
 )
-from fieldhand.task.selectors import Selector, is_relative
 
 
 class _Cut(Exception):

@@ -11,12 +11,12 @@ from typing import Literal
 
 import numpy as np
 
+from fieldhand.bench.site import benchmark_orchard
 from fieldhand.errors import DriveFault
 from fieldhand.forecast.routes import drives_for
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Outcome, Planned
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.bench import benchmark_orchard
 from fieldhand.site.geojson import parse_site
 
 ROBOT = "husky"

@@ -12,8 +12,8 @@ from fieldhand.cli.console import working
 from fieldhand.cli.inputs import Ground, may_ask
 from fieldhand.errors import NotApprovedError, NotConfirmedError
 from fieldhand.language import Language, Message, counted, joined, message
+from fieldhand.language.words import some_names
 from fieldhand.task.frames import Task
-from fieldhand.task.words import some_names
 
 if TYPE_CHECKING:
     from fieldhand.task.authorization import AuthorizedTask

@@ -17,9 +17,9 @@ from fieldhand.cli.show import fail_outcome, show_question
 from fieldhand.errors import InputError, RequestError
 from fieldhand.files import STANDARD, FileFault, read_file
 from fieldhand.language import ENGLISH, Language, message, recalled
+from fieldhand.language.words import some_names
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Planner
 from fieldhand.task.frames import Task
-from fieldhand.task.words import some_names
 
 #: A planner that has asked so often about one request goes round in circles.
 MOST_QUESTIONS = 12

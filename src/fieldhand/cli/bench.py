@@ -11,7 +11,7 @@ from fieldhand.cli.options import CpuTimeOption, JsonOption, RobotOption, SeedOp
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from fieldhand.site.bench import SiteBenchmark, Timing
+    from fieldhand.bench.site import SiteBenchmark, Timing
 
 bench = typer.Typer(
     name="bench", help="Measure how fast Fieldhand is on this machine, and how well it does.", no_args_is_help=True
@@ -40,9 +40,9 @@ def bench_site(
     import time
     from dataclasses import asdict
 
+    from fieldhand.bench.site import measure_site
     from fieldhand.cli import show
     from fieldhand.robot.loader import load_robot
-    from fieldhand.site.bench import measure_site
 
     profile = load_robot(robot)
     on = machine()

@@ -70,7 +70,7 @@ def _rows(robot: RobotProfile, found: Calibration) -> Iterator[tuple[str, float,
 
 
 def _lines(robot: RobotProfile, found: Calibration) -> Iterator[str]:
-    from fieldhand.task.words import say_count
+    from fieldhand.language.words import say_count
 
     yield (
         f"{robot.name}: {say_count(found.missions, 'mission')}, {say_count(found.legs, 'leg')},"

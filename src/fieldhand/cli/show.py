@@ -14,9 +14,9 @@ from fieldhand.cli.console import Words
 from fieldhand.cli.console import err as err
 from fieldhand.cli.console import out as out
 from fieldhand.language import ENGLISH, Language, message
+from fieldhand.language.words import say_count, say_place
 from fieldhand.planning.planner import Clarify, Planned, Reason, Refused
 from fieldhand.task.account import NAMES, Piece, Role, account, has_ranges
-from fieldhand.task.words import say_count, say_place
 from fieldhand.visible import json_text, visible
 
 if TYPE_CHECKING:

@@ -19,7 +19,7 @@ from fieldhand.forecast.state import Choice, MissionState, Visit
 from fieldhand.forecast.ways import cost_model, way_of
 from fieldhand.language import joined
 from fieldhand.orienteering.tail import exceeding
-from fieldhand.site.context import Context
+from fieldhand.places.context import Context
 from fieldhand.site.model import Place
 
 if TYPE_CHECKING:

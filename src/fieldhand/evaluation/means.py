@@ -16,8 +16,8 @@ from fieldhand.forecast.limits import Resource, resources_of
 from fieldhand.forecast.rest import Rest, rest_after
 from fieldhand.forecast.state import MissionState, Visit
 from fieldhand.forecast.ways import Way, chances_short
+from fieldhand.places.context import Context
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.context import Context
 from fieldhand.site.model import Place, Site
 from fieldhand.task.build import exit_of
 from fieldhand.task.frames import Task

@@ -16,10 +16,10 @@ from typing import Literal
 from fieldhand.evaluation.replay import replay
 from fieldhand.evaluation.tally import Tally
 from fieldhand.language import counted, joined, kept_in_log, message, shaped
+from fieldhand.language.words import say_captures
 from fieldhand.task.exceeded import Exceeded, exceeded, final_status, reason_with, say_status
 from fieldhand.task.frames import Goal, Task
 from fieldhand.task.results import Ended, Event, GoalOutcome, MissionStatus
-from fieldhand.task.words import say_captures
 
 _LONGEST_REASON = 160
 

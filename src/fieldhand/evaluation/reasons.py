@@ -13,8 +13,8 @@ from fieldhand.forecast.limits import Resource
 from fieldhand.forecast.state import MissionState, Visit
 from fieldhand.forecast.ways import Way
 from fieldhand.language import Number, joined, message
+from fieldhand.language.words import listed, say_place, some_names
 from fieldhand.site.model import Place
-from fieldhand.task.words import listed, say_place, some_names
 
 Floats = NDArray[np.float64]
 

@@ -9,6 +9,7 @@ from typing import Literal
 from fieldhand.evaluation.outcome import judge, judge_end
 from fieldhand.evaluation.telling import Teller, noun
 from fieldhand.language import message
+from fieldhand.language.words import say_place
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.exceeded import Exceeded
 from fieldhand.task.frames import Task
@@ -27,7 +28,6 @@ from fieldhand.task.results import (
     Resumed,
     Started,
 )
-from fieldhand.task.words import say_place
 
 _CHARGED = Started | Arrived | Acted | InDoubt | Resumed | LimitCrossed | Ended
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
+from fieldhand.places.selectors import is_single
 from fieldhand.task import plan as p
 from fieldhand.task.results import Shed
-from fieldhand.task.selectors import is_single
 
 
 @dataclass(kw_only=True)

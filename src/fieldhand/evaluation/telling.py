@@ -7,6 +7,7 @@ from collections.abc import Callable
 from fieldhand.clock import clock_time
 from fieldhand.evaluation.reasons import SKIPPED, names_places
 from fieldhand.language import counted, joined, kept_in_log, message, named, shaped
+from fieldhand.language.words import capitalised, say_name, say_number, say_place, say_unit, some_names
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.exceeded import say_status
 from fieldhand.task.frames import Task
@@ -32,7 +33,6 @@ from fieldhand.task.results import (
     Visiting,
     Waited,
 )
-from fieldhand.task.words import capitalised, say_name, say_number, say_place, say_unit, some_names
 
 #: A list of places longer than this is counted, not named.
 NAMED = 8

@@ -24,17 +24,17 @@ from fieldhand.forecast.conditions import Facts
 from fieldhand.forecast.routes import beginning
 from fieldhand.forecast.state import MissionState, Spent
 from fieldhand.forecast.visits import Visits
+from fieldhand.places.context import Context
+from fieldhand.places.resolution import resolve, resolve_one
+from fieldhand.places.selectors import Selector
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.blockages import Blockages
-from fieldhand.site.context import Context
 from fieldhand.site.drives import Drive, Drives
 from fieldhand.site.model import Place, Site
-from fieldhand.site.places import resolve, resolve_one
 from fieldhand.task.build import exit_of
 from fieldhand.task.frames import Fault, Task, Then
 from fieldhand.task.results import ClockSet, Driving, Event, Faulted, MissionStatus
 from fieldhand.task.run import Run
-from fieldhand.task.selectors import Selector
 
 #: Metres within which the robot counts as standing at a place.
 AT_M = 0.5

@@ -10,13 +10,13 @@ from fieldhand.execution.attempt import Attempt, Ending
 from fieldhand.forecast.service import service_of
 from fieldhand.forecast.state import Choice, Verdict, Visit
 from fieldhand.language import message
+from fieldhand.places.selectors import is_relative
 from fieldhand.site.model import Place
 from fieldhand.task import plan
 from fieldhand.task.nodes.base import GivenUp
 from fieldhand.task.plan import Node
 from fieldhand.task.results import Shed
 from fieldhand.task.run import Frame
-from fieldhand.task.selectors import is_relative
 
 
 class Over(Exception):

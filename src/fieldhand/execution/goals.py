@@ -13,12 +13,12 @@ from fieldhand.execution.attempt import Attempt
 from fieldhand.execution.obstacles import avoid, open_a_way
 from fieldhand.execution.waiting import know_position, wait
 from fieldhand.language import joined, message
+from fieldhand.language.words import say_place
 from fieldhand.robot.model import Action
 from fieldhand.site.model import Place
 from fieldhand.task.plan import Act
 from fieldhand.task.results import Arrived, Faulted
 from fieldhand.task.run import Steps
-from fieldhand.task.words import say_place
 
 #: So often one drive is stopped by something in its way, and one drive or capture by a lost position, before it fails.
 MOST_STOPS = 20

@@ -12,10 +12,10 @@ from fieldhand.execution.obstacles import no_way
 from fieldhand.forecast.routes import home_if_last, order_visits, reachable, standing, visits_in_order
 from fieldhand.forecast.state import Choice, Visit
 from fieldhand.language import message
+from fieldhand.language.words import listed
 from fieldhand.site.model import Place
 from fieldhand.task.plan import ForEach
 from fieldhand.task.results import Visiting
-from fieldhand.task.words import listed
 
 #: So many places are named in a message.
 _NAMED = 8

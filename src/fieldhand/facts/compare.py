@@ -19,11 +19,11 @@ from fieldhand.facts.sizes import Sizes
 from fieldhand.facts.stated import Stated, hints, stated
 from fieldhand.facts.thresholds import thresholds
 from fieldhand.facts.unheld import unheld
+from fieldhand.language.words import listed, say_name
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import selector_of
-from fieldhand.task.words import listed, say_name
 
 #: Steps that are counted together.
 _MOST_STEPS = 40

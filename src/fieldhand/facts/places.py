@@ -10,11 +10,11 @@ from fieldhand.facts.amounts import Amount
 from fieldhand.facts.mismatch import Mismatch
 from fieldhand.facts.planned import Planned
 from fieldhand.facts.stated import Stated
+from fieldhand.places import selectors as s
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
-from fieldhand.task import selectors as s
 from fieldhand.task.build import FAULTED_EXITS
-from fieldhand.task.selectors import Side
+from fieldhand.terms import Side
 
 _SIDES: tuple[Side, ...] = ("north", "east", "south", "west")
 _CHARGER = frozenset({"charger", "dock"})
@@ -156,8 +156,8 @@ def _pointed(plan: Planned) -> set[Side]:
 def _stands_in(plan: Planned, name: str, site: Site) -> bool:
     """Return True if a tree that the plan names by its id stands in the zone or block of that name."""
     from fieldhand.errors import PlaceError
-    from fieldhand.site.context import Context
-    from fieldhand.site.places import resolve
+    from fieldhand.places.context import Context
+    from fieldhand.places.resolution import resolve
 
     named = {tree for _, tree in plan.trees if tree in site.by_id}
     if not named:

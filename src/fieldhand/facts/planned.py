@@ -11,11 +11,12 @@ from functools import cached_property
 from typing import Literal
 
 from fieldhand.facts.selected import ONE, Range, counts, places, sides
+from fieldhand.places import selectors as s
+from fieldhand.places.selectors import Selector
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
-from fieldhand.task import selectors as s
 from fieldhand.task.frames import Task
-from fieldhand.task.selectors import Selector, Side, Value
+from fieldhand.terms import Side, Test, Value
 
 #: Sides that lie across from each other.
 _ACROSS: tuple[tuple[Side, Side], ...] = (("north", "south"), ("east", "west"))
@@ -56,7 +57,7 @@ class Tested:
     node: str
     quantity: str
     attribute: str
-    test: s.Test | Literal["between", "level"]
+    test: Test | Literal["between", "level"]
     values: tuple[float, ...]
     unit: str = ""
     level: str = ""

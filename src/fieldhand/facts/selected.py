@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from fieldhand.task import selectors as s
-from fieldhand.task.selectors import Selector, Side
+from fieldhand.places import selectors as s
+from fieldhand.places.selectors import Selector
+from fieldhand.terms import Side
 
 _SIDES: dict[str, Side] = {"n": "north", "e": "east", "s": "south", "w": "west"}
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from fieldhand.errors import PlaceError
 from fieldhand.facts.selected import places
-from fieldhand.site.context import Context
+from fieldhand.places import selectors as s
+from fieldhand.places.context import Context
 from fieldhand.site.model import Place, Site
 from fieldhand.task import plan as p
-from fieldhand.task import selectors as s
 from fieldhand.task.frames import Task
 
 
@@ -63,7 +63,7 @@ class Sizes:
 
     def _places(self, selector: s.Selector) -> tuple[Place, ...] | None:
         """Return the places of a selector from where the robot would be; None where it names none."""
-        from fieldhand.site.places import resolve
+        from fieldhand.places.resolution import resolve
 
         known = self._from_here if s.is_relative(selector) else self._known
         key = repr(selector)

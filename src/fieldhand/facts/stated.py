@@ -12,7 +12,7 @@ from fieldhand.facts.amounts import Amount, Noun, amounts, numbers_of
 from fieldhand.facts.words import Token, tokens
 from fieldhand.robot.model import Action, RobotProfile
 from fieldhand.site.model import Site
-from fieldhand.task.selectors import Side
+from fieldhand.terms import Side
 
 #: Attributes of more different words than this are names of trees rather than kinds of them.
 _MOST_KINDS = 200

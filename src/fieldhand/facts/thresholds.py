@@ -10,8 +10,8 @@ from fieldhand.facts.limits import BATTERY
 from fieldhand.facts.mismatch import Mismatch
 from fieldhand.facts.planned import Planned, Tested
 from fieldhand.facts.stated import Stated
+from fieldhand.language.words import TESTS, say_quantity
 from fieldhand.robot.model import RobotProfile
-from fieldhand.task.words import TESTS, say_quantity
 
 #: A number of these kinds may be said in another unit of the same thing.
 _FACTORS = (1.0, 100.0, 0.01, 1e4, 1e-4, 1e3, 1e-3)

@@ -10,7 +10,7 @@ import re
 import unicodedata
 from dataclasses import dataclass
 
-from fieldhand.task.selectors import Side
+from fieldhand.terms import Side
 
 
 def words_in(text: str) -> frozenset[str]:

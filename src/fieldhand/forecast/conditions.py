@@ -13,14 +13,15 @@ from dataclasses import dataclass, field
 
 from fieldhand.errors import PlaceError
 from fieldhand.language import joined, message, named
+from fieldhand.language.words import listed, say_name, say_number, say_unit, say_value
+from fieldhand.places.context import Context
+from fieldhand.places.resolution import resolve
+from fieldhand.places.selectors import TreeIs, Where
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.context import Context
 from fieldhand.site.kinds import phrase
 from fieldhand.site.model import Place, Site
-from fieldhand.site.places import resolve
 from fieldhand.task.conditions import AllOf, AnyOf, Between, Compare, Condition, Level, Not, TreeHas
-from fieldhand.task.selectors import Test, TreeIs, Value, Where
-from fieldhand.task.words import listed, say_name, say_number, say_unit, say_value
+from fieldhand.terms import Test, Value
 
 #: How a test is said in a sentence that a log keeps.
 _HOW: Mapping[Test, str] = {

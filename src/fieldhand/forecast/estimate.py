@@ -15,11 +15,11 @@ from fieldhand.forecast.figures import BranchEstimate, Figure, figures_of
 from fieldhand.forecast.limits import Resource, ResourceKind, resources_of
 from fieldhand.forecast.ways import cost_model
 from fieldhand.language import message
+from fieldhand.language.words import say_rounded
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import AnyOrder, ForEach, If, Node, Optional, Repeat, Sequence, Try
-from fieldhand.task.words import say_rounded
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives

@@ -19,7 +19,7 @@ from fieldhand.forecast.state import Spent, Visit
 from fieldhand.forecast.steps import Outlook
 from fieldhand.forecast.ways import Way, chances_short, cost_model, way_of
 from fieldhand.orienteering.preview import Preview
-from fieldhand.site.context import Context
+from fieldhand.places.context import Context
 from fieldhand.site.model import Place
 from fieldhand.task.plan import ForEach, Optional
 

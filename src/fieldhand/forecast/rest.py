@@ -20,13 +20,13 @@ from fieldhand.forecast.steps import Answer, never
 from fieldhand.forecast.trail import Answers
 from fieldhand.forecast.walker import Walker
 from fieldhand.forecast.ways import Way, way_of
+from fieldhand.places.context import Context
+from fieldhand.places.selectors import is_relative
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.context import Context
 from fieldhand.site.model import Place, Site
 from fieldhand.task import plan
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import AnyOrder, ForEach, Node, Repeat
-from fieldhand.task.selectors import is_relative
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives

@@ -11,13 +11,13 @@ import numpy as np
 from fieldhand.errors import PlaceError
 from fieldhand.language import joined, message
 from fieldhand.orienteering.order import shortest_order
+from fieldhand.places.context import Context
+from fieldhand.places.selectors import Selector
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.context import Context
 from fieldhand.site.model import Place, Site
 from fieldhand.task import plan
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, Node, Optional, Repeat
-from fieldhand.task.selectors import Selector
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -138,7 +138,7 @@ def steps_in_order(node: AnyOrder, site: Site, drives: Drives, context: Context,
 
 def first_places(node: Node, site: Site, context: Context) -> tuple[Place, ...]:
     """The places that a node begins with: those of its first selector; none where it stays at the place in hand."""
-    from fieldhand.site.places import resolve
+    from fieldhand.places.resolution import resolve
 
     for inner in plan.walk(node):
         selector = plan.selector_of(inner)
@@ -157,7 +157,7 @@ def place_of(node: Node, selector: Selector, site: Site, context: Context) -> Pl
     Raises:
         PlaceError: It gives none, or several; ``where`` names the node.
     """
-    from fieldhand.site.places import resolve_one
+    from fieldhand.places.resolution import resolve_one
 
     try:
         return resolve_one(selector, site, context)
@@ -171,7 +171,7 @@ def places_of(node: Node, selector: Selector, site: Site, context: Context) -> t
     Raises:
         PlaceError: It gives none; ``where`` names the node.
     """
-    from fieldhand.site.places import resolve
+    from fieldhand.places.resolution import resolve
 
     try:
         places = resolve(selector, site, context)

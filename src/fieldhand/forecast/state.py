@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from fieldhand.site.context import Context
+from fieldhand.places.context import Context
 from fieldhand.site.model import Place
 
 

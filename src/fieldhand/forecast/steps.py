@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 
 from fieldhand.brief import brief_repr
 from fieldhand.forecast.drawn import Used
-from fieldhand.site.context import Context
+from fieldhand.places.context import Context
 from fieldhand.site.model import Place
 from fieldhand.task.plan import Node
 

@@ -12,8 +12,8 @@ from fieldhand.forecast.limits import speed_of
 from fieldhand.forecast.possible import Readings
 from fieldhand.forecast.state import Spent, Work
 from fieldhand.forecast.steps import Answer, Decision, DecisionKind, Step, StepKind, never
+from fieldhand.places.context import Context, Visited
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.context import Context, Visited
 from fieldhand.site.model import Place, Site
 from fieldhand.task import plan
 from fieldhand.task.frames import Task

@@ -13,8 +13,8 @@ from fieldhand.forecast.service import reward_of, work_of
 from fieldhand.forecast.state import Visit
 from fieldhand.forecast.trail import Answers
 from fieldhand.forecast.walker import Walker
+from fieldhand.places.context import Context
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.context import Context
 from fieldhand.site.model import Place, Site
 from fieldhand.task import plan
 from fieldhand.task.frames import Task

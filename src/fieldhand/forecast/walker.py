@@ -20,8 +20,8 @@ from fieldhand.forecast.service import tried_again, work_of
 from fieldhand.forecast.state import Visit, Work
 from fieldhand.forecast.steps import Step, Walk
 from fieldhand.forecast.trail import Answers, Trail
+from fieldhand.places.context import Context
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.context import Context
 from fieldhand.site.model import Place, Site
 from fieldhand.task.build import exit_of
 from fieldhand.task.frames import Task

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from fieldhand.task.selectors import (
+from fieldhand.places.selectors import (
     Adjacent,
     Bound,
     Farthest,

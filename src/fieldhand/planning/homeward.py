@@ -10,11 +10,11 @@ from dataclasses import replace
 
 from fieldhand.forecast.homeward import costs_too_much
 from fieldhand.language import message
+from fieldhand.language.words import say_rounded
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.build import FAULTED_EXITS
 from fieldhand.task.frames import FaultedExit, Task, Then
-from fieldhand.task.words import say_rounded
 
 _HOMEWARD: dict[Then, str] = {
     "return_to_end": message("When all is done the robot drives to the end marker.", context="assumption"),

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from fieldhand.errors import DriveFault
 from fieldhand.language import message
+from fieldhand.language.words import say_marker, say_number, say_tree
 from fieldhand.site.driving.layout import Layout
 from fieldhand.site.driving.network import Network, network_of
 from fieldhand.site.driving.reasons import cut_off, no_stand
@@ -25,8 +26,6 @@ from fieldhand.site.driving.sides import Visited, few_lanes, pick
 from fieldhand.site.driving.spots import Spot
 from fieldhand.site.driving.stands import Candidate, Stands
 from fieldhand.site.model import Place, Site
-from fieldhand.site.places.saying import say_marker, say_tree
-from fieldhand.task.words import say_number
 
 XY = tuple[float, float]
 Key = tuple[str, str, XY, XY | None]

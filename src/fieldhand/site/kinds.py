@@ -13,7 +13,7 @@ from functools import lru_cache
 from typing import Literal
 
 from fieldhand.site.model import ZoneKind
-from fieldhand.task.selectors import Value
+from fieldhand.terms import Value
 
 PointKind = Literal["tree", "start", "end", "charger", "gate", "landmark"]
 

@@ -18,7 +18,7 @@ from shapely.geometry import Polygon
 from fieldhand.brief import brief_repr
 from fieldhand.site.planting import Planting
 from fieldhand.site.projection import Projection
-from fieldhand.task.selectors import Value
+from fieldhand.terms import Value
 
 #: The median over so many trees is that over all, to a millimetre or so.
 _ENOUGH_TREES = 5_000

@@ -9,6 +9,7 @@ import hashlib
 from collections.abc import Mapping
 from dataclasses import replace
 
+from fieldhand.places.selectors import is_single
 from fieldhand.task.frames import (
     Command,
     Composition,
@@ -22,7 +23,6 @@ from fieldhand.task.frames import (
     Variable,
 )
 from fieldhand.task.plan import Act, AnyOrder, ForEach, If, Node, Optional, Repeat, Sequence, Span, Try, walk
-from fieldhand.task.selectors import is_single
 
 #: What every mission does about faults unless its Task says otherwise.
 FAULTED_EXITS = (

@@ -17,10 +17,11 @@ from functools import cache
 from types import NoneType, UnionType
 from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
+from fieldhand.places.selectors import Selector
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Command, Composition, FaultedExit, Task, Then
 from fieldhand.task.plan import Act, Node, Span
-from fieldhand.task.selectors import Selector, Value
+from fieldhand.terms import Value
 
 NAMESPACE = "urn:fieldhand:task:1"
 

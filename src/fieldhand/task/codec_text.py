@@ -11,7 +11,7 @@ import re
 from typing import Any
 
 from fieldhand.task.codec_shapes import Attribute
-from fieldhand.task.selectors import Value
+from fieldhand.terms import Value
 from fieldhand.visible import find_hidden
 
 NUMBER = r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?"

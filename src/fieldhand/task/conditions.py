@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from fieldhand.task.selectors import Test, Value
+from fieldhand.terms import Test, Value
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -12,9 +12,9 @@ from typing import Literal
 
 from fieldhand.clock import clock_time
 from fieldhand.language import Number, joined, message
+from fieldhand.language.words import say_place
 from fieldhand.task.frames import BudgetKind, Constraints
 from fieldhand.task.results import Arrived, Driving, Event, MissionStatus, Started
-from fieldhand.task.words import say_place
 
 LimitKind = BudgetKind | Literal["reserve"]
 

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from fieldhand.places.selectors import Selector
 from fieldhand.task.conditions import Condition
 from fieldhand.task.nodes.act import Act
 from fieldhand.task.nodes.any_order import AnyOrder
@@ -27,7 +28,6 @@ from fieldhand.task.nodes.optional import Optional
 from fieldhand.task.nodes.repeat import Repeat
 from fieldhand.task.nodes.sequence import Sequence
 from fieldhand.task.nodes.stop import Stop
-from fieldhand.task.selectors import Selector
 
 __all__ = [
     "Act",

@@ -6,7 +6,9 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from fieldhand.task import conditions, selectors
+from fieldhand.places import selectors
+from fieldhand.places.selectors import Bound
+from fieldhand.task import conditions
 from fieldhand.task.capabilities import Capabilities
 from fieldhand.task.conditions import Between, Compare, Condition, Level
 from fieldhand.task.frames import Task
@@ -26,7 +28,6 @@ from fieldhand.task.plan import (
     selector_of,
     walk,
 )
-from fieldhand.task.selectors import Bound
 
 
 def references(task: Task, capabilities: Capabilities | None = None) -> tuple[str, ...]:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
+    from fieldhand.places.selectors import Selector
     from fieldhand.task.conditions import Condition
     from fieldhand.task.nodes.act import Act
     from fieldhand.task.nodes.any_order import AnyOrder
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     from fieldhand.task.nodes.optional import Optional
     from fieldhand.task.nodes.repeat import Repeat
     from fieldhand.task.plan import Node
-    from fieldhand.task.selectors import Selector
 
 Place: TypeAlias = Any
 #: The visits of a for-each that is under way, as the carrier keeps them.

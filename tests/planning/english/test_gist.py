@@ -136,8 +136,8 @@ def test_a_rule_that_is_passed_over_would_not_have_matched(request_: str) -> Non
 
 
 def test_a_plan_has_the_same_shape_however_it_is_said() -> None:
+    from fieldhand.places import selectors as s
     from fieldhand.planning.english import draft as d
-    from fieldhand.task import selectors as s
 
     at = d.Block(steps=[d.Capture(action="read_co2", at=s.TreeIs(tree="4"), said=((0, 4),))])
     gone = d.Block(steps=[d.Go(place=s.TreeIs(tree="4")), d.Capture(action="read_co2", said=((9, 12),))])

@@ -16,14 +16,14 @@ from collections.abc import Callable
 import pytest
 
 from fieldhand.approval.account import unaccounted
+from fieldhand.places.context import Context
+from fieldhand.places.resolution import resolve
+from fieldhand.places.selectors import Random, is_relative
+from fieldhand.places.selectors import walk as parts_of
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Outcome, Planned, Refused
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.context import Context
-from fieldhand.site.places import resolve
 from fieldhand.task.plan import selector_of, walk
-from fieldhand.task.selectors import Random, is_relative
-from fieldhand.task.selectors import walk as parts_of
 from vineyards import ALONG, ROWS, Vine, vines, vineyard
 
 HUSKY = load_robot("husky")

@@ -11,6 +11,7 @@ import pytest
 from lxml import etree
 
 from fieldhand.errors import ModelError
+from fieldhand.places.selectors import Selector
 from fieldhand.planning.llm import language
 from fieldhand.planning.llm.language import DERIVED, describe_language
 from fieldhand.planning.llm.prompt import instructions
@@ -24,7 +25,6 @@ from fieldhand.task.codec_shapes import all_shapes, element_name, shape_of
 from fieldhand.task.conditions import Condition
 from fieldhand.task.plan import Node
 from fieldhand.task.schema import schema_xsd
-from fieldhand.task.selectors import Selector
 from strategies import ROVER
 
 HUSKY, AMIGA = capabilities_of(load_robot("husky")), capabilities_of(load_robot("amiga"))

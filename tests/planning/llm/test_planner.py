@@ -10,6 +10,7 @@ import pytest
 
 from fieldhand.approval.account import unaccounted
 from fieldhand.errors import ModelError, OutputError, RequestError
+from fieldhand.places.selectors import Corners
 from fieldhand.planning.homeward import faulted_exits
 from fieldhand.planning.llm.planner import LONGEST_REQUEST, LlmPlanner
 from fieldhand.planning.llm.replay import replay
@@ -19,7 +20,6 @@ from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Refuse
 from fieldhand.robot.loader import load_robot
 from fieldhand.task.codec import decode, encode
 from fieldhand.task.plan import Act, walk
-from fieldhand.task.selectors import Corners
 from site_grids import grid
 
 SITE, HUSKY = grid(4, 6), load_robot("husky")

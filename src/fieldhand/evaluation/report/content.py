@@ -11,6 +11,7 @@ from fieldhand.evaluation.report.log_facts import branch_taken, captures, start_
 from fieldhand.evaluation.report.place_names import PlaceNames
 from fieldhand.evaluation.report.readings import MOST_ROWS, ReadingRow, Summary, reading_rows, summaries
 from fieldhand.forecast.estimate import Estimate, Figure
+from fieldhand.language.words import capitalised, listed, say_action, say_count, say_duration, say_number
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.account import NAMES, account, has_ranges
@@ -18,7 +19,6 @@ from fieldhand.task.authorization import Authorization
 from fieldhand.task.exceeded import say_status
 from fieldhand.task.frames import BudgetKind, Task
 from fieldhand.task.results import Event, GoalOutcome, Shed
-from fieldhand.task.words import capitalised, listed, say_action, say_count, say_duration, say_number
 
 _MARKS = {"success": "✓ met", "failure": "✗ not met", "indeterminate": "? not known"}
 

@@ -9,6 +9,7 @@ from fieldhand.clock import clock_time
 from fieldhand.evaluation.report.log_facts import end_of, no_way_led_to, places_ahead
 from fieldhand.evaluation.report.place_names import PlaceNames
 from fieldhand.evaluation.telling import Teller
+from fieldhand.language.words import say_action, say_count
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.frames import Task
 from fieldhand.task.results import (
@@ -28,7 +29,6 @@ from fieldhand.task.results import (
     Shed,
     Waited,
 )
-from fieldhand.task.words import say_action, say_count
 
 #: Decisions of the guard listed per section; the event log has all.
 _MOST_DETAILS = 60

@@ -30,6 +30,7 @@ from fieldhand.evaluation.report.marks import (
     write_values,
 )
 from fieldhand.evaluation.report.readings import Summary
+from fieldhand.language.words import capitalised, say_action
 from fieldhand.site.drawing import colours
 from fieldhand.site.drawing.blocks import draw_blocks, name_blocks
 from fieldhand.site.drawing.ground import (
@@ -50,7 +51,6 @@ from fieldhand.site.drawing.saving import make_text_visible
 from fieldhand.site.drawing.window import Window, look_through, show_window, window_of
 from fieldhand.site.model import Site
 from fieldhand.task.results import Acted, Event
-from fieldhand.task.words import capitalised, say_action
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

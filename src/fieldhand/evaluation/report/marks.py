@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from fieldhand.evaluation.report.log_facts import captures, cut_off_places, end_of, failed_targets, no_way_led_to
 from fieldhand.evaluation.report.readings import Summary
+from fieldhand.language.words import capitalised, say_action
 from fieldhand.site.drawing.labels import Labels
 from fieldhand.site.model import Site
 from fieldhand.task.results import Acted, Arrived, Driving, Event, InDoubt, Obstructed, Resumed, Shed
-from fieldhand.task.words import capitalised, say_action
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -5,10 +5,10 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 
+from fieldhand.language.words import listed
 from fieldhand.site.drawing.blocks import block_words
 from fieldhand.site.model import Site
-from fieldhand.site.places.faults import short
-from fieldhand.task.words import listed
+from fieldhand.site.names import short
 
 #: Most rows, runs or ids named, and the longest name in characters.
 _MOST_NAMED, _LONGEST = 24, 40

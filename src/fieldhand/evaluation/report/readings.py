@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from fieldhand.clock import clock_time
 from fieldhand.evaluation.report.log_facts import captures
 from fieldhand.evaluation.report.place_names import PlaceNames
+from fieldhand.language.words import capitalised, say_action, say_name, say_number, say_unit
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.conditions import Between, Compare, Level, walk
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Node, condition_of
 from fieldhand.task.plan import walk as walk_plan
 from fieldhand.task.results import Acted, Event, InDoubt
-from fieldhand.task.words import capitalised, say_action, say_name, say_number, say_unit
 
 #: Most readings in the page; the CSV file has all.
 MOST_ROWS = 1_000

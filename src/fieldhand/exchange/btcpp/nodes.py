@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any, get_args
 from fieldhand.exchange.btcpp.elements import Elements, Tag
 from fieldhand.exchange.btcpp.vocabulary import ALLOWS, CONDITIONS, GO_TO, IF_UNKNOWN, ORDER, RESOLVE
 from fieldhand.exchange.btcpp.writing import EXIT_ENTRY
+from fieldhand.places.selectors import Selector
 from fieldhand.task import plan as p
 from fieldhand.task.capabilities import ChoiceParameter
 from fieldhand.task.codec_shapes import shape_of
 from fieldhand.task.codec_text import bare_value
 from fieldhand.task.codec_xml import MAX_DEPTH
 from fieldhand.task.conditions import AllOf, AnyOf, Condition, Not
-from fieldhand.task.selectors import Selector
 
 if TYPE_CHECKING:
     from lxml.etree import _Element

@@ -28,6 +28,7 @@ from fieldhand.exchange.btcpp.vocabulary import (
     plain_attributes,
     port_name,
 )
+from fieldhand.places.selectors import Here, Selector
 from fieldhand.task import plan as p
 from fieldhand.task.capabilities import Capabilities
 from fieldhand.task.codec import encode_parts
@@ -36,7 +37,6 @@ from fieldhand.task.codec_text import hidden_character, number_text, written
 from fieldhand.task.codec_xml import MAX_BYTES, MAX_DEPTH
 from fieldhand.task.conditions import AllOf, AnyOf, Condition, Not, TreeHas
 from fieldhand.task.frames import Task
-from fieldhand.task.selectors import Here, Selector
 
 if TYPE_CHECKING:
     from lxml.etree import _Element

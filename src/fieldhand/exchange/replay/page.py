@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from fieldhand.exchange.replay.film import SIGNS, Film
+from fieldhand.language.words import capitalised, say_action, say_name, say_unit
 from fieldhand.site.drawing.blocks import block_words, outline_of
 from fieldhand.site.model import Site
-from fieldhand.task.words import capitalised, say_action, say_name, say_unit
 from fieldhand.visible import visible, visible_json
 
 

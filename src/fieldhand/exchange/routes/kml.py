@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldhand.exchange.incidents import LatLon
 from fieldhand.exchange.routes.route import Route, Stop
-from fieldhand.task.words import capitalised, say_action, say_name, say_number, say_unit
+from fieldhand.language.words import capitalised, say_action, say_name, say_number, say_unit
 from fieldhand.visible import visible
 
 if TYPE_CHECKING:

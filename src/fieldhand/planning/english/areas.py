@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.language import message
+from fieldhand.places import selectors as s
 from fieldhand.planning.english.faults import unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.hand import ACTS
@@ -13,7 +14,6 @@ from fieldhand.planning.english.rewriting import silent
 from fieldhand.planning.english.syntax import Chain, Part, Places
 from fieldhand.planning.english.tokens import Term
 from fieldhand.site.model import Site
-from fieldhand.task import selectors as s
 
 #: A phrase with one of these says itself where its trees are.
 _SAID = frozenset(

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from fieldhand.language import Message, message, named
+from fieldhand.language.words import say_action
 from fieldhand.planning.english.faults import Question, text_of
 from fieldhand.planning.english.syntax import NounPhrase, Part
-from fieldhand.task.words import say_action
 
 
 def how_many(

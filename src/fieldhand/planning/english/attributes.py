@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from fieldhand.language import Number, message, named
+from fieldhand.language.words import listed
+from fieldhand.places import selectors as s
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question, unclear
 from fieldhand.planning.english.tokens import Term
 from fieldhand.site.model import Site
-from fieldhand.task import selectors as s
-from fieldhand.task.words import listed
+from fieldhand.terms import Test
 
 #: Tests and their opposites.
-OPPOSITE: dict[s.Test, s.Test] = {"lt": "ge", "ge": "lt", "gt": "le", "le": "gt", "eq": "ne", "ne": "eq"}
+OPPOSITE: dict[Test, Test] = {"lt": "ge", "ge": "lt", "gt": "le", "le": "gt", "eq": "ne", "ne": "eq"}
 _UNIT_HINTS = {"years": "age", "kg": "yield"}
 
 

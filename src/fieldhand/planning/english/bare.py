@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from fieldhand.language import message
+from fieldhand.places import selectors as s
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.sets import Group, nested
 from fieldhand.planning.english.syntax import NounPhrase
 from fieldhand.planning.english.tokens import Term
-from fieldhand.task import selectors as s
 
 
 def named_trees(bag: Bag) -> Found:

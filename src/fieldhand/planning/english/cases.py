@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from fieldhand.language import message
+from fieldhand.language.words import say_action
+from fieldhand.places import selectors as s
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.asking import choices_of_actions
 from fieldhand.planning.english.attributes import number_of
@@ -16,10 +18,8 @@ from fieldhand.planning.english.syntax import Part, parse_places
 from fieldhand.planning.english.tested import Predicate, place_in, quantities_of, read_condition
 from fieldhand.planning.english.tokens import Term
 from fieldhand.task import conditions as c
-from fieldhand.task import selectors as s
 from fieldhand.task.conditions import readings
 from fieldhand.task.plan import Span
-from fieldhand.task.words import say_action
 
 
 def _spans(said: Iterable[tuple[Span, ...]]) -> tuple[Span, ...]:

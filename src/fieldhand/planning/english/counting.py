@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.language import message
+from fieldhand.places import selectors as s
 from fieldhand.planning.english.asking import each_or_in_all, every_or_how_many
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.syntax import Object, Part
-from fieldhand.task import selectors as s
 
 Wanted = tuple[tuple[str, int | None], ...]
 

@@ -15,6 +15,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.language import message
+from fieldhand.places import selectors as s
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english import repeating
 from fieldhand.planning.english.areas import is_open, with_areas
@@ -29,7 +30,6 @@ from fieldhand.planning.english.lines import as_stops, points_over, stops_of
 from fieldhand.planning.english.places import find
 from fieldhand.planning.english.syntax import Part
 from fieldhand.planning.english.tokens import Term
-from fieldhand.task import selectors as s
 from fieldhand.task.plan import Span
 
 COMMANDS = (

@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
+from fieldhand.places import selectors as s
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
-from fieldhand.task import selectors as s
 from fieldhand.task.plan import Span
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.language import message
+from fieldhand.language.words import say_times
+from fieldhand.places import selectors as s
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english import repeating
 from fieldhand.planning.english.asking import choices_of_actions
@@ -15,8 +17,6 @@ from fieldhand.planning.english.hand import ACTS
 from fieldhand.planning.english.leaving import Leaving
 from fieldhand.planning.english.places import find
 from fieldhand.planning.english.syntax import Part
-from fieldhand.task import selectors as s
-from fieldhand.task.words import say_times
 
 
 class Elliptic(Leaving):

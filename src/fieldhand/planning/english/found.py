@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fieldhand.task import selectors as s
+from fieldhand.places import selectors as s
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.language import message, named
+from fieldhand.language.words import COMPASS, listed
+from fieldhand.places import selectors as s
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.attributes import hinted
 from fieldhand.planning.english.counting import Wanted, counted, number_of_objects
@@ -20,9 +22,8 @@ from fieldhand.planning.english.tokens import Term
 from fieldhand.planning.english.told import Told
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
-from fieldhand.task import selectors as s
 from fieldhand.task.plan import Span
-from fieldhand.task.words import COMPASS, listed
+from fieldhand.terms import Side
 
 #: Relations that say no more than where.
 _PLAIN = ("OF", "AT", "FROM", "FOR", "INSIDE", "ALONG", "SPREAD")
@@ -194,7 +195,7 @@ class Hand:
             )
         if isinstance(loop.select, s.Ordered):
             raise unclear([term], message("two orders cannot be kept"), message("say one"))
-        side: s.Side = "south" if str(by).startswith("south") else "east" if str(by).startswith("east") else "north"
+        side: Side = "south" if str(by).startswith("south") else "east" if str(by).startswith("east") else "north"
         if side in ("south", "east") and any(_counts(part, side) for part in s.walk(loop.select)):
             if not any(isinstance(part, s.Rows) and part.every > 1 for part in s.walk(loop.select)):
                 loop.select = counted_from(loop.select, side)

@@ -6,6 +6,8 @@ from dataclasses import replace
 from typing import Any
 
 from fieldhand.language import message
+from fieldhand.language.words import COMPASS
+from fieldhand.places import selectors as s
 from fieldhand.planning.english.asking import how_many
 from fieldhand.planning.english.attributes import filtered
 from fieldhand.planning.english.bag import Bag
@@ -17,8 +19,7 @@ from fieldhand.planning.english.rowwords import From, Steps
 from fieldhand.planning.english.sets import Group
 from fieldhand.planning.english.ways import check_over, side_along, trees_named
 from fieldhand.site.model import Site
-from fieldhand.task import selectors as s
-from fieldhand.task.words import COMPASS
+from fieldhand.terms import CountedFrom, Towards
 
 _AMBIGUOUS_ENDS = (
     message("the northern one", context="answer"),
@@ -64,7 +65,7 @@ def named_in_rows(bag: Bag, group: Group, site: Site) -> Found:
     counted = bag.take("COUNTEDFROM")
     if counted is not None and counted.value.far:
         raise bag.fault(message("from which side are they counted?"), message("say 'from the north', for example"))
-    side: s.CountedFrom = "usual" if counted is None else counted.value.side
+    side: CountedFrom = "usual" if counted is None else counted.value.side
     parts = tuple(s.InRow(first=first, last=last, counted_from=side, of=of) for first, last in spans)
     selector: s.Selector = parts[0] if len(parts) == 1 else s.Union(parts=parts)
     several = several_rows(of, group, site)
@@ -211,7 +212,7 @@ def ends_of_rows(bag: Bag, group: Group, site: Site) -> Found:
     start, finish = bag.take("START"), bag.take("FINISH")
     tree = bag.take("TREE", "PLACE")
     direction, most = bag.take("DIR"), bag.take("MOST")
-    side: s.CountedFrom = "usual"
+    side: CountedFrom = "usual"
     for said in (direction, most):
         if said is not None:
             if len(said.value) == 2:
@@ -268,7 +269,7 @@ def every_nth(bag: Bag, group: Group, site: Site) -> Found:
     area, tests = parted(group.area)
     inner = filtered(bag, area, site)
     counted = bag.take("COUNTEDFROM")
-    side: s.CountedFrom = "usual" if counted is None else counted.value.side
+    side: CountedFrom = "usual" if counted is None else counted.value.side
     if counted is not None and counted.value.far:
         raise bag.fault(message("from which side are they counted?"), message("say 'from the north', for example"))
     selector: s.Selector = s.EveryNth(nth=int(every.value), start=int(start), counted_from=side, of=inner)
@@ -322,8 +323,8 @@ def stepped(bag: Bag, group: Group, site: Site) -> Found:
     return Found(selector=selector, counted=1)
 
 
-def _side(towards: s.Towards) -> s.CountedFrom:
-    sides: dict[str, s.CountedFrom] = {"north": "north", "east": "east", "south": "south", "west": "west"}
+def _side(towards: Towards) -> CountedFrom:
+    sides: dict[str, CountedFrom] = {"north": "north", "east": "east", "south": "south", "west": "west"}
     return sides.get(towards, "usual")
 
 
@@ -339,7 +340,7 @@ def next_in_row(bag: Bag, group: Group) -> Found | None:
     if tree is None or (tree.plural and bag.count is None):
         return None
     number = bag.count or 1
-    towards: s.Towards = "up" if group.upwards else "down"
+    towards: Towards = "up" if group.upwards else "down"
     parts = tuple(s.AlongRow(trees=k, towards=towards, origin=row.origin) for k in range(1, number + 1))
     if number == 1:
         return Found(selector=parts[0], counted=1)
@@ -350,7 +351,7 @@ def opposite(bag: Bag, group: Group, site: Site) -> Found:
     """ "The tree across the aisle", "the tree opposite tree 12"."""
     check_rows(bag, site)
     said = bag.take("OPPOSITE")
-    side: s.CountedFrom = "usual" if said is None else said.value
+    side: CountedFrom = "usual" if said is None else said.value
     bag.take("TREE", "PLACE")
     if bag.count not in (None, 1) or bag.plural or bag.each or bag.any or not group.plain:
         raise bag.fault(message("one tree stands opposite"), message("say 'the tree opposite tree 12'"))

@@ -6,12 +6,12 @@ from dataclasses import replace
 from typing import Any
 
 from fieldhand.language import message
+from fieldhand.places import selectors as s
 from fieldhand.planning.english.bag import bag_of
 from fieldhand.planning.english.faults import Question, text_of
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.syntax import Chain, NounPhrase, Places
 from fieldhand.planning.english.tokens import Term
-from fieldhand.task import selectors as s
 
 _RANKS = ("MOST", "SUPER", "ORD", "LAST", "BACKORD")
 

@@ -6,16 +6,16 @@ from collections.abc import Callable, Iterator
 
 from fieldhand.errors import DriveFault, PlaceError, TaskError
 from fieldhand.forecast.walk import walk as walk_through
+from fieldhand.places.context import Context
+from fieldhand.places.resolution import resolve
+from fieldhand.places.selectors import is_relative
 from fieldhand.planning.english.faults import Question, Unclear
 from fieldhand.planning.english.rewording import Worded
 from fieldhand.planning.planner import Answer, Outcome, Planned
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.context import Context
 from fieldhand.site.model import Place, Site
-from fieldhand.site.places import resolve
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Act, ForEach, Node, Span, selector_of, walk
-from fieldhand.task.selectors import is_relative
 
 #: Plans a request as it is worded, with the answers that were taken into it.
 Read = Callable[[Worded, tuple[Answer, ...]], Outcome]

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from fieldhand.language import message
+from fieldhand.places import selectors as s
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.motion import Motion
 from fieldhand.planning.english.syntax import Part
-from fieldhand.task import selectors as s
 
 #: Words that do not say what must be enough.
 _BUDGET_UNSAID = frozenset({"if possible", "if at all possible", "where possible", "if feasible", "optionally"})

@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.language import Number, message
+from fieldhand.places import selectors as s
 from fieldhand.planning.english.counting import Wanted
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.onebyone import one_by_one, spread_over
 from fieldhand.planning.english.syntax import Part
 from fieldhand.site.model import Site
-from fieldhand.task import selectors as s
 
 #: Rows that are left to the planner.
 _ANY_ROW = (["a", "row"], ["any", "row"], ["one", "row"], ["some", "row"], ["one of", "rows"])

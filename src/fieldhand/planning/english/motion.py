@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.language import message
+from fieldhand.places import selectors as s
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english import repeating
 from fieldhand.planning.english.faults import text_of, unclear
@@ -13,7 +14,6 @@ from fieldhand.planning.english.places import find
 from fieldhand.planning.english.syntax import Part
 from fieldhand.planning.english.told import Homeward
 from fieldhand.planning.english.until import Until
-from fieldhand.task import selectors as s
 from fieldhand.task.frames import Then
 
 

@@ -8,14 +8,15 @@ from typing import Any
 
 from fieldhand.errors import PlaceError, TaskError
 from fieldhand.language import message
+from fieldhand.places import selectors as s
+from fieldhand.places.context import Context
+from fieldhand.places.resolution import resolve
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question, text_of
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.sets import Group
-from fieldhand.site.context import Context
 from fieldhand.site.model import Site
-from fieldhand.site.places import resolve
-from fieldhand.task import selectors as s
+from fieldhand.terms import Side
 
 #: More rows than this are not planned one by one.
 MOST_ONE_BY_ONE = 60
@@ -88,7 +89,7 @@ def spread_over(selector: s.Selector, area: s.Selector, ones: Iterable[s.Selecto
     return parts[0] if len(parts) == 1 else s.Union(parts=parts)
 
 
-def counted_from(selector: s.Selector, side: s.Side) -> s.Selector:
+def counted_from(selector: s.Selector, side: Side) -> s.Selector:
     """A selection whose every so many-th tree is counted from a side."""
     for part in s.walk(selector):
         if isinstance(part, s.EveryNth):

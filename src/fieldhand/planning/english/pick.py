@@ -7,6 +7,9 @@ from dataclasses import replace
 
 from fieldhand.errors import PlaceError, TaskError
 from fieldhand.language import message
+from fieldhand.places import selectors as s
+from fieldhand.places.context import Context
+from fieldhand.places.resolution import resolve
 from fieldhand.planning.english.asking import how_many, which_of
 from fieldhand.planning.english.attributes import attribute_of, filtered
 from fieldhand.planning.english.bag import Bag
@@ -17,10 +20,8 @@ from fieldhand.planning.english.onebyone import distributed
 from fieldhand.planning.english.regions import corners, extremes, middle, region
 from fieldhand.planning.english.sets import Group
 from fieldhand.planning.english.tokens import Term
-from fieldhand.site.context import Context
 from fieldhand.site.model import Site
-from fieldhand.site.places import resolve
-from fieldhand.task import selectors as s
+from fieldhand.terms import CornerName, MarkerName
 
 
 def picked(bag: Bag, group: Group, site: Site) -> Found:
@@ -97,7 +98,7 @@ def _each_quarter(bag: Bag, group: Group) -> Found | None:
         return None
     bag.take("QUARTER")
     bag.take("PLOT")
-    corners: tuple[s.CornerName, ...] = ("nw", "ne", "se", "sw")
+    corners: tuple[CornerName, ...] = ("nw", "ne", "se", "sw")
     ones = tuple(group.kept(s.Quarter(quarter=corner, of=group.area)) for corner in corners)
     return Found(selector=s.Trees(), many=True, each=True, region=True, rows=True, one_by_one=ones)
 
@@ -260,7 +261,7 @@ def _first_or_last(bag: Bag, of: s.Selector, site: Site) -> Found:
         raise how_many(bag.phrase)
     if number == 1:
         return Found(selector=s.First(of=of) if last is None else s.Last(of=of), counted=1)
-    marker: s.MarkerName = "start" if last is None else "end"
+    marker: MarkerName = "start" if last is None else "end"
     if marker not in site.markers:
         raise bag.fault(
             message("the site has no {marker} marker to count from", marker=marker),

@@ -11,6 +11,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 
 from fieldhand.language import message
+from fieldhand.places import selectors as s
 from fieldhand.planning.english.bag import Bag, bag_of
 from fieldhand.planning.english.bare import named_trees, quantity_alone
 from fieldhand.planning.english.faults import Question, Unclear, text_of, unclear
@@ -35,7 +36,7 @@ from fieldhand.planning.english.sets import Group
 from fieldhand.planning.english.syntax import Chain, NounPhrase, Places
 from fieldhand.planning.english.tokens import Term
 from fieldhand.site.model import Site
-from fieldhand.task import selectors as s
+from fieldhand.terms import AnySide
 
 #: Words that make a phrase behind "with" or "of" a description rather than a place ("with yellow leaves").
 _DESCRIBING = ("ATTR", "ATTRVAL", "SUPER")
@@ -301,12 +302,12 @@ def _named_anchors(part: _Part) -> tuple[tuple[Term, bool], ...]:
     return tuple((r, bool(inner.bag.ids) or inner.bag.has("IT")) for r, inner in part.described)
 
 
-def _side_of_anchor(part: _Part) -> s.AnySide:
+def _side_of_anchor(part: _Part) -> AnySide:
     """Return the side of its anchor that a phrase speaks of."""
     found = [inner for relation, inner in part.described if _is_side_of_anchor(part, relation, inner)]
     if len(found) > 1:
         raise unclear(part.phrase.terms, message("two sides at once"), message("say one of them"))
-    side: s.AnySide = found[0].bag.words("DIR")[0].value if found else "any"
+    side: AnySide = found[0].bag.words("DIR")[0].value if found else "any"
     return side
 
 

@@ -9,6 +9,8 @@ from dataclasses import replace
 
 from fieldhand.errors import PlaceError, TaskError
 from fieldhand.language import Number, message, named
+from fieldhand.places.context import Context
+from fieldhand.places.resolution import resolve
 from fieldhand.planning.english.averages import check_averages
 from fieldhand.planning.english.draft import Halt, node_of
 from fieldhand.planning.english.faults import Unclear
@@ -19,9 +21,7 @@ from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_
 from fieldhand.planning.planner import Outcome, Planned, Reason, Refused
 from fieldhand.robot.capabilities import measures_of
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.context import Context
 from fieldhand.site.model import Site
-from fieldhand.site.places import resolve
 from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
 from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource

@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from fieldhand.language import message, named
+from fieldhand.places import selectors as s
 from fieldhand.planning.english.asking import how_many
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.sets import check_sides
-from fieldhand.task import selectors as s
+from fieldhand.terms import CornerName, Side
 
-_CORNERS: tuple[s.CornerName, ...] = ("nw", "ne", "se", "sw")
+_CORNERS: tuple[CornerName, ...] = ("nw", "ne", "se", "sw")
 _CORNER_WORDS = ("north-west", "north-east", "south-east", "south-west")
 _CORNER_CHOICES = tuple(named(word, "answer", named(word, "compass")) for word in _CORNER_WORDS)
 SIDE_ADVICE = message("say north, east, south or west")
@@ -69,8 +70,8 @@ def corners(bag: Bag, of: s.Selector) -> Found:
     )
 
 
-def _which(bag: Bag) -> tuple[s.CornerName, ...]:
-    named: list[s.CornerName] = []
+def _which(bag: Bag) -> tuple[CornerName, ...]:
+    named: list[CornerName] = []
     while (direction := bag.take("DIR", "MOST")) is not None:
         for corner in _CORNERS:  # "the two northern corners"
             one = direction.value == corner or (len(direction.value) > 2 and direction.value[0] in corner)
@@ -166,7 +167,7 @@ def region(bag: Bag, of: s.Selector) -> s.Selector:
             bag.take("SIDE")
             return of
         if bag.take("EDGE") is not None:  # "the edge of the orchard": all around it
-            sides: tuple[s.Side, ...] = ("north", "east", "south", "west")
+            sides: tuple[Side, ...] = ("north", "east", "south", "west")
             return s.Union(parts=tuple(s.Edge(side=side, of=of) for side in sides))
         if bag.has("FINISH"):
             raise bag.fault(
@@ -190,17 +191,17 @@ def half_or_quarter(side: str, of: s.Selector) -> s.Selector:
     """The half on one side, or the quarter in one corner."""
     if len(side) == 2:
         return s.Quarter(quarter=_corner(side), of=of)
-    compass: s.Side = {"north": "north", "east": "east", "south": "south"}.get(side, "west")  # type: ignore[assignment]
+    compass: Side = {"north": "north", "east": "east", "south": "south"}.get(side, "west")  # type: ignore[assignment]
     return s.Half(side=compass, of=of)
 
 
-def _corner(name: str) -> s.CornerName:
+def _corner(name: str) -> CornerName:
     return next(c for c in _CORNERS if c == name)
 
 
-def _one_side(bag: Bag, side: str) -> s.Side:
+def _one_side(bag: Bag, side: str) -> Side:
     for compass in ("north", "east", "south", "west"):
         if side == compass:
-            found: s.Side = compass
+            found: Side = compass
             return found
     raise bag.fault(message("an edge lies on one side"), SIDE_ADVICE)

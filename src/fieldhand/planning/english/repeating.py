@@ -6,12 +6,12 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from fieldhand.language import message
+from fieldhand.places import selectors as s
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.english.syntax import Part
-from fieldhand.task import selectors as s
 
 
 def last_passage(steps: list[d.Step]) -> d.Block:

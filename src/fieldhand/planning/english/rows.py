@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.language import message
+from fieldhand.language.words import COMPASS
+from fieldhand.places import selectors as s
 from fieldhand.planning.english.asking import how_many
 from fieldhand.planning.english.attributes import filtered
 from fieldhand.planning.english.bag import Bag
@@ -16,8 +18,7 @@ from fieldhand.planning.english.sets import Group
 from fieldhand.planning.english.tokens import Term
 from fieldhand.planning.english.ways import blocks_named, check_over, side_across
 from fieldhand.site.model import Site
-from fieldhand.task import selectors as s
-from fieldhand.task.words import COMPASS
+from fieldhand.terms import CountedFrom
 
 _WHICH = message("say which: 'row 3', 'the westernmost row', 'every other row'")
 
@@ -297,7 +298,7 @@ def _ranked(bag: Bag, start: From, of: s.Selector, site: Site) -> Found | None:
         return None
     if sum(t is not None for t in (last, behind)) + (start.far and rank is not None) > 1 or bag.has("EVERYNTH"):
         raise bag.fault(message("which row is meant is said in two ways"), _WHICH)
-    side: s.CountedFrom = start.side
+    side: CountedFrom = start.side
     if most is not None:
         if start != From() or len(most.value) == 2 or last is not None or behind is not None:
             raise bag.fault(message("which row is meant is said in two ways"), _WHICH)

@@ -15,7 +15,7 @@ from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.rewriting import Rule, merged, rewritten, silent
 from fieldhand.planning.english.tokens import Term
 from fieldhand.planning.english.wordclass import COUNTED
-from fieldhand.task import selectors as s
+from fieldhand.terms import CountedFrom, Towards
 
 _AISLE_ADVICE = message("the robot drives in the aisles by itself: name the rows, or the trees")
 #: Not a side by itself before one of these ("5 trees to the south | corner").
@@ -36,7 +36,7 @@ class Steps:
     """So many trees along the row; ``bare`` if no word says that one tree is meant ("5 trees down")."""
 
     trees: int
-    towards: s.Towards = "down"
+    towards: Towards = "down"
     bare: bool = False
 
 
@@ -52,7 +52,7 @@ class Over:
 class From:
     """Which end is counted from: a side, or the ``usual`` one; ``far`` from the other end."""
 
-    side: s.CountedFrom = "usual"
+    side: CountedFrom = "usual"
     far: bool = False
 
 
@@ -159,7 +159,7 @@ def _step(group: list[Term], before: Term | None) -> list[Term]:
     head = group[0]
     words = " ".join(t.text.lower() for t in group[2:])
     side = next((t.value for t in group if t.kind == "DIR"), "")
-    towards: s.Towards = side or ("up" if "up" in words.split() else "down")  # type: ignore[assignment]
+    towards: Towards = side or ("up" if "up" in words.split() else "down")  # type: ignore[assignment]
     one = before is not None and (before.kind in ("TREE", "PLACE", "DET", "ANOTHER", "OTHER") or before.kind == "ORD")
     bare = head.kind == "NUM" and not one
     return [merged(group, "STEP", Steps(trees=int(head.value), towards=towards, bare=bare))]
@@ -177,7 +177,7 @@ def _counted_from(group: list[Term], _before: Term | None) -> list[Term]:
     behind = next(k for k, t in enumerate(group) if t.kind == "FROM")
     row = [t for t in group[head + 1 : behind] if t.kind != "COMMA"]
     rest = [t for t in group[head + 1 :] if t.kind == "COMMA"] + group[behind:]
-    side: s.CountedFrom = next((t.value for t in rest if t.kind == "DIR"), "usual")
+    side: CountedFrom = next((t.value for t in rest if t.kind == "DIR"), "usual")
     far = side == "usual" and any(t.kind == "FINISH" for t in rest)
     return [*group[: head + 1], merged(rest, "COUNTEDFROM", From(side=side, far=far)), *row]
 

@@ -9,10 +9,10 @@ import re
 from collections.abc import Iterator
 
 from fieldhand.language import message
+from fieldhand.places import selectors as s
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import PLAINLY, Question, Unclear
 from fieldhand.planning.planner import Reason
-from fieldhand.task import selectors as s
 from fieldhand.task.conditions import readings
 from fieldhand.task.plan import Span
 

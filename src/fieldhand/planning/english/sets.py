@@ -6,11 +6,12 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from fieldhand.language import message
+from fieldhand.language.words import SIDES
+from fieldhand.places import selectors as s
 from fieldhand.planning.english.faults import unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.syntax import NounPhrase
-from fieldhand.task import selectors as s
-from fieldhand.task.words import SIDES
+from fieldhand.terms import AnySide
 
 #: Selectors that keep a tree or not by itself, whatever the others are: their order does not matter.
 FILTERS = (s.Where, s.InZone, s.Within, s.Excluding, s.Other)
@@ -41,7 +42,7 @@ class Group:
     area: s.Selector = field(default_factory=s.Trees)
     anchor: s.Selector | None = None
     beside: bool = False
-    side: s.AnySide = "any"
+    side: AnySide = "any"
     region: bool = False
     single: bool = False
     rows: s.Selector | None = None

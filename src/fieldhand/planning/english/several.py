@@ -8,14 +8,14 @@ from itertools import combinations
 
 from fieldhand.errors import PlaceError, TaskError
 from fieldhand.language import message
+from fieldhand.places import selectors as s
+from fieldhand.places.context import Context
+from fieldhand.places.resolution import resolve
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import unclear
 from fieldhand.planning.english.tokens import Term
-from fieldhand.site.context import Context
 from fieldhand.site.model import Site
-from fieldhand.site.places import resolve
 from fieldhand.task import conditions as c
-from fieldhand.task import selectors as s
 
 #: More readings than this are not told one by one.
 MOST_READINGS = 12

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from fieldhand.language import Number, joined, message, named
+from fieldhand.language.words import listed, say_name, say_unit
 from fieldhand.planning.english.asking import choices_of_actions
 from fieldhand.planning.english.attributes import OPPOSITE, hinted, number_of
 from fieldhand.planning.english.draft import Capture
@@ -16,7 +17,6 @@ from fieldhand.planning.english.tokens import Term
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task import conditions as c
-from fieldhand.task.words import listed, say_name, say_unit
 
 _SUBJECT = frozenset({"NOUN", "ORD", "LAST"})
 #: Words of a condition that say which reading is meant, or nothing.

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from fieldhand.language import message
+from fieldhand.places import selectors as s
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.limits import Limit
 from fieldhand.planning.planner import Reason
-from fieldhand.task import selectors as s
 from fieldhand.task.frames import Then
 from fieldhand.task.plan import Span
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from fieldhand.language import joined, message, named
+from fieldhand.language.words import some_names
 from fieldhand.planning.english.faults import PLAINLY
 from fieldhand.planning.english.languages import language_of
 from fieldhand.planning.english.lexicon import Lexicon
 from fieldhand.planning.english.tokens import Term
 from fieldhand.planning.planner import Reason
-from fieldhand.task.words import some_names
 
 
 def unknown_words(terms: Sequence[Term], lexicon: Lexicon) -> tuple[Reason, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fieldhand.language import message
+from fieldhand.places import selectors as s
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.cases import Cases
 from fieldhand.planning.english.faults import Question, text_of, unclear
@@ -10,7 +11,6 @@ from fieldhand.planning.english.hand import ACTS
 from fieldhand.planning.english.places import find
 from fieldhand.planning.english.syntax import Part
 from fieldhand.planning.english.tested import place_in, read_condition
-from fieldhand.task import selectors as s
 
 
 class Until(Cases):

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from fieldhand.errors import PlaceError, TaskError
 from fieldhand.language import message
+from fieldhand.language.words import COMPASS
+from fieldhand.places import selectors as s
+from fieldhand.places.context import Context
+from fieldhand.places.resolution import resolve
 from fieldhand.planning.english.bag import Bag
-from fieldhand.site.context import Context
 from fieldhand.site.model import Site
-from fieldhand.site.places import resolve
 from fieldhand.site.planting import Block
-from fieldhand.task import selectors as s
-from fieldhand.task.words import COMPASS
+from fieldhand.terms import CountedFrom
 
 _UP_DOWN, _ACROSS = ("north", "south"), ("west", "east")
 
@@ -33,7 +34,7 @@ def blocks_named(selector: s.Selector, site: Site) -> tuple[Block, ...]:
     return tuple(planting.blocks[k] for k in sorted(found)) or planting.blocks
 
 
-def side_across(bag: Bag, side: s.CountedFrom, of: s.Selector, site: Site) -> s.CountedFrom:
+def side_across(bag: Bag, side: CountedFrom, of: s.Selector, site: Site) -> CountedFrom:
     """A side that rows can be counted from: one that lies across them, in one of the phrase's blocks at least.
 
     Where it fits some of several blocks only, the selection itself says which it does not fit.
@@ -51,7 +52,7 @@ def side_across(bag: Bag, side: s.CountedFrom, of: s.Selector, site: Site) -> s.
     )
 
 
-def side_along(bag: Bag, side: s.CountedFrom, of: s.Selector, site: Site) -> s.CountedFrom:
+def side_along(bag: Bag, side: CountedFrom, of: s.Selector, site: Site) -> CountedFrom:
     """A side that trees along a row can be counted from, in one of the phrase's blocks at least.
 
     Raises:

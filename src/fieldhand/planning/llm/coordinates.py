@@ -12,12 +12,14 @@ from collections.abc import Iterator
 from dataclasses import fields
 from typing import Any
 
+from fieldhand.places import selectors
 from fieldhand.planning.llm.review import Problem
 from fieldhand.site.kinds import phrase
 from fieldhand.site.model import Site
-from fieldhand.task import conditions, plan, selectors
+from fieldhand.task import conditions, plan
 from fieldhand.task.codec import Draft
 from fieldhand.task.plan import Node
+from fieldhand.terms import Value
 
 #: What columns of coordinates are called.
 _COLUMNS = frozenset(
@@ -61,7 +63,7 @@ def _parts(node: Node) -> Iterator[Any]:
     yield from conditions.walk(condition) if condition is not None else ()
 
 
-def _of_column(attribute: str, value: selectors.Value, request: str, where: str) -> Iterator[Problem]:
+def _of_column(attribute: str, value: Value, request: str, where: str) -> Iterator[Problem]:
     said = {float(text) for text in re.findall(r"[-+]?\d+(?:\.\d+)?", request)}
     if isinstance(value, bool) or (isinstance(value, float | int) and value in said):
         return

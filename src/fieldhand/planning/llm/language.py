@@ -14,12 +14,12 @@ from functools import cache
 from typing import get_args
 
 from fieldhand.errors import ModelError
+from fieldhand.places.selectors import Selector
 from fieldhand.task import plan
 from fieldhand.task.codec_shapes import FAMILIES, Attribute, Child, Shape, all_shapes, element_name, shape_of
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Budget, Constraints, FaultedExit
 from fieldhand.task.plan import Node
-from fieldhand.task.selectors import Selector
 
 #: One letter for "any one of this family" in the forms.
 LETTERS = {"node": "N", "condition": "C", "selector": "S"}

@@ -14,6 +14,7 @@ from importlib import resources
 from typing import get_args
 from xml.sax.saxutils import escape
 
+from fieldhand.places.selectors import Selector
 from fieldhand.planning.llm.chat import Message
 from fieldhand.planning.llm.examples import EXAMPLES
 from fieldhand.planning.llm.examples import ROBOT as EXAMPLE_ROBOT
@@ -26,7 +27,6 @@ from fieldhand.site.model import Site
 from fieldhand.task.codec_shapes import NAMESPACE, element_name
 from fieldhand.task.conditions import Condition
 from fieldhand.task.plan import Node
-from fieldhand.task.selectors import Selector
 
 #: Most characters of the summary of a robot or of a site, and of one line of either.
 MOST_DATA = 4_000

@@ -13,12 +13,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, get_args
 
 from fieldhand.errors import PlaceError, TaskError
+from fieldhand.places import selectors
+from fieldhand.places.context import Context
+from fieldhand.places.selectors import Bound, InRow, RowOf, Selector
 from fieldhand.planning.foreseen import foreseeable
 from fieldhand.planning.llm.quotes import place_quotes
-from fieldhand.site.context import Context
 from fieldhand.site.kinds import phrase
 from fieldhand.site.model import Place, Site
-from fieldhand.task import conditions, plan, selectors
+from fieldhand.task import conditions, plan
 from fieldhand.task.capabilities import Capabilities
 from fieldhand.task.codec import Draft, decode_draft
 from fieldhand.task.codec_shapes import NAMESPACE, element_name
@@ -28,7 +30,6 @@ from fieldhand.task.frames import Command, Composition, Task
 from fieldhand.task.plan import ForEach, Node
 from fieldhand.task.references import references
 from fieldhand.task.schema import validate
-from fieldhand.task.selectors import Bound, InRow, RowOf, Selector
 
 if TYPE_CHECKING:
     from lxml.etree import _Element
@@ -159,7 +160,7 @@ def _one_of_a_row(selector: Selector) -> bool:
 
 
 def _resolve(selector: Selector, site: Site) -> tuple[Place, ...]:
-    from fieldhand.site.places import resolve
+    from fieldhand.places.resolution import resolve
 
     return resolve(selector, site, Context(here=site.start))
 

@@ -12,8 +12,8 @@ from shapely.geometry import MultiPoint
 from fieldhand.site.describe.rows import BlockSummary, block_summary, shortened
 from fieldhand.site.kinds import number_text
 from fieldhand.site.model import Site, ZoneKind
-from fieldhand.site.places.rectangle import smallest_rectangle
-from fieldhand.task.selectors import Value
+from fieldhand.site.rectangle import smallest_rectangle
+from fieldhand.terms import Value
 
 MOST_VALUES = 8
 MOST_ATTRIBUTES = 20

@@ -25,7 +25,7 @@ from fieldhand.site.describe.rows import (
 )
 from fieldhand.site.kinds import number_text
 from fieldhand.site.model import Site, ZoneKind
-from fieldhand.site.places.faults import listed
+from fieldhand.site.names import listed
 
 _KINDS: dict[ZoneKind, str] = {"boundary": "boundary", "keep_out": "keep-out", "zone": "zone"}
 #: More rows than this are not listed unless they are asked for.

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fieldhand.site.counting import rows_from
 from fieldhand.site.model import Site
-from fieldhand.site.places.counted import rows_from
 from fieldhand.site.planting import Block, Known, Row
 from fieldhand.visible import visible
 

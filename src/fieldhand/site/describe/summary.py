@@ -13,12 +13,12 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
+from fieldhand.site.counting import rows_from
 from fieldhand.site.describe.figures import SiteSummary, describe, value_text
 from fieldhand.site.describe.lines import figure_words, marker_words
 from fieldhand.site.describe.rows import block_summary, counting_words, direction_words, shortened
 from fieldhand.site.model import Site, Zone, ZoneKind
-from fieldhand.site.places.counted import rows_from
-from fieldhand.task.selectors import Value
+from fieldhand.terms import Value
 
 #: Names of one kind that are shown, and the characters of each, from the fullest summary to the shortest.
 _LEVELS = ((60, 40), (30, 40), (16, 32), (10, 24), (6, 20), (4, 16), (3, 12), (2, 10), (1, 8), (0, 8))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from fieldhand.site.drawing import colours
 from fieldhand.site.drawing.labels import XY, Labels
 from fieldhand.site.model import Site
-from fieldhand.site.places.faults import short
+from fieldhand.site.names import short
 from fieldhand.site.planting import Block
 
 if TYPE_CHECKING:

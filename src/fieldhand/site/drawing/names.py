@@ -11,7 +11,7 @@ from fieldhand.site.drawing.ground import marker_look, named_zones, open_spots, 
 from fieldhand.site.drawing.labels import XY, Labels
 from fieldhand.site.drawing.rows import name_rows
 from fieldhand.site.model import Site
-from fieldhand.site.places.faults import short
+from fieldhand.site.names import short
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

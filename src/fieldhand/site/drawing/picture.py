@@ -24,7 +24,7 @@ from fieldhand.site.drawing.saving import save_figure
 from fieldhand.site.drawing.ways import draw_closed, draw_unreachable, draw_ways
 from fieldhand.site.driving.network import Network
 from fieldhand.site.model import Site
-from fieldhand.site.places.faults import short
+from fieldhand.site.names import short
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -12,7 +12,7 @@ from fieldhand.site.drawing import colours
 from fieldhand.site.drawing.ground import draw_dots, points_a_metre, tree_size
 from fieldhand.site.drawing.labels import XY, Labels
 from fieldhand.site.model import Site
-from fieldhand.site.places.faults import short
+from fieldhand.site.names import short
 from fieldhand.site.planting import Block, Row
 
 if TYPE_CHECKING:

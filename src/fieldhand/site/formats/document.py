@@ -15,7 +15,7 @@ from shapely.geometry.polygon import orient
 
 from fieldhand.site.kinds import BLOCK_KEYS, COLUMN_KEYS, POSITION_KEYS, area_kind, row_of, text_of
 from fieldhand.site.model import Site, Tree, Zone
-from fieldhand.task.selectors import Value
+from fieldhand.terms import Value
 
 if TYPE_CHECKING:
     from fieldhand.site.driving.network import Network

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldhand.language.words import say_action
 from fieldhand.task.nodes.base import Meaning, PlanNode, SayPlace, Span
 from fieldhand.task.requests import Bind, Capture, Drive, Forget, Locate, Permit, Read
-from fieldhand.task.words import say_action
 
 if TYPE_CHECKING:
+    from fieldhand.places.selectors import Selector
     from fieldhand.task.requests import Place, Reading
     from fieldhand.task.run import Run
-    from fieldhand.task.selectors import Selector
 
 
 @dataclass(frozen=True, kw_only=True)

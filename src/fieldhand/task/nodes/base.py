@@ -17,12 +17,12 @@ from collections.abc import Callable, Generator
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
+    from fieldhand.places.selectors import Selector
     from fieldhand.task.conditions import Condition
     from fieldhand.task.nodes.stop import Stop
     from fieldhand.task.plan import Node
     from fieldhand.task.requests import Request
     from fieldhand.task.run import Run
-    from fieldhand.task.selectors import Selector
 
 #: A range of characters of the request: first, and one behind the last.
 Span: TypeAlias = tuple[int, int]

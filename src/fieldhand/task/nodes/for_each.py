@@ -9,11 +9,11 @@ from fieldhand.task.nodes.base import GivenUp, Meaning, PlanNode, SayPlace, Span
 from fieldhand.task.requests import Begin, Bind, Decide, Drive, Next
 
 if TYPE_CHECKING:
+    from fieldhand.places.selectors import Selector
     from fieldhand.task.conditions import Condition
     from fieldhand.task.plan import Node
     from fieldhand.task.requests import Place
     from fieldhand.task.run import Run
-    from fieldhand.task.selectors import Selector
 
 
 @dataclass(frozen=True, kw_only=True)

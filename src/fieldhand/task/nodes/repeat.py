@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldhand.language.words import say_times
 from fieldhand.task.nodes.base import Meaning, PlanNode, SayPlace, Span
 from fieldhand.task.requests import Decide, Round
-from fieldhand.task.words import say_times
 
 if TYPE_CHECKING:
     from fieldhand.task.conditions import Condition

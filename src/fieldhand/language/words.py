@@ -1,0 +1,246 @@
+"""How the nouns of a Task are said: numbers, units, lists, sides, actions. No grammar of selectors here.
+
+Shared by whatever speaks to a person (read-back, map, report), so that one thing has one name everywhere. What is given
+back is English, as messages that every language of :mod:`fieldhand.language` can say.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from typing import Literal
+
+from fieldhand.language import Message, Number, counted, joined, message, named, shaped
+from fieldhand.terms import CornerName, Side, Test
+
+SIDES: dict[Side, str] = {
+    "north": message("northern"),
+    "east": message("eastern"),
+    "south": message("southern"),
+    "west": message("western"),
+}
+CORNERS: dict[CornerName, str] = {
+    "nw": message("north-west"),
+    "ne": message("north-east"),
+    "se": message("south-east"),
+    "sw": message("south-west"),
+}
+#: Where something is or goes: "from the north". Finer winds as well, since lines run every way.
+COMPASS: dict[str, str] = {
+    "north": message("north", context="compass"),
+    "north-east": message("north-east", context="compass"),
+    "east": message("east", context="compass"),
+    "south-east": message("south-east", context="compass"),
+    "south": message("south", context="compass"),
+    "south-west": message("south-west", context="compass"),
+    "west": message("west", context="compass"),
+    "north-west": message("north-west", context="compass"),
+}
+TESTS: dict[Test, str] = {
+    "lt": "below",
+    "le": "at most",
+    "gt": "above",
+    "ge": "at least",
+    "eq": "exactly",
+    "ne": "other than",
+}
+UNITS = {
+    "degC": "°C",
+    "degF": "°F",
+    "percent": "%",
+    "m_s": "m/s",
+    "deg": "°",
+    "umol_m2_s": "µmol/(m²·s)",
+    "unitless": "",
+}
+
+#: Ten years in seconds: beyond it no number of hours means anything to a person.
+_YEARS_S = 10 * 365.25 * 86_400.0
+
+_MINUS = "\N{MINUS SIGN}"
+_ACRONYMS = {"co2": "CO₂", "ndvi": "NDVI", "ph": "pH", "ec": "EC", "rgb": "RGB", "par": "PAR", "lidar": "LiDAR"}
+_IRREGULAR = {"leaf": "leaves", "fruit": "fruit", "co₂": "CO₂", "datum": "data"}
+#: Verbs whose object is something that is there to be read, not a thing that is made: "read the soil moisture".
+_READING_VERBS = frozenset({"read", "measure", "record", "sense", "monitor", "inspect", "check"})
+
+
+def say_name(name: str) -> str:
+    """A name with underscores as words: ``ambient_temperature`` is "ambient temperature", ``co2`` is "CO₂"."""
+    words = _words(name)
+    return named(words, "name", message("“{name}”", context="name", name=words))
+
+
+def _words(name: str) -> str:
+    return " ".join(_ACRONYMS.get(part.lower(), part) for part in re.split(r"[_\s]+", name) if part)
+
+
+def say_number(value: float, digits: int = 6) -> str:
+    """A number without needless digits: 33.0 is "33", 0.5 is "0.5"."""
+    if not math.isfinite(value):
+        return message("an unknown number")
+    text = f"{value:.{digits}g}"
+    if "e" in text:
+        text = f"{value:,.0f}" if abs(value) >= 1 else f"{value:.{digits}f}".rstrip("0").rstrip(".")
+    return Number(text.replace("-", _MINUS))
+
+
+def say_rounded(value: float, digits: int = 0) -> str:
+    """A number with so many digits after the point: 12.345 with one is "12.3"."""
+    return Number(f"{value:.{digits}f}")
+
+
+def say_quantity(value: float, unit: str) -> str:
+    """A value with its unit: "33 °C", "40 %", "400 ppm"."""
+    return joined(" ", [part for part in (say_number(value), say_unit(unit)) if part])
+
+
+def say_unit(unit: str) -> str:
+    """A unit as it is printed: ``degC`` is "°C"."""
+    return UNITS.get(unit, unit.replace("_", " "))
+
+
+def say_value(value: str | float | bool) -> str:
+    """An attribute's value: "yellow", "12.5", "yes"."""
+    if isinstance(value, bool):
+        return message("yes") if value else message("no")
+    return value if isinstance(value, str) else say_number(value)
+
+
+def say_place(kind: str, name: str) -> str:
+    """Return a place as it follows "at": "tree 12", "the end"."""
+    if kind == "tree":
+        return message("tree {id}", context="log", id=name)
+    return message("the {role}", context="log", role=named(name, "role"))
+
+
+def say_tree(tree: str) -> str:
+    """A tree by its id: "tree 81"."""
+    return message("tree {id}", id=tree)
+
+
+def say_marker(name: str) -> str:
+    """A marker in words: "the end marker", "the charger"."""
+    match name:
+        case "charger":
+            return message("the charger")
+        case "start":
+            return message("the start marker")
+        case "end":
+            return message("the end marker")
+    return message("the {name} marker", name=say_name(name))
+
+
+def say_gate(gate: str) -> str:
+    """Return a gate in words: "the gate", or "the gate “north gate”" where it has a name of its own."""
+    return message("the gate") if say_name(gate).lower() == "gate" else message("the gate “{gate}”", gate=gate)
+
+
+def say_zone(zone: str) -> str:
+    """A zone by its name: "the zone “wet corner”"."""
+    return message("the zone “{zone}”", zone=zone)
+
+
+def some_names(names: Sequence[str], most: int, sign: str = ", ") -> str:
+    """Return so many names at most, and how many more there are: "14, 15 and 6 more"."""
+    shown = joined(sign, names[:most])
+    if len(names) <= most:
+        return shown
+    return message("{items} and {count} more", items=shown, count=len(names) - most)
+
+
+def say_duration(seconds: float) -> str:
+    """A duration as people say it: "45 s", "12 min", "1 h 05 min". Safe for what no mission lasts."""
+    if math.isnan(seconds):
+        return message("an unknown time")
+    if seconds > _YEARS_S:
+        return message("more than ten years")
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    minutes = round(seconds / 60)
+    return f"{minutes} min" if minutes < 100 else f"{minutes // 60} h {minutes % 60:02d} min"
+
+
+def say_times(count: int) -> str:
+    """How often: "once", "twice", "5 times"."""
+    if count == 1:
+        return message("once")
+    return message("twice") if count == 2 else message("{count} times", count=count)
+
+
+def say_count(count: int, noun: str) -> str:
+    """A count with its noun: "1 tree", "4 trees"."""
+    return counted(f"{{count}} {noun}", f"{{count}} {plural(noun)}", count)
+
+
+def plural(noun: str) -> str:
+    """The plural of a noun phrase whose head is its last word."""
+    head, space, last = noun.rpartition(" ")
+    irregular = _IRREGULAR.get(last.lower())
+    if irregular is not None:
+        many = irregular
+    elif re.search(r"(s|x|z|ch|sh)$", last):
+        many = f"{last}es"
+    elif re.search(r"[^aeiou]y$", last):
+        many = f"{last[:-1]}ies"
+    else:
+        many = f"{last}s"
+    return f"{head}{space}{many}"
+
+
+def article(noun: str) -> str:
+    """The noun with "a" or "an"."""
+    first = noun.split(" ", 1)[0]
+    # An acronym is spelt out when read, so the sound of its first letter decides ("an RGB picture").
+    spelt = len(first) > 1 and first.isupper()
+    vowel = first[:1] in "AEFHILMNORSX" if spelt else first[:1].lower() in set("aeiou")
+    return f"{'an' if vowel else 'a'} {noun}"
+
+
+def listed(items: Sequence[str], last: Literal["and", "or"] = "and") -> str:
+    """A list in words: "81, 12 and 5"."""
+    if len(items) < 2:
+        return joined("", items)
+    held = joined(", ", items[:-1])
+    if last == "or":
+        return message("{items} or {last}", items=held, last=items[-1])
+    return message("{items} and {last}", items=held, last=items[-1])
+
+
+def say_action(name: str, count: int = 1) -> str:
+    """An action as a verb phrase: "take a thermal picture", "read the soil moisture twice", "sample 2 leaves"."""
+    verb, _, rest = name.strip("_").partition("_")
+    thing = _words(rest)
+    if not thing:
+        return _of_action(_words(verb), f"{_words(verb)} {{times}}", count)
+    if verb in _READING_VERBS:
+        bare = thing if thing in _ACRONYMS.values() else f"the {thing}"
+        return _of_action(f"{verb} {bare}", f"{verb} {bare} {{times}}", count)
+    return _of_action(f"{verb} {article(thing)}", f"{verb} {{count}} {plural(thing)}", count)
+
+
+def say_captures(name: str, count: int) -> str:
+    """What an action yields, counted: "3 thermal pictures", "1 reading of CO₂"."""
+    verb, _, rest = name.strip("_").partition("_")
+    thing = _words(rest) or _words(verb)
+    one, many = (f"{thing} reading", f"{thing} readings") if verb in _READING_VERBS else (thing, plural(thing))
+    said = counted(f"{{count}} {one}", f"{{count}} {many}", count, context="captures")
+    said.instead = counted("{count} capture of “{name}”", "{count} captures of “{name}”", count, name=thing)
+    return said
+
+
+def _of_action(once: str, often: str, count: int) -> Message:
+    """A verb phrase that a catalogue may know; else it is quoted."""
+    said = counted(once, often, count, context="action", times=say_times(count))
+    quoted = message("do “{action}”", action=once)
+    said.instead = quoted if count == 1 else message("do “{action}” {times}", action=once, times=say_times(count))
+    return said
+
+
+def capitalised(text: str) -> str:
+    """The text with its first letter in upper case, the rest as it is."""
+    return shaped(text, _with_capital)
+
+
+def _with_capital(text: str) -> str:
+    return text[:1].upper() + text[1:]

@@ -1,0 +1,106 @@
+"""How a selector came to its places, part by part, for read-back and for questions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from fieldhand.places.context import Context
+from fieldhand.places.resolution import Resolution, Step
+from fieldhand.places.selectors import Selector
+from fieldhand.places.words import say_selector
+from fieldhand.site.model import Place, Site
+
+_FEW = 6
+
+
+@dataclass(frozen=True, kw_only=True)
+class Part:
+    """One part of a selector as it was resolved.
+
+    Attributes:
+        selector: The part, with what is inside it.
+        words: The same in words: "the northernmost of the yellow trees".
+        rule: The rule that was applied, a short clause ("rows count from west"); empty where the words say it all.
+        candidates: How many places it chose from; None for what names places outright.
+        chosen: How many it left.
+        ids: The first few of those.
+        runners_up: The next few, where it ranked.
+        notes: What a person may not expect: a tie, the end of a row, a stand-in.
+    """
+
+    selector: Selector
+    words: str
+    rule: str
+    candidates: int | None
+    chosen: int
+    ids: tuple[str, ...]
+    runners_up: tuple[str, ...]
+    notes: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Explanation:
+    """What a selector comes to, and how.
+
+    Attributes:
+        places: As :func:`~fieldhand.places.resolution` gives them.
+        parts: In the order in which they were resolved, each after those inside it.
+    """
+
+    places: tuple[Place, ...]
+    parts: tuple[Part, ...]
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a person may not expect, of all parts, each once."""
+        return tuple(dict.fromkeys(note for part in self.parts for note in part.notes))
+
+    @property
+    def rules(self) -> tuple[str, ...]:
+        """The rules that were applied, each once."""
+        return tuple(dict.fromkeys(part.rule for part in self.parts if part.rule))
+
+    def say(self) -> tuple[str, ...]:
+        """A line for each part: "the trees of row 3: 12 of 98; rows count from west"."""
+        return tuple(_line(part) for part in self.parts)
+
+
+def explain(selector: Selector, site: Site, context: Context) -> Explanation:
+    """The places that a selector names and how they were found.
+
+    Raises:
+        PlaceError: As :func:`~fieldhand.places.resolution`.
+    """
+    resolution = Resolution(site, context)
+    found = resolution.spots(selector)
+    return Explanation(places=found.places, parts=tuple(_part(step) for step in resolution.steps))
+
+
+def notes(selector: Selector, site: Site, context: Context) -> tuple[str, ...]:
+    """What a person may not expect of the places that a selector names: ties, ends of rows, stand-ins.
+
+    Raises:
+        PlaceError: As :func:`~fieldhand.places.resolution`.
+    """
+    steps = Resolution(site, context)
+    steps.spots(selector)
+    return tuple(dict.fromkeys(note for step in steps.steps for note in step.tell.notes))
+
+
+def _part(step: Step) -> Part:
+    return Part(
+        selector=step.selector,
+        words=say_selector(step.selector),
+        rule=step.tell.rule,
+        candidates=step.tell.candidates,
+        chosen=len(step.found),
+        ids=tuple(p.id for p in step.found.keep(slice(_FEW)).places),
+        runners_up=step.tell.runners_up,
+        notes=tuple(step.tell.notes),
+    )
+
+
+def _line(part: Part) -> str:
+    of = f"{part.chosen}" if part.candidates is None else f"{part.chosen} of {part.candidates}"
+    named = ", ".join(part.ids) + (f" and {part.chosen - len(part.ids)} more" if part.chosen > len(part.ids) else "")
+    return "; ".join((f"{part.words}: {of} ({named})", *((part.rule,) if part.rule else ()), *part.notes))

@@ -1,0 +1,230 @@
+"""What to say when a selector finds nothing: which part of it, and what the site has instead."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Sequence
+from typing import Literal
+
+from fieldhand.errors import PlaceError
+from fieldhand.language import counted, joined, message, shaped
+from fieldhand.places.selectors import Rows, Selector, Top, Where
+from fieldhand.site.counting import block_words
+from fieldhand.site.kinds import number_text
+from fieldhand.site.model import Site
+from fieldhand.site.names import listed, short
+from fieldhand.site.planting import Block
+from fieldhand.terms import Value
+
+#: With more rows or values than this the first and the last are named, or the least and the greatest.
+_MOST = 8
+#: Of longer names only the beginning is compared.
+_LONGEST = 40
+
+
+def no_such_tree(site: Site, tree: str) -> PlaceError:
+    """There is no tree with that id."""
+    near = _alike(tree, [t.place.id for t in site.trees[:5000]])
+    first, last = site.trees[0].place.id, site.trees[-1].place.id
+    return PlaceError(
+        message("there is no tree '{id}'", id=short(tree)),
+        where=site.name,
+        advice=message(
+            "{did_you_mean} the {count} trees are {first} to {last}",
+            did_you_mean=near,
+            count=len(site.trees),
+            first=short(first),
+            last=short(last),
+        ),
+    )
+
+
+def no_such_gate(site: Site, gate: str) -> PlaceError:
+    """There is no gate of that name."""
+    names = [g.place.id for g in site.gates]
+    has = message("its gates are {names}", names=listed(names)) if names else message("it has no gates")
+    near = _alike(gate, names)
+    return PlaceError(
+        message("there is no gate '{name}'", name=short(gate)),
+        where=site.name,
+        advice=joined(" ", (near, has)) if near else has,
+    )
+
+
+def no_such_zone(site: Site, zone: str) -> PlaceError:
+    """There is no zone of that name, nor a block."""
+    return _no_such_area(site, "zone", zone)
+
+
+def no_such_block(site: Site, block: str) -> PlaceError:
+    """There is no block of that name, nor a zone."""
+    return _no_such_area(site, "block", block)
+
+
+def no_such_row(site: Site, blocks: Sequence[Block], said: str) -> PlaceError:
+    """None of these blocks has a row that is called so."""
+    names = list(dict.fromkeys(row.name for block in blocks for row in block.rows))
+    has = counted("there is {count} row", "there are {count} rows", len(names))
+    if len(names) <= _MOST:
+        has = message("{rows}: {names}", rows=has, names=listed(names))
+    else:
+        has = message("{rows}, {first} to {last}", rows=has, first=short(names[0]), last=short(names[-1]))
+    near = "" if said.lstrip("-").isdecimal() else _alike(said, names)
+    what = message("there is no row '{name}'", name=short(said))
+    if len(site.planting.blocks) > 1:
+        what = message("{what} in {blocks}", what=what, blocks=listed([block_words(b) for b in blocks]))
+    return PlaceError(what, where=site.name, advice=joined(" ", (near, has)) if near else has)
+
+
+def row_in_several_blocks(site: Site, selector: Rows, blocks: Sequence[str]) -> PlaceError:
+    """Rows are called the same in several blocks."""
+    one = selector.first == selector.last or not (selector.first and selector.last)
+    if one:
+        rows = message("row {name}", name=short(selector.first or selector.last))
+    else:
+        rows = message(
+            "rows {first} to {last} {from_side}", first=short(selector.first), last=short(selector.last), from_side=""
+        )
+    return PlaceError(
+        counted(
+            "{rows} is in {blocks} blocks: {names}",
+            "{rows} are in {blocks} blocks: {names}",
+            1 if one else 2,
+            rows=rows,
+            blocks=len(blocks),
+            names=listed(blocks),
+        ),
+        where=site.name,
+        advice=message('say of which block: "{rows} of {block}"', rows=rows, block=short(blocks[-1])),
+    )
+
+
+def no_such_attribute(site: Site, attribute: str) -> PlaceError:
+    """The trees have no attribute of that name."""
+    names = list(site.attributes)
+    if names:
+        has = message(
+            "{did_you_mean} the trees have {names}", did_you_mean=_alike(attribute, names), names=listed(names)
+        )
+    else:
+        has = message("the trees of this site have no attributes")
+    return PlaceError(message("no tree has an attribute '{name}'", name=short(attribute)), where=site.name, advice=has)
+
+
+def no_such_value(site: Site, selector: Where) -> PlaceError:
+    """No tree of the whole site has that value."""
+    from fieldhand.site.kinds import phrase
+
+    name = next(k for k in site.attributes if k == selector.attribute or phrase(k) == phrase(selector.attribute))
+    values = [value_text(v) for v in site.attributes[name]]
+    numbers = [v for v in site.attributes[name] if isinstance(v, float)]
+    if numbers and len(numbers) == len(values) > _MOST:
+        has = message("it goes from {low} to {high}", low=number_text(min(numbers)), high=number_text(max(numbers)))
+    else:
+        has = message("the values are {values}", values=listed(values))
+    near = _alike(value_text(selector.value), values)
+    return PlaceError(
+        message("no tree has {name} {value}", name=short(name), value=short(value_text(selector.value))),
+        where=site.name,
+        advice=joined(" ", (near, has)) if near else has,
+    )
+
+
+def no_such_value_here(site: Site, selector: Where, values: Sequence[Value]) -> PlaceError:
+    """Some tree of the site has that value, but none of these."""
+    error = nothing(site, selector)
+    if not values:
+        return error
+    has = message("the values are {values}", values=listed([value_text(v) for v in values]))
+    return PlaceError(error.what, where=site.name, advice=has)
+
+
+def not_a_number(selector: Where | Top, which: Literal["value", "attribute"]) -> PlaceError:
+    """A comparison that needs numbers has something else."""
+    if which == "value" and isinstance(selector, Where):
+        return PlaceError(
+            message(
+                "{name} cannot be above or below '{value}'",
+                name=short(selector.attribute),
+                value=short(value_text(selector.value)),
+            ),
+            advice=message("compare with a number, or ask whether it is equal"),
+        )
+    return PlaceError(
+        message("{name} is not a number", name=short(selector.attribute)),
+        advice=message("it can be equal to a value, not above, below or highest"),
+    )
+
+
+def nothing(site: Site, selector: Selector, of: str = "") -> PlaceError:
+    """This part of the selector leaves nothing."""
+    from fieldhand.places.words import say_selector
+
+    what = message("nothing on this site matches {trees}", trees=_shortened(say_selector(selector)))
+    return PlaceError(
+        message("{what} ({why})", what=what, why=of) if of else what,
+        where=site.name,
+        advice=message("ask for other trees"),
+    )
+
+
+def too_few(site: Site, selector: Selector, wanted: int, there_are: int) -> PlaceError:
+    """Fewer than were asked for."""
+    from fieldhand.places.words import say_selector
+
+    if there_are:
+        only = counted("there is only {count}", "there are only {count}", there_are)
+    else:
+        only = message("there are none")
+    return PlaceError(
+        counted(
+            "{count} is asked for and {there_are}: {trees}",
+            "{count} are asked for and {there_are}: {trees}",
+            wanted,
+            there_are=only,
+            trees=_shortened(say_selector(selector)),
+        ),
+        where=site.name,
+        advice=message("ask for at most {count}", count=there_are) if there_are else message("ask for other trees"),
+    )
+
+
+def _shortened(text: str) -> str:
+    """A phrase on one line and not too long, in whichever language."""
+    return shaped(text, _within_a_line)
+
+
+def _within_a_line(text: str) -> str:
+    return short(text, 160)
+
+
+def value_text(value: Value) -> str:
+    """A value as people write it."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return number_text(value) if isinstance(value, float) else str(value)
+
+
+def _no_such_area(site: Site, kind: Literal["zone", "block"], name: str) -> PlaceError:
+    zones = list(dict.fromkeys(z.name for z in site.zones))
+    blocks = [b.name for b in site.planting.blocks]
+    near = _alike(name, [*zones, *blocks] if kind == "zone" else [*blocks, *zones])
+    has_zones = message("its zones are {names}", names=listed(zones)) if zones else message("it has no zones")
+    has_blocks = message("its blocks are {names}", names=listed(blocks)) if blocks else message("it has no blocks")
+    if kind == "zone":
+        has = has_zones
+        if len(blocks) > 1:
+            has = message("{zones}, its blocks {names}", zones=has, names=listed(blocks))
+        what = message("there is no zone '{name}'", name=short(name))
+    else:
+        has = has_blocks
+        if zones and len(blocks) != 1:
+            has = message("{blocks}, its zones {names}", blocks=has, names=listed(zones))
+        what = message("there is no block '{name}'", name=short(name))
+    return PlaceError(what, where=site.name, advice=joined(" ", (near, has)) if near else has)
+
+
+def _alike(name: str, names: Iterable[str]) -> str:
+    by_lower = {n.lower()[:_LONGEST]: n for n in names}
+    near = difflib.get_close_matches(name.lower()[:_LONGEST], list(by_lower)[:5000], n=1, cutoff=0.6)
+    return message("did you mean '{name}'?", name=short(by_lower[near[0]])) if near else ""

@@ -1,0 +1,223 @@
+"""How a grower counts: the rows of a block from one side, the trees of a row from one end."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.errors import PlaceError
+from fieldhand.language import message
+from fieldhand.language.words import COMPASS
+from fieldhand.site.kinds import phrase
+from fieldhand.site.model import Site
+from fieldhand.site.planting import Block, Planting, Row
+from fieldhand.terms import CountedFrom, Side
+
+OUTWARD: Mapping[Side, tuple[float, float]] = {"north": (0, 1), "east": (1, 0), "south": (0, -1), "west": (-1, 0)}
+_OPPOSITE: Mapping[str, Side] = {"north": "south", "south": "north", "east": "west", "west": "east"}
+_WINDS = ("north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west")
+
+#: A row leads towards a side of the compass within this angle of it (60 degrees): one to the north-east leads to both.
+_TOWARDS_COS = 0.5 - 1e-9
+
+_NUMBERED = re.compile(r"(\D*?) ?0*(\d{1,9})")
+
+
+def need_rows(site: Site) -> Planting:
+    """How the site is planted.
+
+    Raises:
+        PlaceError: The site has no rows.
+    """
+    if not site.planting.blocks:
+        raise PlaceError(
+            message("this site has no rows"),
+            where=site.name,
+            advice=message(
+                "{why}; ask by ids, by the compass or by zones",
+                why=site.planting.why or message("the trees stand in no rows"),
+            ),
+        )
+    return site.planting
+
+
+def along(block: Block) -> NDArray[np.float64]:
+    """The unit vector along the block's rows, away from their usual end."""
+    turn = np.radians(block.bearing_deg)
+    axis = np.array([np.sin(turn), np.cos(turn)])
+    away = axis[0] > 0 if block.runs_east_west else axis[1] < 0
+    return axis if away else -axis
+
+
+def across(block: Block) -> NDArray[np.float64]:
+    """The unit vector across the block's rows, towards higher numbers."""
+    x, y = along(block)
+    return np.array([y, -x]) if block.runs_east_west else np.array([-y, x])
+
+
+def wind(vector: NDArray[np.float64]) -> str:
+    """The direction of a vector by the compass of eight: "south-east"."""
+    return _WINDS[round(float(np.degrees(np.arctan2(vector[0], vector[1]))) / 45.0) % 8]
+
+
+def leads(vector: NDArray[np.float64], side: Side) -> int:
+    """1 if the vector leads towards that side, -1 if away from it, 0 if it passes it by."""
+    cosine = float(vector @ np.array(OUTWARD[side]))
+    return 0 if abs(cosine) < _TOWARDS_COS else int(np.sign(cosine))
+
+
+def way_of(block: Block) -> str:
+    """How the rows of a block run: "north to south"."""
+    axis = along(block)
+    return message("{one} to {other}", one=COMPASS[wind(-axis)], other=COMPASS[wind(axis)])
+
+
+def rows_from(site: Site, block: Block, side: CountedFrom) -> tuple[tuple[Row, ...], str]:
+    """The rows of a block as they are counted, and from where.
+
+    The site's own numbers (or letters) say from which side, where they rise from one; else it is the usual side.
+
+    Raises:
+        PlaceError: The rows cannot be counted from that side: they run towards it.
+    """
+    if side == "usual":
+        falling = _falls([row.name for row in block.rows if row.known == "file"])
+        axis = across(block)
+        return (block.rows[::-1], wind(axis)) if falling else (block.rows, wind(-axis))
+    way = leads(across(block), side)
+    if way == 0:
+        axis = across(block)
+        raise PlaceError(
+            _not_counted(message("rows cannot be counted from the {side}", side=COMPASS[side]), site, block),
+            where=site.name,
+            advice=message(
+                "count from the {one} or from the {other}", one=COMPASS[wind(-axis)], other=COMPASS[wind(axis)]
+            ),
+        )
+    return (block.rows[::-1] if way > 0 else block.rows), side
+
+
+def trees_from(site: Site, block: Block, side: CountedFrom) -> tuple[int, str]:
+    """Whether the trees of a block's rows count as they are listed (1) or backwards (-1), and from where.
+
+    Raises:
+        PlaceError: The rows have no end on that side: they pass it by.
+    """
+    axis = along(block)
+    if side == "usual":
+        return 1, wind(-axis)
+    way = leads(axis, side)
+    if way == 0:
+        raise PlaceError(
+            _not_counted(message("trees in a row cannot be counted from the {side}", side=COMPASS[side]), site, block),
+            where=site.name,
+            advice=message(
+                "count from the {one} or from the {other}", one=COMPASS[wind(-axis)], other=COMPASS[wind(axis)]
+            ),
+        )
+    return -way, side
+
+
+def find_row(rows: Sequence[Row], said: str, *, by_number: bool = False) -> int | None:
+    """The position of the row that is called so; None where there is none.
+
+    Its name comes first, then the number in its name ("3" is "R03" where all rows are called so), then its place in the
+    count; negative numbers count from the last row.
+
+    Args:
+        rows: As they are counted.
+        said: A name or a number.
+        by_number: Numbers are places in the count, whatever the rows are called.
+    """
+    number = int(said) if re.fullmatch(r"-?\d{1,9}", said.strip()) else None
+    if not by_number or number is None:
+        exact = [k for k, row in enumerate(rows) if row.name == said]
+        counts_back = number is not None and number < 0
+        alike = exact or [k for k, r in enumerate(rows) if not counts_back and bare_name(r.name) == bare_name(said)]
+        if alike:
+            return alike[0]
+        own = _own_numbers(tuple(row.name for row in rows))
+        if own and (number is None or number >= 0):
+            return own.index(number) if number in own else None
+    if number is None or number == 0 or abs(number) > len(rows):
+        return None
+    return number - 1 if number > 0 else len(rows) + number
+
+
+@lru_cache(maxsize=4096)
+def bare_name(name: str) -> str:
+    """A row's or block's name for comparing: lower case, without the word "row" or "block" in front."""
+    words = phrase(name)
+    for lead in ("row ", "block "):
+        words = words.removeprefix(lead)
+    return words or name.strip().lower()
+
+
+def row_words(site: Site, row: Row) -> str:
+    """A row as people say it: "row 3", and of which block where there are several."""
+    name = bare_name(row.name) if phrase(row.name).startswith("row ") else row.name
+    blocks = site.planting.blocks
+    said = message("row {name}", name=name)
+    return message("{rows} of {block}", rows=said, block=block_words(blocks[row.block])) if len(blocks) > 1 else said
+
+
+def block_words(block: Block) -> str:
+    """A block as people say it: "block B"."""
+    return say_block(block.name)
+
+
+def say_block(block: str) -> str:
+    """A block: "block B"."""
+    return block if is_named_block(block) else message("block {name}", name=block)
+
+
+def is_named_block(block: str) -> bool:
+    """Whether its name says already that it is a block."""
+    return phrase(block).startswith("block ")
+
+
+def _not_counted(what: str, site: Site, block: Block) -> str:
+    """Return what cannot be done, with the way in which the rows run."""
+    if len(site.planting.blocks) == 1:
+        return message("{what}: the rows run {way}", what=what, way=way_of(block))
+    return message("{what}: the rows of {block} run {way}", what=what, block=block_words(block), way=way_of(block))
+
+
+@lru_cache(maxsize=1024)
+def _own_numbers(names: tuple[str, ...]) -> tuple[int, ...]:
+    """The numbers in the names, where all have one behind the same letters, each its own; else nothing."""
+    found = [_NUMBERED.fullmatch(bare_name(name)) for name in names]
+    if not found or len({m.group(1) if m else None for m in found}) > 1 or found[0] is None:
+        return ()
+    numbers = tuple(int(m.group(2)) for m in found if m)
+    return numbers if len(set(numbers)) == len(names) else ()
+
+
+def _falls(names: Sequence[str]) -> bool:
+    """Whether numbers or single letters fall from name to name."""
+    numbers = _own_numbers(tuple(names))
+    letters = [name.lower() for name in names if len(name) == 1 and name.isalpha()]
+    order: Sequence[int | str] = numbers if numbers else letters if len(letters) == len(names) else ()
+    return len(order) > 1 and all(a > b for a, b in pairwise(order))  # type: ignore[operator]
+
+
+def numbered_by_file(site: Site, row: Row) -> bool:
+    """Whether the row's planting positions are numbers that its trees have in the file."""
+    first, last = (site.trees[k].properties for k in (row.trees[0], row.trees[-1]))
+    names = [n for n, value in first.items() if _same(value, row.slots[0]) and _same(last.get(n), row.slots[-1])]
+    return any(
+        all(_same(site.trees[k].properties.get(name), slot) for k, slot in zip(row.trees, row.slots, strict=True))
+        for name in names
+    )
+
+
+def _same(value: object, slot: int) -> bool:
+    try:
+        return not isinstance(value, bool) and float(value) == slot  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        return False
