@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from typing import get_args
 
 import pytest
@@ -13,6 +14,7 @@ from fieldhand.places import selectors as s
 from fieldhand.places.context import Context
 from fieldhand.places.explanation import explain, notes
 from fieldhand.places.resolution import resolve
+from fieldhand.places.words import say_selector
 from fieldhand.terms import AnySide, CountedFrom, Side, Towards
 from sites import at_start, orchard, place_at, planted, site_of, without_rows
 
@@ -213,9 +215,16 @@ def test_groups_within_groups_are_resolved_and_said_however_deep_they_nest():
     for k in range(60):
         near = s.Nearest(to=s.TreeIs(tree="7"), count=19 - k % 2, of=s.Union(parts=(selector, s.Trees())))
         selector = s.Half(side="north", of=s.Excluding(places=s.TreeIs(tree="1"), of=near))
-    told = explain(selector, site, at_start(site))
+    tracemalloc.start()
+    try:
+        told = explain(selector, site, at_start(site))
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
     assert told.places == resolve(selector, site, at_start(site))
     assert 0 < len(told.parts[-1].words) < 25_000
+    assert peak < 200e6  # said anew for each part it was 3 GB
+    assert all(part.words == say_selector(part.selector) for part in told.parts[:30])
 
 
 def test_explaining_what_cannot_be_fails_as_resolving_does():

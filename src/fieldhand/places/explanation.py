@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import Resolution, Step
 from fieldhand.places.selectors import Selector
-from fieldhand.places.words import say_selector
+from fieldhand.places.words import say_selectors
 from fieldhand.site.model import Place, Site
 
 _FEW = 6
@@ -73,7 +73,9 @@ def explain(selector: Selector, site: Site, context: Context) -> Explanation:
     """
     resolution = Resolution(site, context)
     found = resolution.spots(selector)
-    return Explanation(places=found.places, parts=tuple(_part(step) for step in resolution.steps))
+    steps = resolution.steps
+    words = say_selectors(step.selector for step in steps)
+    return Explanation(places=found.places, parts=tuple(map(_part, steps, words)))
 
 
 def notes(selector: Selector, site: Site, context: Context) -> tuple[str, ...]:
@@ -87,10 +89,10 @@ def notes(selector: Selector, site: Site, context: Context) -> tuple[str, ...]:
     return tuple(dict.fromkeys(note for step in steps.steps for note in step.tell.notes))
 
 
-def _part(step: Step) -> Part:
+def _part(step: Step, words: str) -> Part:
     return Part(
         selector=step.selector,
-        words=say_selector(step.selector),
+        words=words,
         rule=step.tell.rule,
         candidates=step.tell.candidates,
         chosen=len(step.found),

@@ -8,6 +8,7 @@ the phrase: "the 3 northernmost of the yellow trees"; whatever keeps among those
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import assert_never
 
@@ -36,6 +37,12 @@ def say_selector(selector: s.Selector, names: Names | None = None, count: int | 
         count: How many places it gives, said where the phrase does not say it itself.
     """
     return Saying(names or {}, _new_phrase).phrase(selector).say(count)
+
+
+def say_selectors(selectors: Iterable[s.Selector]) -> tuple[str, ...]:
+    """Several selectors in words, as :func:`say_selector` says each; what they have in common is phrased once."""
+    saying = Saying({}, _new_phrase)
+    return tuple(saying.phrase(selector).say() for selector in selectors)
 
 
 def _new_phrase(selector: s.Selector, saying: Saying) -> Phrase:
