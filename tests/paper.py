@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -14,8 +17,11 @@ from fieldhand.places.context import Context
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.drives import Drives
 from fieldhand.site.model import Place, Site
+from fieldhand.task import requests as ask
 from fieldhand.task.frames import Task
+from fieldhand.task.nodes.base import Stopped
 from fieldhand.task.plan import ForEach, Node
+from fieldhand.task.run import Frame, Run, carry_out
 
 
 class Paper:
@@ -37,7 +43,8 @@ class Paper:
 
     def state(self, node: str) -> MissionState:
         context = Context(here=self.here, visited=self.visited)
-        return MissionState(node=node, context=context, spent=self.spent, charge_percent=100.0 - self.spent.percent)
+        frames = frames_at(self.task.composition.plan, node)
+        return MissionState(frames=frames, context=context, spent=self.spent, charge_percent=100.0 - self.spent.percent)
 
     def visit(self, place: Place, work: Node) -> Visit:
         seconds, joules = service_of(work, self.robot)
@@ -82,3 +89,43 @@ class Paper:
     def home(self) -> None:
         """Drive home."""
         self.go(self.site.home("return_to_end", self.here))
+
+
+class _Reached(Exception):
+    pass
+
+
+def frames_at(plan: Node, node_id: str, time: int = 1) -> tuple[Frame, ...]:
+    """The nodes in hand when a node is reached.
+
+    Args:
+        plan: The plan; its steps are done as they stand, every condition of an if holds, a for-each has three visits.
+        node_id: The node.
+        time: How often it has been reached then, this time included.
+    """
+    run, found = Run(plan), list[tuple[Frame, ...]]()
+
+    def entered(node: Node) -> None:
+        if node.id == node_id:
+            found.append(tuple(replace(frame) for frame in run.frames))
+        if len(found) == time:
+            raise _Reached
+
+    def answer(request: ask.Request) -> Any:
+        match request:
+            case ask.Arrange(node=node):
+                return tuple(range(len(node.steps)))
+            case ask.Begin():
+                return iter("abc")
+            case ask.Next(tour=tour):
+                return next(tour, None)
+            case ask.Decide(node=node):
+                return node.is_choice
+            case ask.Offer():
+                return True
+        return None
+
+    run.entered = entered
+    with suppress(_Reached, Stopped):
+        carry_out(run.program(), answer)
+    return found[time - 1]

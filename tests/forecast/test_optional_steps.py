@@ -18,6 +18,7 @@ from fieldhand.task import plan as p
 from fieldhand.task.conditions import TreeHas
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Optional, Repeat, Sequence, Stop
+from paper import frames_at
 from rig import husky, orchard, task_for
 
 SITE, ROBOT = orchard(), husky()
@@ -128,7 +129,9 @@ def test_a_stop_in_a_step_that_is_shed_ends_nothing():
 
 def test_what_must_follow_and_a_walk_of_what_must_be_done_have_no_optional_step():
     task = task_for(steps(picture("r0c0"), optional(picture("r3c4")), picture("r0c1")))
-    rest = rest_after(task, SITE, ROBOT, DRIVES, "n2", Context(here=beginning(DRIVES)))
+    rest = rest_after(
+        task, SITE, ROBOT, DRIVES, frames_at(task.composition.plan, "n2"), Context(here=beginning(DRIVES))
+    )
     assert rest.first.id == "r0c1"
     assert len(rest.legs_m) == 1
     assert rest.work.seconds == ROBOT.action[PICTURE].duration_s

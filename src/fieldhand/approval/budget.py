@@ -21,7 +21,7 @@ from fieldhand.places.context import Context
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Act, ForEach, Optional, is_optional, walk
+from fieldhand.task.plan import acts, walk
 
 #: A mission that is more likely than not to run short is not approved; one that may is, with a warning.
 _HOPELESS = 0.5
@@ -46,8 +46,8 @@ def budget_problems(task: Task, site: Site, robot: RobotProfile, forecast: Estim
 
 def _does_nothing(task: Task, branches: tuple[BranchEstimate, ...]) -> bool:
     """Whether no branch makes a single capture although the plan has actions that the budget decides on."""
-    acts = any(isinstance(n, Act) for n in walk(task.composition.plan))
-    return acts and any(b.shed for b in branches) and all(b.captures == 0 for b in branches)
+    does = any(acts(task.composition.plan))
+    return does and any(b.shed for b in branches) and all(b.captures == 0 for b in branches)
 
 
 def _nothing_fits(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
@@ -55,7 +55,7 @@ def _nothing_fits(task: Task, site: Site, robot: RobotProfile) -> Iterator[Probl
     drives = drives_for(site, robot)
     home = site.home(task.composition.nominal, site.start)
     for node in walk(task.composition.plan):
-        if not (isinstance(node, ForEach | Optional) and is_optional(node)):
+        if not node.is_optional:
             continue
         try:
             places = first_places(node, site, Context(here=site.start))
@@ -63,7 +63,8 @@ def _nothing_fits(task: Task, site: Site, robot: RobotProfile) -> Iterator[Probl
             metres = min(ways, key=sum)
         except (FieldhandError, ValueError):
             continue  # where its places hang on the way there, no single visit can be costed
-        seconds, joules = service_of(node.body, robot)
+        (body,) = node.children
+        seconds, joules = service_of(body, robot)
         for resource in resources_of(task.constraints, robot):
             work = resource.of_work(robot, Work(seconds=seconds, joules=joules))
             need = sum(metres) * resource.per_metre + work

@@ -31,7 +31,7 @@ from fieldhand.site.drives import Drives
 from fieldhand.site.model import Place, Site
 from fieldhand.task.codec import encode
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import ForEach, Node, Optional, selector_of, walk
+from fieldhand.task.plan import Node, selector_of, walk
 from fieldhand.task.references import references
 from fieldhand.task.schema import validate
 
@@ -157,9 +157,7 @@ def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
     """Each selector that resolves before the robot moves: it finds something, one where one is needed, reachable."""
     drives = drives_for(site, robot)
     yield from _exits(task, site, drives)
-    steps = {
-        inner.id: node for node in walk(task.composition.plan) if isinstance(node, Optional) for inner in walk(node)
-    }
+    steps = {inner.id: node for node in walk(task.composition.plan) if node.is_optional_step for inner in walk(node)}
     for node in walk(task.composition.plan):
         selector = selector_of(node)
         if selector is None or is_relative(selector):
@@ -170,7 +168,7 @@ def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
             yield _of_error(error, node.id)
             continue
         closed = [(p, reason) for p, reason in zip(places, drives.problems(places), strict=True) if reason]
-        if isinstance(node, ForEach) and node.optional and len(closed) < len(places):
+        if node.visits_each and node.is_optional and len(closed) < len(places):
             yield from _left_out(node, closed, site)
             continue
         if closed and node.id in steps:
@@ -185,12 +183,12 @@ def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
             )
 
 
-def _left_out(node: ForEach | Optional, closed: list[tuple[Place, str]], site: Site) -> Iterator[Problem]:
+def _left_out(node: Node, closed: list[tuple[Place, str]], site: Site) -> Iterator[Problem]:
     """Optional visits and steps that cannot be made are left out, and the person who approves is told."""
     if closed:
         place, reason = closed[0]
         said = message("{place} is {reason}", place=say_place(place), reason=reason)
-        if isinstance(node, Optional):
+        if node.is_optional_step:
             what = message("an optional step will be left out: {why}", why=said)
         elif len(closed) > 1:
             what = message(
@@ -232,7 +230,7 @@ def _exits(task: Task, site: Site, drives: Drives) -> Iterator[Problem]:
 
 def _resolved(node: Node, selector: Selector, site: Site) -> tuple[Place, ...]:
     context = Context(here=site.start)
-    if not isinstance(node, ForEach):
+    if not node.visits_each:
         return (resolve_one(selector, site, context),)
     places = tuple(resolve(selector, site, context))
     if not places:

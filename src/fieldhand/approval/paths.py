@@ -43,11 +43,7 @@ def say_decisions(decisions: Sequence[Decision], task: Task, robot: RobotProfile
     nodes = {node.id: node for node in plan.walk(task.composition.plan)}
     # What did not fail needs no word.
     told = {key: some for key, some in answers.items() if key[1] in ("holds", "taken") or any(d.answer for d in some)}
-    taken = {
-        node.reading: message("of {node}", node=node.id)
-        for node in reversed(nodes.values())
-        if isinstance(node, plan.Act) and node.reading
-    }
+    taken = {node.reading: message("of {node}", node=node.id) for node in reversed(nodes.values()) if node.reading}
     said = [_said(kind, nodes[node], some, taken, robot) for (node, kind), some in list(told.items())[:_MOST]]
     if len(told) > _MOST:
         said.append(message("and {count} more", count=len(told) - _MOST))
@@ -63,8 +59,8 @@ def _said(
             assert condition is not None  # noqa: S101  only conditions hold
             what = say_condition(condition, taken, robot)
         case "fails":
-            assert isinstance(node, plan.Act)  # noqa: S101  only actions fail
-            what = message("“{action}” fails", action=say_action(node.action))
+            assert node.act is not None  # noqa: S101  only actions fail
+            what = message("“{action}” fails", action=say_action(node.act.action))
         case "blocked":
             what = message("the way there is blocked")
         case _:

@@ -78,7 +78,7 @@ def with_words(problem: Problem, task: Task) -> Problem:
 def _quoted(node: plan.Node, task: Task) -> str:
     """The words themselves, in their order; what stands between them is left out."""
     text = task.command.read_as or task.command.request
-    own = (*node.said, *(node.at_said if isinstance(node, plan.Act) else ()))
+    own = (*node.said, *node.at_said)
     spans = sorted({(start, end) for start, end in own if 0 <= start < end <= len(text)})
     pieces = [text[start:end] for start, end in spans]
     said = " … ".join(" ".join(piece.split()) for piece in pieces)

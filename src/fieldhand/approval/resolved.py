@@ -9,7 +9,7 @@ from fieldhand.forecast.steps import Outlook, Walk
 from fieldhand.places.selectors import is_relative
 from fieldhand.site.model import Place
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import ForEach, GoTo, Node, children, is_optional, selector_of
+from fieldhand.task.plan import Node
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,8 +75,10 @@ def _of_walk(walk: Walk) -> dict[str, list[_Visit]]:
     found: dict[str, list[_Visit]] = {}
     for step in walk.steps:
         listed = step.kind == "visit-list"
-        done = step.kind == "act" or (step.kind == "drive" and isinstance(step.node, GoTo))
-        if listed or (done and selector_of(step.node) is not None):
+        # Of an action with a drive the action counts, of a for-each the list.
+        driven = step.kind == "drive" and step.node.only_drives
+        done = step.kind == "act" or driven
+        if listed or (done and step.node.selector is not None):
             found.setdefault(step.node.id, []).append((step.places, step.shed, step.outlook))
     return found
 
@@ -88,13 +90,13 @@ def _doubtful(plan: Node) -> frozenset[str]:
 
     def visit(node: Node) -> None:
         nonlocal after
-        selector = selector_of(node)
+        selector = node.selector
         if after and selector is not None and is_relative(selector):
             found.add(node.id)
-        after = after or (isinstance(node, ForEach) and node.optional)
-        for child in children(node):
+        after = after or (node.is_optional and node.visits_each)
+        for child in node.children:
             visit(child)
-        after = after or is_optional(node)
+        after = after or node.is_optional
 
     visit(plan)
     return frozenset(found)

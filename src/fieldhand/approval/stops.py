@@ -10,7 +10,7 @@ from fieldhand.approval.sentences import Line
 from fieldhand.forecast.steps import Step, Walk
 from fieldhand.site.model import Place
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Act, ForEach, Node, is_optional, walk
+from fieldhand.task.plan import Node, walk
 
 Certainty = Literal["certain", "conditional", "budget"]
 XY = tuple[float, float]
@@ -106,15 +106,16 @@ class _Gatherer:
         stop = self.stops.setdefault(place.xy, Stop(place=place))
         number = self._numbers.get(step.node.id)
         label = "" if number is None else str(number)
-        if isinstance(step.node, ForEach):
+        act = step.node.act
+        if step.node.visits_each:
             visits[step.node.id] = visits.get(step.node.id, 0) + 1
             label = f"{label}.{visits[step.node.id]}"
-        elif any(known.partition(".")[2] for known in stop.labels) and isinstance(step.node, Act) and not step.node.at:
+        elif any(known.partition(".")[2] for known in stop.labels) and act is not None and act.at is None:
             label = ""  # the visit's own number stands for what is done there
         if label and label not in stop.labels:
             stop.labels.append(label)
-        if isinstance(step.node, Act):
-            stop.actions[step.node.action] = _surest(stop.actions.get(step.node.action, certainty), certainty)
+        if act is not None:
+            stop.actions[act.action] = _surest(stop.actions.get(act.action, certainty), certainty)
         stop.certainty = _surest(stop.certainty, certainty)
 
 
@@ -130,4 +131,4 @@ def _key(step: Step) -> tuple[str, str, tuple[XY, ...]]:
 
 def _of_optional(plan: Node) -> frozenset[str]:
     """The nodes that the budget decides on, and those inside them."""
-    return frozenset(inner.id for node in walk(plan) if is_optional(node) for inner in walk(node))
+    return frozenset(inner.id for node in walk(plan) if node.is_optional for inner in walk(node))

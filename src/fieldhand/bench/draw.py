@@ -20,7 +20,7 @@ from fieldhand.site.model import Site
 from fieldhand.task import plan
 from fieldhand.task.build import FAULTED_EXITS, make_task
 from fieldhand.task.frames import Budget, BudgetKind, Constraints, FaultedExit, Resource, Task, Then
-from fieldhand.task.plan import AnyOrder, ForEach, If, Node, Repeat, Sequence
+from fieldhand.task.plan import ForEach, Node
 
 #: Accepted failure probabilities.
 PF = (0.05, 0.1, 0.2)
@@ -161,21 +161,11 @@ def _budgets(rng: np.random.Generator, limited: str, needed: Spent, factor: floa
 
 def _all_of(node: Node) -> Node:
     """The plan with every optional visit made mandatory."""
-    match node:
-        case ForEach():
-            return replace(node, optional=False, body=_all_of(node.body))
-        case Sequence() | AnyOrder():
-            return replace(node, steps=tuple(_all_of(step) for step in node.steps))
-        case Repeat():
-            return replace(node, body=_all_of(node.body))
-        case If():
-            other = None if node.otherwise is None else _all_of(node.otherwise)
-            return replace(node, then=_all_of(node.then), otherwise=other)
-        case _:
-            return node
+    whole = node.with_children([_all_of(child) for child in node.children])
+    return replace(whole, optional=False) if isinstance(whole, ForEach) else whole
 
 
 def _longest(root: Node) -> Answer:
     """Every condition adds its work, and no loop ends early."""
-    branching = {n.id for n in plan.walk(root) if isinstance(n, If)}
+    branching = {n.id for n in plan.walk(root) if n.is_choice}
     return lambda node_id: node_id in branching

@@ -27,7 +27,7 @@ from fieldhand.robot.model import LegCost, RobotProfile
 from fieldhand.task import plan
 from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.frames import Task, Then
-from fieldhand.task.plan import ForEach
+from fieldhand.task.plan import Node
 from fieldhand.task.results import Decided, Event
 
 if TYPE_CHECKING:
@@ -247,13 +247,13 @@ def _forecast(draft: Draft, robot: RobotProfile, events: Sequence[Event]) -> For
     lists = [
         (step.node, place)
         for number, step in enumerate(walked.steps)
-        if step.kind == "visit-list" and isinstance(step.node, ForEach) and step.node.optional
+        if step.kind == "visit-list" and step.node.is_optional and step.node.visits_each
         for place in step.places[: _until(walked.steps[number:], step.node)]
     ]
     return Forecast(visits=len(lists), reward=sum(reward_of(node, place, draft.site) for node, place in lists))
 
 
-def _until(steps: Sequence[Step], node: ForEach) -> int:
+def _until(steps: Sequence[Step], node: Node) -> int:
     """Visits of a loop's places before it found what it was to stop at."""
     tests = (s.answer for s in steps if s.kind == "decide" and s.node is node)
     return next((number for number, found in enumerate(tests, start=1) if found), len(steps))

@@ -78,7 +78,7 @@ class Ahead:
 
     def _looked(self, state: MissionState, stops: tuple[Visit, ...]) -> _Loop:
         means = self._means
-        rest = means.rest(state.node, arrived(state.context, stops), state.rounds)
+        rest = means.rest(state.frames, arrived(state.context, stops))
         last = stops[-1].end
         way = way_of([0.0 if rest.first is None else means.length(last, rest.first)], stops[-1].work) + rest.way
         ways = [way]

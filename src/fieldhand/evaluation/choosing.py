@@ -175,8 +175,7 @@ class Choosing:
     def _accepted(self, state: MissionState, rest: Rest) -> float:
         """The chance of running short with which a run is planned: that without it, and its share on top."""
         without = self._without(state, rest)
-        runs = optional_runs(self._means.task.composition.plan, state.node)
-        return float(without.max()) + self._means.allowance(without).share(runs)
+        return float(without.max()) + self._means.allowance(without).share(optional_runs(state.frames))
 
     def _without(self, state: MissionState, rest: Rest) -> Floats:
         """For each limit the chance that what must follow runs short."""
@@ -220,7 +219,7 @@ class Choosing:
         context = state.context
         if len(candidates) == 1 and candidates[0].leaves is not None:
             context = Context(here=candidates[0].leaves, visited=context.visited, bound=context.bound)
-        rest = self._means.rest(state.node, context, state.rounds, to_come)
+        rest = self._means.rest(state.frames, context, to_come)
         return run.rest if run is not None and run.rest == rest else rest
 
     def _reachable(self, here: Place, candidates: Sequence[Visit], first: Place | None) -> tuple[list[int], list[int]]:

@@ -20,15 +20,12 @@ from fieldhand.evaluation.drain import Drain
 from fieldhand.evaluation.means import Means
 from fieldhand.evaluation.reasons import Errand, running_short
 from fieldhand.evaluation.threshold import Threshold
-from fieldhand.forecast.routes import way_to
 from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
 from fieldhand.forecast.ways import Way, cost_model, taken, way_of
 from fieldhand.language import joined
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
-from fieldhand.task import plan
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import ForEach, Optional
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -95,7 +92,7 @@ class BudgetGuard:
         self._means.drain.learn(state.spent)
         choice = self._optional.next(state, candidates, at_most, still_to_come)
         if choice.index is not None:
-            self._grant(state.node, candidates[choice.index])
+            self._grant(state, candidates[choice.index])
         return replace(choice, reason=self._and_the_battery(choice.reason))
 
     def ways_are(self, drives: Drives) -> None:
@@ -147,7 +144,7 @@ class BudgetGuard:
         return bool((fits & (chances <= allowed * _LOOK + 1e-12)).all())
 
     def _go(self, state: MissionState, visit: Visit, chances: Floats) -> Verdict:
-        self._grant(state.node, visit)
+        self._grant(state, visit)
         return Verdict(go=True, chance_short=float(chances.max()))
 
     def _safe(self, state: MissionState, ahead: Following) -> Floats:
@@ -166,20 +163,24 @@ class BudgetGuard:
             self._threshold = threshold.within(means.accepted, self._rng)
         return self._threshold
 
-    def _grant(self, node: str, visit: Visit) -> None:
+    def _grant(self, state: MissionState, visit: Visit) -> None:
         """Remember where a visit was allowed with all its work: that is not asked for again, piece by piece."""
-        way = way_to(self._means.task.composition.plan, node)
-        if way and (isinstance(way[-1], ForEach) or plan.is_optional(way[-1])):
-            outer = {n.id for n in way[:-1]}
-            inside = isinstance(way[-1], Optional) or visit.leaves is not None
-            around = tuple(g for g in self._granted if g.node in outer)
-            self._granted = (*around, _Grant(node=node, xy=None if inside else visit.place.xy))
+        node = state.frames[-1].node
+        if node.visits_each or node.is_optional:
+            inside = node.is_optional_step or visit.leaves is not None
+            around = tuple(g for g in self._granted if g.node in _outer(state))
+            self._granted = (*around, _Grant(node=node.id, xy=None if inside else visit.place.xy))
 
     def _is_granted(self, state: MissionState, place: Place) -> bool:
         """Whether work was allowed with the visit it is part of. Work elsewhere or after it ends that."""
         here = state.context.here.xy
-        outer = {n.id for n in way_to(self._means.task.composition.plan, state.node)[:-1]}
+        outer = _outer(state)
         self._granted = tuple(
             g for g in self._granted if g.node in outer and (g.xy is None or here == place.xy == g.xy)
         )  # fmt: skip
         return bool(self._granted)
+
+
+def _outer(state: MissionState) -> frozenset[str]:
+    """The ids of the nodes around the one in hand."""
+    return frozenset(frame.node.id for frame in state.frames[:-1])

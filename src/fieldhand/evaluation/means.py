@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,6 +21,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.build import exit_of
 from fieldhand.task.frames import Task
+from fieldhand.task.run import Frame
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -97,8 +98,8 @@ class Means:
         home = self.site.home(exit_of(self.task, "low_budget"), at)
         return home if self.distances.linked(at, home) else at
 
-    def rest(self, node: str, context: Context, rounds: Mapping[str, int], to_come: Sequence[Visit] = ()) -> Rest:
-        """What must be done after a node (:func:`fieldhand.forecast.rest.rest_after`).
+    def rest(self, frames: Sequence[Frame], context: Context, to_come: Sequence[Visit] = ()) -> Rest:
+        """Return what must be done after the node in hand (:func:`fieldhand.forecast.rest.rest_after`).
 
         Where the robot has found its ways blocked, what cannot be reached now is not set aside.
 
@@ -107,9 +108,7 @@ class Means:
         """
         for visits in (to_come, ()):
             try:
-                return rest_after(
-                    self.task, self.site, self.robot, self.drives, node, context, to_come=visits, rounds=rounds
-                )
+                return rest_after(self.task, self.site, self.robot, self.drives, frames, context, to_come=visits)
             except DriveFault:
                 if not self._blocked:
                     raise

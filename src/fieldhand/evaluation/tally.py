@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from fieldhand.places.selectors import is_single
 from fieldhand.task import plan as p
 from fieldhand.task.results import Shed
 
@@ -55,12 +54,12 @@ class Tallies:
     """
 
     def __init__(self, plan: p.Node) -> None:
-        self.of = {n.id: Tally() for n in p.walk(plan) if isinstance(n, p.Act)}
+        self.of = {act.id: Tally() for act in p.acts(plan)}
         self.inside = {node.id: frozenset(n.id for n in p.walk(node)) for node in p.walk(plan)}
 
     def under(self, node: p.Node) -> list[Tally]:
         """The tallies of a node's actions, in the order in which they stand."""
-        return [self.of[n.id] for n in p.walk(node) if isinstance(n, p.Act)]
+        return [self.of[act.id] for act in p.acts(node)]
 
     def copies(self, node: p.Node) -> Mapping[str, Tally]:
         """The tallies of a node's actions as they are now, for :meth:`forgive`."""
@@ -68,31 +67,19 @@ class Tallies:
 
     def miss(self, node: p.Node, times: int) -> None:
         """Add what a node wants as far as the plan alone says it; the rest is open."""
-        match node:
-            case p.Act():
-                self.of[node.id].wanted += node.count * times
-            case p.ForEach() if not is_single(node.select) or node.until is not None or node.optional:
-                self.open(node.body)
-            case p.Repeat(until=None):
-                self.miss(node.body, times * node.times)
-            case p.Repeat() | p.Optional():
-                self.open(node.body)
-            case p.If():
-                self.open(node, undecided=True)
-            case p.Try():
-                self.miss(node.body, times)
-                self.open(node.otherwise, undecided=True)
-            case _:
-                for child in p.children(node):
-                    self.miss(child, times)
+        if node.act is not None:
+            self.of[node.id].wanted += node.act.count * times
+        for part in node.parts:
+            if part.certain and part.times is not None and node.tested is None and not node.is_optional:
+                self.miss(part.node, times * part.times)
+            else:
+                self.open(part.node, undecided=not (part.certain or node.is_optional))
 
     def open(self, node: p.Node, *, undecided: bool = False) -> None:
         """More may be wanted of a node's actions; ``undecided``: or nothing, as a condition was not tested."""
-        for inner in p.walk(node):
-            if isinstance(inner, p.If):
-                undecided_below = [inner.then] if inner.otherwise is None else [inner.then, inner.otherwise]
-                for tally in (t for branch in undecided_below for t in self.under(branch)):
-                    tally.undecided = True
+        for branch in (child for inner in p.walk(node) if inner.is_choice for child in inner.children):
+            for tally in self.under(branch):
+                tally.undecided = True
         for tally in self.under(node):
             tally.open = True
             tally.undecided = tally.undecided or undecided
@@ -104,7 +91,7 @@ class Tallies:
             tally.wanted = old.wanted + tally.seen - old.seen
             tally.open, tally.undecided = old.open, old.undecided
 
-    def spare(self, node: p.Optional, event: Shed) -> None:
+    def spare(self, node: p.Node, event: Shed) -> None:
         """An optional step was given up."""
         for tally in self.under(node):
             tally.spared += 1
@@ -112,9 +99,10 @@ class Tallies:
 
     def shed(self, node: p.Node, event: Shed) -> None:
         """Places of a node were given up."""
-        perhaps = {n for i in p.walk(node) if isinstance(i, p.If | p.Try | p.Optional) for n in self._maybe(i)}
+        unsure = (part.node for inner in p.walk(node) for part in inner.parts if not part.certain)
+        perhaps = frozenset[str]().union(*(self.inside[inner.id] for inner in unsure))
         for step in p.walk(node):
-            if isinstance(step, p.Optional) and not event.optional:
+            if step.is_optional_step and not event.optional:
                 self.spare(step, event)
         for name, tally in self.of.items():
             if name not in self.inside[node.id] or (name in perhaps and not event.optional):
@@ -125,9 +113,3 @@ class Tallies:
                 tally.given_up += max(1, len(event.places))
             if event.reason not in tally.reasons:
                 tally.reasons.append(event.reason)
-
-    def _maybe(self, node: p.If | p.Try | p.Optional) -> frozenset[str]:
-        """Nodes that are only come to on one branch."""
-        if isinstance(node, p.Try):
-            return self.inside[node.otherwise.id]
-        return self.inside[node.id] - {node.id}

@@ -221,14 +221,13 @@ class Attempt:
                 raise
             return self.drives.between(self.standing, dataclasses.replace(place, stand=None))
 
-    def state(self, node: str) -> MissionState:
+    def state(self) -> MissionState:
         """What the guard decides on. ``here`` is where the robot itself stands: from there it has to come home."""
         return MissionState(
-            node=node,
+            frames=tuple(self.run.frames),
             context=self._context(self.standing),
             spent=self.spent,
             charge_percent=self.charge_percent(),
-            rounds=self.run.rounds,
         )
 
     def bind(self, label: str, places: tuple[Place, ...]) -> None:

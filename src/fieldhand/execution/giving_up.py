@@ -50,7 +50,7 @@ def admit(attempt: Attempt, visit: Visit, *, refused: Sequence[Place]) -> None:
         GivenUp: The optional visit or step in hand is given up.
         Over: The mission turns home.
     """
-    verdict = attempt.guard.admit(attempt.state(attempt.run.frame.node.id), visit, to_come(attempt))
+    verdict = attempt.guard.admit(attempt.state(), visit, to_come(attempt))
     if verdict.go:
         return
     optional = attempt.run.optional
@@ -116,28 +116,22 @@ def _left_undone(attempt: Attempt, frames: Iterable[Frame]) -> Iterator[tuple[No
     for frame in reversed(list(frames)):
         if frame.tour is not None and (undone := frame.tour.undone()):
             yield frame.node, undone, frame.node.is_optional
-        if frame.rounds:
-            yield frame.node, (), False
         for later in frame.left:
             yield from _work_of(later, attempt)
 
 
 def _work_of(node: Node, attempt: Attempt) -> Iterator[tuple[Node, Sequence[Place], bool]]:
-    match node:
-        case plan.Sequence(steps=steps) | plan.AnyOrder(steps=steps):
-            for step in steps:
-                yield from _work_of(step, attempt)
-        case plan.Stop():
-            return
-        case plan.Optional():
-            yield node, first_places_of(node, attempt), True
-        case _:
-            yield node, _places_of(node, attempt), node.is_optional
+    if node.is_series:
+        for step in node.children:
+            yield from _work_of(step, attempt)
+    elif not node.ends_plan:
+        places = first_places_of(node, attempt) if node.is_optional_step else _places_of(node, attempt)
+        yield node, places, node.is_optional
 
 
-def first_places_of(node: plan.Optional, attempt: Attempt) -> tuple[Place, ...]:
-    """Return the places at which an optional step begins, as far as they are known now."""
-    first = next((inner for inner in plan.walk(node.body) if inner.selector is not None), node)
+def first_places_of(node: Node, attempt: Attempt) -> tuple[Place, ...]:
+    """Return the places at which a node begins, as far as they are known now."""
+    first = next((inner for inner in plan.walk(node) if inner.selector is not None), node)
     return _places_of(first, attempt)
 
 

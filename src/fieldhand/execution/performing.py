@@ -188,14 +188,14 @@ class Performer:
         attempt = self.attempt
         home = home_if_last(attempt.task, attempt.site, node.id, attempt.here)
         try:
-            return steps_in_order(node, attempt.site, attempt.drives, attempt.state(node.id).context, home)
+            return steps_in_order(node, attempt.site, attempt.drives, attempt.state().context, home)
         except (PlaceError, DriveFault):
             return tuple(range(len(node.steps)))
 
     def _offer(self, node: Optional) -> bool:
         """Ask the guard whether the step may be done; where not, say that it is shed, and why."""
         attempt = self.attempt
-        state = attempt.state(node.id)
+        state = attempt.state()
         try:
             visit = attempt.visits.of_step(node, state.context)
         except DriveFault as fault:

@@ -71,7 +71,7 @@ class Tour:
         if node.optional:
             places, closed = reachable(attempt.drives, places)
             ordered = standing(attempt.drives, attempt.standing, places)
-            self.left = list(attempt.visits.of_places(node, ordered, attempt.state(node.id).context))
+            self.left = list(attempt.visits.of_places(node, ordered, attempt.state().context))
         else:
             places, cut_off = self._parted(places)
             ordered = visits_in_order(node, attempt.drives, attempt.standing, places, self._home())
@@ -197,7 +197,7 @@ class Tour:
         """Ask the guard which optional visit comes next, and say which are given up."""
         attempt, node = self.attempt, self.node
         at_most = None if node.at_most is None else node.at_most - self._made
-        state = attempt.state(node.id)
+        state = attempt.state()
         choice = attempt.guard.choose(state, list(self.left), at_most=at_most, still_to_come=to_come(attempt))
         given_up = set(range(len(self.left))) if choice.index is None else set(choice.shed) - {choice.index}
         if given_up:

@@ -12,7 +12,6 @@ from fieldhand.facts.planned import Planned
 from fieldhand.facts.stated import Stated
 from fieldhand.places import selectors as s
 from fieldhand.site.model import Site
-from fieldhand.task import plan as p
 from fieldhand.task.build import FAULTED_EXITS
 from fieldhand.terms import Side
 
@@ -248,7 +247,7 @@ def _ends(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
         return
     wanted = f"return_to_{said.returns}"
     driven = any(
-        isinstance(n, p.GoTo) and isinstance(n.place, s.Marker) and n.place.name == said.returns for n in plan.nodes
+        n.only_drives and isinstance(n.selector, s.Marker) and n.selector.name == said.returns for n in plan.nodes
     )
     if plan.task.composition.nominal != wanted and not driven:
         yield Mismatch(kind="return", message=f"the request ends at the {said.returns}, and the plan does not")
@@ -276,8 +275,7 @@ def _order(said: Stated, plan: Planned) -> Iterator[Mismatch]:
         yield Mismatch(
             kind="order", message=f"the request gives the order {', '.join(numbers)}, the plan {', '.join(named)}"
         )
-    free = [n for n in plan.nodes if isinstance(n, p.AnyOrder) or (isinstance(n, p.ForEach) and n.order == "best")]
-    given = any(isinstance(n, p.ForEach) and n.order == "given" for n in plan.nodes)
-    given = given or any(isinstance(n, p.Sequence) and len(n.steps) > 1 for n in plan.nodes)
+    free = [n for n in plan.nodes if n.in_any_order]
+    given = any(n.keeps_order for n in plan.nodes)
     if free and not given:
         yield Mismatch(kind="order", message="the request fixes an order, and the plan leaves it open", node=free[0].id)

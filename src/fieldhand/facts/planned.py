@@ -130,7 +130,7 @@ class Planned:
     @cached_property
     def ends_driven(self) -> frozenset[Side]:
         """Sides that only tell apart the ends of a way: drives to both ends of the same trees, and no other place."""
-        drives = {n.id: n.place for n in self.nodes if isinstance(n, p.GoTo) and isinstance(n.place, s.Extreme)}
+        drives = {n.id: n.selector for n in self.nodes if n.only_drives and isinstance(n.selector, s.Extreme)}
         ends = {(place.of, place.side) for place in drives.values()}
         elsewhere = {side for node, x in self.selectors if x != drives.get(node) for side in sides(x)}
         ways = [{one, other} for one, other in _ACROSS for of, _ in ends if {(of, one), (of, other)} <= ends]
@@ -178,49 +178,41 @@ class _Around:
 
 def _captures(node: p.Node, around: _Around, size: Callable[[str], int | None]) -> Iterator[Captures]:
     """The acts inside a node."""
-    match node:
-        case p.Act():
-            own = {node.count, *(counts(node.at) if node.at is not None else ())}
-            yield Captures(
-                node=node.id,
-                action=node.action,
-                each=node.count,
-                places=around.places,
-                total=around.places.times(around.rounds).times(Range(low=node.count, high=node.count)),
-                bound=around.bound,
-                around=around.numbers | own,
-            )
-        case p.ForEach():
-            yield from _captures(node.body, _visited(node, around, size(node.id)), size)
-        case p.Repeat():
-            times = Range(low=1 if node.until is not None else node.times, high=node.times)
-            bound = around.bound or node.until is not None
-            inside = replace(
-                around, rounds=around.rounds.times(times), bound=bound, numbers=around.numbers | {node.times}
-            )
-            yield from _captures(node.body, inside, size)
-        case p.If() | p.Try() | p.Optional():
-            for child in p.children(node):
-                yield from _captures(child, replace(around, bound=True), size)
-        case _:
-            for child in p.children(node):
-                yield from _captures(child, around, size)
+    act = node.act
+    if act is not None:
+        own = {act.count, *(counts(act.at) if act.at is not None else ())}
+        yield Captures(
+            node=act.id,
+            action=act.action,
+            each=act.count,
+            places=around.places,
+            total=around.places.times(around.rounds).times(Range(low=act.count, high=act.count)),
+            bound=around.bound,
+            around=around.numbers | own,
+        )
+    loose = node.tested is not None or node.is_optional or not all(part.certain for part in node.parts)
+    inside = replace(around, bound=around.bound or loose)
+    if node.visits_each and node.selector is not None:
+        inside = _visited(node, node.selector, inside, size(node.id), loose=loose)
+    elif node.rounds is not None:
+        times = Range(low=1 if node.tested is not None else node.rounds, high=node.rounds)
+        inside = replace(inside, rounds=around.rounds.times(times), numbers=around.numbers | {node.rounds})
+    for child in node.children:
+        yield from _captures(child, inside, size)
 
 
-def _visited(node: p.ForEach, around: _Around, size: int | None) -> _Around:
-    """What stands around the body of a for-each."""
-    inside = places(node.select) if size is None else Range(low=size, high=size)
+def _visited(node: p.Node, select: Selector, around: _Around, size: int | None, *, loose: bool) -> _Around:
+    """What stands around the body of a node that visits each place of a selector."""
+    inside = places(select) if size is None else Range(low=size, high=size)
     most = frozenset({node.at_most} if node.at_most is not None else ())
     if node.at_most is not None:
         high = node.at_most if inside.high is None else min(inside.high, node.at_most)
         inside = Range(low=min(inside.low, high), high=high)
-    loose = node.optional or node.until is not None
     inside = Range(low=0, high=inside.high) if loose else inside
     return replace(
         around,
         places=around.places.times(inside),
-        numbers=around.numbers | most | frozenset(counts(node.select)),
-        bound=around.bound or loose,
+        numbers=around.numbers | most | frozenset(counts(select)),
     )
 
 
@@ -233,10 +225,9 @@ def _tests(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], ...
     for one in nodes:
         condition = p.condition_of(one)
         parts = tuple(c.walk(condition)) if condition is not None else ()
-        straight = isinstance(one, p.If) and not any(isinstance(part, c.Not) for part in parts)
-        then = _done(one.then) if straight and isinstance(one, p.If) else frozenset()
-        otherwise = _done(one.otherwise) if straight and isinstance(one, p.If) and one.otherwise else frozenset()
-        plainly = isinstance(one, p.If) and straight and one.otherwise is None and "stop" not in then
+        straight = one.is_choice and not any(isinstance(part, c.Not) for part in parts)
+        then, otherwise = (*map(_done, one.children if straight else ()), frozenset[str](), frozenset[str]())[:2]
+        plainly = straight and len(one.children) == 1 and "stop" not in then
         for part in parts:
             for tested in _tested(part, one.id):
                 yield replace(tested, plainly=plainly, then=then, otherwise=otherwise)
@@ -244,9 +235,8 @@ def _tests(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], ...
 
 def _done(node: p.Node) -> frozenset[str]:
     """The actions inside a node, and "stop" where it ends the mission."""
-    inside = tuple(p.walk(node))
-    stops = {"stop" for one in inside if isinstance(one, p.Stop)}
-    return frozenset(stops | {one.action for one in inside if isinstance(one, p.Act)})
+    stops = {"stop" for one in p.walk(node) if one.ends_plan}
+    return frozenset(stops | {act.action for act in p.acts(node)})
 
 
 def _tested(part: c.Condition, node: str) -> Iterator[Tested]:
@@ -273,12 +263,12 @@ def _tested(part: c.Condition, node: str) -> Iterator[Tested]:
 def _numbers(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], ...]) -> Iterator[Number]:
     """Numbers of nodes and selectors that are not those that hold by themselves."""
     for node in nodes:
-        if isinstance(node, p.Act) and node.count > 1:
-            yield Number(node=node.id, what="captures at a place", value=node.count, kind="count")
-        if isinstance(node, p.ForEach) and node.at_most is not None:
+        if node.act is not None and node.act.count > 1:
+            yield Number(node=node.id, what="captures at a place", value=node.act.count, kind="count")
+        if node.at_most is not None:
             yield Number(node=node.id, what="visits at most", value=node.at_most, kind="count")
-        if isinstance(node, p.Repeat) and node.until is None:
-            yield Number(node=node.id, what="rounds", value=node.times, kind="count")
+        if node.rounds is not None and node.tested is None:
+            yield Number(node=node.id, what="rounds", value=node.rounds, kind="count")
     for name, x in selectors:
         for field in fields(x):
             value = getattr(x, field.name)

@@ -53,9 +53,8 @@ class Sizes:
             self._from_here.clear()
 
     def _bind(self, node: p.Node, found: tuple[Place, ...]) -> None:
-        label = getattr(node, "label", "")
-        if label:
-            self._bound[label] = found[:1] if isinstance(node, p.ForEach) else found
+        if node.label:
+            self._bound[node.label] = found[:1] if node.visits_each else found
 
     def _size(self, selector: s.Selector) -> int | None:
         found = self._places(selector)

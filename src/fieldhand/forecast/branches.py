@@ -23,7 +23,6 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task import plan
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Act, Try
 
 if TYPE_CHECKING:
     from fieldhand.forecast.expected import Expected
@@ -272,13 +271,13 @@ def _alike(root: plan.Node) -> Iterator[dict[str, bool]]:
     In the last ones whatever is tried fails, and then whatever is driven to is blocked.
     """
     asked = [n.id for n in plan.walk(root) if plan.condition_of(n) is not None or plan.is_optional(n)]
-    tried = [inner.id for n in plan.walk(root) if isinstance(n, Try) for inner in plan.walk(n.body)]
+    tried = [inner.id for n in plan.walk(root) for body in n.caught for inner in plan.walk(body)]
     some, others = asked[:_ALIKE], asked[_ALIKE:]
     for answers in _combinations(some):
         for default in (True, False) if others else (True,):
             yield {**dict.fromkeys(others, default), **answers}
     if tried:
-        acts = [n.id for n in plan.walk(root) if isinstance(n, Act) and n.id in tried]
+        acts = [act.id for act in plan.acts(root) if act.id in tried]
         for default in (True, False):
             for failing in ({f"{i} fails": True for i in acts}, {f"{i} blocked": True for i in tried}):
                 yield {**dict.fromkeys(asked, default), **failing}

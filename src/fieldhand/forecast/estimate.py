@@ -19,7 +19,7 @@ from fieldhand.language.words import say_rounded
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import AnyOrder, ForEach, If, Node, Optional, Repeat, Sequence, Try
+from fieldhand.task.plan import Node, Sequence
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -187,20 +187,9 @@ def mandatory_part(task: Task) -> Task:
 
 
 def _without_optional(node: Node) -> Node:
-    match node:
-        case ForEach(optional=True) | Optional():
-            return Sequence(id=node.id, steps=())
-        case Sequence() | AnyOrder():
-            return replace(node, steps=tuple(_without_optional(step) for step in node.steps))
-        case ForEach() | Repeat():
-            return replace(node, body=_without_optional(node.body))
-        case If():
-            other = None if node.otherwise is None else _without_optional(node.otherwise)
-            return replace(node, then=_without_optional(node.then), otherwise=other)
-        case Try():
-            return replace(node, body=_without_optional(node.body), otherwise=_without_optional(node.otherwise))
-        case _:
-            return node
+    if node.is_optional:
+        return Sequence(id=node.id, steps=())
+    return node.with_children([_without_optional(child) for child in node.children])
 
 
 def limit_problems(

@@ -19,7 +19,6 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.build import exit_of
 from fieldhand.task.frames import Fault, Task
-from fieldhand.task.plan import Act
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -182,4 +181,4 @@ def _ended(fault: Fault, walked: Walk, last: int, way: Step, robot: RobotProfile
 
 def _again(step: Step, robot: RobotProfile) -> Work:
     """What it takes to try the last capture of an action again, as often as the robot does."""
-    return tried_again(step.node, robot) if isinstance(step.node, Act) else Work()
+    return Work() if step.node.act is None else tried_again(step.node.act, robot)

@@ -68,7 +68,7 @@ def expected_visits(
     """
 
     rest = _rest(walker, node, visits)
-    without, share, allowance = _share(walker, node, rest)
+    without, share, allowance = _share(walker, rest)
     drawn = walker.drawn
     used = np.zeros(DRAWS) if drawn is None else drawn.metres - walker.spent.metres
     if len(visits) == 1:
@@ -124,7 +124,7 @@ def _several(
         robot=robot,
         spent=walker.spent,
         accepted=accepted,
-        most=node.at_most if isinstance(node, ForEach) else None,
+        most=node.at_most,
     )
     state = State(vertex=0, left=left_before(resources, robot, walker.spent, rest))
     return preview(policy_for(problem, warm=warm), state, rng, used)
@@ -155,21 +155,20 @@ def _one(walker: Walker, visit: Visit, rest: Rest, share: float, used: Floats, r
 def _rest(walker: Walker, node: ForEach | Optional, visits: Sequence[Visit]) -> Rest:
     """What must follow, from where a step ends, or from where a for-each begins."""
     here, to_come = walker.context, walker.to_come()
-    if isinstance(node, Optional):
+    if node.is_optional_step:
         here = Context(here=visits[0].end, visited=here.visited, bound=here.bound)
     return rest_after(
         walker.task,
         walker.site,
         walker.robot,
         walker.drives,
-        node.id,
+        walker.plan.frames,
         here,
         to_come=to_come,
-        rounds=walker.plan.rounds,
     )
 
 
-def _share(walker: Walker, node: ForEach | Optional, rest: Rest) -> tuple[float, float, Allowance]:
+def _share(walker: Walker, rest: Rest) -> tuple[float, float, Allowance]:
     """The chance of running short without the visits, what they may add to it, and what that leaves for later ones."""
     task, robot = walker.task, walker.robot
     resources = resources_of(task.constraints, robot, walker.charge_percent)
@@ -181,7 +180,7 @@ def _share(walker: Walker, node: ForEach | Optional, rest: Rest) -> tuple[float,
             [r.failure_probability for r in resources], chances_short(way, resources, robot, Spent())
         )
     without = chances_short(_way_on(walker, walker.context.here, rest), resources, robot, walker.spent)
-    share = allowance.share(optional_runs(task.composition.plan, node.id))
+    share = allowance.share(optional_runs(walker.plan.frames))
     return float(without.max()), share, allowance.less(share)
 
 

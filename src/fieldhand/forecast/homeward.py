@@ -8,7 +8,7 @@ from fieldhand.forecast.routes import beginning, drives_for
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task, Then
-from fieldhand.task.plan import ForEach, walk
+from fieldhand.task.plan import walk
 
 #: The way home may take this part of a budget before it is left out of a mission that did not ask for it.
 MOST = 1 / 3
@@ -26,7 +26,7 @@ def costs_too_much(task: Task, site: Site, robot: RobotProfile, then: Then) -> f
     Returns:
         None where the way home is worth it, or leads nowhere.
     """
-    optional = any(isinstance(n, ForEach) and n.optional for n in walk(task.composition.plan))
+    optional = any(n.is_optional and n.visits_each for n in walk(task.composition.plan))
     if not task.constraints.budgets or not optional:
         return None
     drives = drives_for(site, robot)

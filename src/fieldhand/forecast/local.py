@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from fieldhand.task import conditions, plan
-from fieldhand.task.plan import Act, If, Node, Repeat, Sequence, Try
+from fieldhand.task import conditions
+from fieldhand.task.plan import Node, acts, walk
 
 
 def local_decisions(root: Node) -> tuple[str, ...]:
@@ -16,7 +16,7 @@ def local_decisions(root: Node) -> tuple[str, ...]:
     Returns:
         Ids of nodes with a condition, and for each action that is tried its id and ``fails``; in the plan's order.
     """
-    if any(isinstance(n, Try) and any(map(_drives, plan.walk(n.body))) for n in plan.walk(root)):
+    if any(inner.selector is not None for n in walk(root) for body in n.caught for inner in walk(body)):
         # After a drive that was given up the robot first has to come back to where it works.
         return ()
     found: list[str] = []
@@ -25,42 +25,40 @@ def local_decisions(root: Node) -> tuple[str, ...]:
 
 
 def _collect(root: Node, node: Node, found: list[str]) -> None:
-    decides = isinstance(node, Try) or plan.condition_of(node) is not None
+    decides = bool(node.caught) or node.tested is not None
     if decides and _on_the_spot(node) and not _used_outside(root, node):
-        tried = {a.id for t in plan.walk(node) if isinstance(t, Try) for a in plan.walk(t.body) if isinstance(a, Act)}
-        for inner in plan.walk(node):
-            if plan.condition_of(inner) is not None:
+        tried = {act.id for inner in walk(node) for body in inner.caught for act in acts(body)}
+        for inner in walk(node):
+            if inner.tested is not None:
                 found.append(inner.id)
             elif inner.id in tried:
                 found.append(f"{inner.id} fails")
         return
-    for child in plan.children(node):
+    for child in node.children:
         _collect(root, child, found)
 
 
 def _on_the_spot(node: Node) -> bool:
-    match node:
-        case Act():
-            return node.at is None and not node.label
-        case Sequence() | If() | Repeat():
-            return all(map(_on_the_spot, plan.children(node)))
-        case Try(body=body, otherwise=otherwise):
-            steps = body.steps if isinstance(body, Sequence) else (body,)
-            return all(isinstance(s, Act) and _on_the_spot(s) for s in steps) and _on_the_spot(otherwise)
-        case _:
-            return False
+    return all(_stays(inner) and all(map(_is_straight, inner.caught)) for inner in walk(node))
+
+
+def _stays(node: Node) -> bool:
+    """Return True if the node itself leaves the robot where it is, and names no place and no end."""
+    moves = node.selector is not None or bool(node.label) or node.in_any_order
+    return not (moves or node.is_optional or node.ends_plan)
+
+
+def _is_straight(body: Node) -> bool:
+    """Return True if the steps of a body are its actions, each once."""
+    return all(step.act is not None for step in (body.children if body.is_series else (body,)))
 
 
 def _used_outside(root: Node, node: Node) -> bool:
     """Whether a reading that is bound in a node is tested anywhere else."""
-    inside = {inner.id for inner in plan.walk(node)}
-    bound = {inner.reading for inner in plan.walk(node) if isinstance(inner, Act) and inner.reading}
-    for other in plan.walk(root):
-        condition = None if other.id in inside else plan.condition_of(other)
+    inside = {inner.id for inner in walk(node)}
+    bound = {inner.reading for inner in walk(node)} - {""}
+    for other in walk(root):
+        condition = None if other.id in inside else other.tested
         if condition is not None and bound & conditions.readings(condition):
             return True
     return False
-
-
-def _drives(node: Node) -> bool:
-    return plan.selector_of(node) is not None

@@ -1,19 +1,18 @@
-"""What still has to be done after a node of a plan: the mandatory steps that follow, and the way home.
+"""What still has to be done of a plan under way: the mandatory steps that follow, and the way home.
 
-Which visits of the loops around the node are still to come is told by who asks. Of a repeat all further rounds are
-left, as if its condition never ended it. Of an any-order set, the steps are left that begin at a place not yet visited.
+The nodes in hand (:class:`fieldhand.task.run.Frame`) hold what is left of them. Which visits of the loops in hand are
+still to come is told by who asks. Of a repeat all further rounds are left, as if its condition never ended it.
 """
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from fieldhand.errors import DriveFault, PlaceError
-from fieldhand.forecast import routes
 from fieldhand.forecast.limits import speed_of
 from fieldhand.forecast.state import Visit, Work
 from fieldhand.forecast.steps import Answer, never
@@ -26,7 +25,8 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task import plan
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import AnyOrder, ForEach, Node, Repeat
+from fieldhand.task.plan import Node
+from fieldhand.task.run import Frame
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -68,26 +68,23 @@ def rest_after(
     site: Site,
     robot: RobotProfile,
     drives: Drives,
-    node_id: str,
+    frames: Sequence[Frame],
     context: Context,
     *,
     to_come: Sequence[Visit] = (),
-    rounds: Mapping[str, int] | None = None,
 ) -> Rest:
-    """What must be done after a node, what is optional left out, on the branch that takes most.
+    """Return what must be done after the node in hand, what is optional left out, on the branch that takes most.
 
     Args:
         task, site, robot, drives: The mission.
-        node_id: The node that is being done.
+        frames: The nodes in hand, outermost first.
         context: Where the robot is and has been.
-        to_come: Visits of the for-each loops around the node that come after it, in their order; they come first.
-        rounds: Further rounds of each repeat that is under way.
+        to_come: Visits of the for-each loops in hand that are not begun, in their order; they come first.
 
     Raises:
         DriveFault: There is no way between visits to come, or from them on.
     """
-    nodes = following(task.composition.plan, node_id, site, context, rounds=rounds or {})
-    rest = _most(task, site, robot, drives, nodes, arrived(context, to_come))
+    rest = _most(task, site, robot, drives, following(frames), arrived(context, to_come))
     return _joined(to_come, rest, drives) if to_come else rest
 
 
@@ -114,42 +111,20 @@ def _most(task: Task, site: Site, robot: RobotProfile, drives: Drives, nodes: Se
     return worst
 
 
-def optional_runs(root: Node, node_id: str) -> int:
-    """How many runs of optional visits a mission may still come to, this node's own included.
+def optional_runs(frames: Sequence[Frame]) -> int:
+    """Return how many runs of optional visits a mission may still come to, that of the node in hand included.
 
     In a loop there may be any number of them; one more than can be seen is counted, so that some is left.
     """
-    way = routes.way_to(root, node_id)
-    found = 1
-    for inner, outer in itertools.pairwise(reversed(way)):
-        match outer:
-            case plan.Sequence(steps=steps):
-                after = steps[next(i for i, step in enumerate(steps) if step is inner) + 1 :]
-            case AnyOrder(steps=steps):
-                after = tuple(step for step in steps if step is not inner)
-            case _:
-                after = ()
-                found += isinstance(outer, ForEach | Repeat)
-        found += sum(plan.is_optional(n) for step in after for n in plan.walk(step))
-    return found
+    loops = [frame.node.visits_each or frame.node.rounds is not None for frame in frames[:-1]]
+    once = (frame for frame, again in zip(frames, loops, strict=False) if not again)
+    later = sum(node.is_optional for frame in once for step in frame.left for node in plan.walk(step))
+    return 1 + sum(loops) + later
 
 
-def following(root: Node, node_id: str, site: Site, context: Context, *, rounds: Mapping[str, int]) -> tuple[Node, ...]:
-    """The nodes that come after one, in their order; of repeats under way the rounds that are left."""
-    way = routes.way_to(root, node_id)
-    found: list[Node] = []
-    for inner, outer in itertools.pairwise(reversed(way)):
-        match outer:
-            case plan.Sequence(steps=steps):
-                position = next(i for i, step in enumerate(steps) if step is inner)
-                found.extend(steps[position + 1 :])
-            case AnyOrder(steps=steps):
-                found.extend(s for s in steps if s is not inner and _begins_at_new_place(s, site, context))
-            case Repeat() if rounds.get(outer.id, 0) > 0:
-                found.append(replace(outer, times=rounds[outer.id]))
-            case _:
-                pass
-    return tuple(found)
+def following(frames: Sequence[Frame]) -> tuple[Node, ...]:
+    """Return the nodes that come after the one in hand, in their order; of repeats the rounds that are left."""
+    return tuple(node for frame in reversed(frames) for node in frame.left)
 
 
 def arrived(context: Context, visits: Sequence[Visit]) -> Context:
@@ -228,11 +203,3 @@ def every_answer(nodes: Sequence[Node]) -> list[Answer]:
 
 def _told(answers: dict[str, bool], default: bool) -> Answer:
     return lambda node_id: answers.get(node_id, default)
-
-
-def _begins_at_new_place(node: Node, site: Site, context: Context) -> bool:
-    try:
-        places = routes.first_places(node, site, context)
-    except PlaceError:
-        return False
-    return any(p.id not in context.visited for p in places)

@@ -17,7 +17,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task import plan
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, Node, Optional, Repeat
+from fieldhand.task.plan import AnyOrder, ForEach, Node
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -127,7 +127,7 @@ def steps_in_order(node: AnyOrder, site: Site, drives: Drives, context: Context,
     begins: dict[int, Place] = {}
     for index, step in enumerate(node.steps):
         places = first_places(step, site, context)
-        if isinstance(step, Optional):
+        if step.is_optional_step:
             places, _ = reachable(drives, places)
         if places:
             begins[index] = min(places, key=lambda p: (p.x - context.here.x) ** 2 + (p.y - context.here.y) ** 2)
@@ -197,24 +197,7 @@ def at_node(error: PlaceError, node: Node) -> PlaceError:
 def ends_plan(root: Node, node_id: str) -> bool:
     """Whether nothing follows a node: no later step of a sequence around it, no next round of a loop around it."""
     way = way_to(root, node_id)
-    if not way:
-        return False
-    for outer, inner in itertools.pairwise(way):
-        match outer:
-            case plan.Sequence(steps=steps):
-                if steps[-1] is not inner:
-                    return False
-            case AnyOrder(steps=steps):
-                if len(steps) > 1:
-                    return False
-            case ForEach():
-                return False
-            case Repeat(times=times):
-                if times > 1:
-                    return False
-            case _:
-                pass
-    return True
+    return bool(way) and not any(outer.goes_on_after(inner) for outer, inner in itertools.pairwise(way))
 
 
 def way_to(root: Node, node_id: str) -> tuple[Node, ...]:
@@ -236,11 +219,6 @@ def home_if_last(task: Task, site: Site, node_id: str, here: Place) -> Place | N
     if task.composition.nominal == "stay" or not ends_plan(task.composition.plan, node_id):
         return None
     return site.home(task.composition.nominal, here)
-
-
-def drives_first(node: Node) -> bool:
-    """Whether the node itself names a place that it drives to."""
-    return isinstance(node, GoTo) or (isinstance(node, Act) and node.at is not None)
 
 
 def _chain(lengths: np.ndarray[tuple[int, ...], np.dtype[np.float64]], count: int) -> list[int]:

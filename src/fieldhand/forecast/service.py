@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 from fieldhand.forecast.state import Work
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
-from fieldhand.task.plan import Act, AnyOrder, ForEach, If, Node, Repeat, Sequence, Stop, Try
+from fieldhand.task.plan import Act, Node
 
 
 def service_of(node: Node, robot: RobotProfile) -> tuple[float, float]:
@@ -20,34 +21,16 @@ def service_of(node: Node, robot: RobotProfile) -> tuple[float, float]:
     Raises:
         KeyError: An action that the robot does not have; a Task that was checked names none.
     """
-    match node:
-        case Act():
-            action = robot.action[node.action]
-            return (node.count * action.duration_s, node.count * action.energy_j)
-        case Sequence(steps=steps) | AnyOrder(steps=steps):
-            seconds = joules = 0.0
-            for step in steps:
-                if isinstance(step, Stop):
-                    break
-                more_s, more_j = service_of(step, robot)
-                seconds, joules = seconds + more_s, joules + more_j
-            return (seconds, joules)
-        case Repeat(times=times, body=body):
-            seconds, joules = service_of(body, robot)
-            return (times * seconds, times * joules)
-        case ForEach(at_most=at_most, body=body):
-            seconds, joules = service_of(body, robot)
-            visits = 1 if at_most is None else at_most
-            return (visits * seconds, visits * joules)
-        case If(then=then, otherwise=otherwise):
-            one = service_of(then, robot)
-            two = (0.0, 0.0) if otherwise is None else service_of(otherwise, robot)
-            return (max(one[0], two[0]), max(one[1], two[1]))
-        case Try(body=body, otherwise=fallback):
-            one, two = service_of(body, robot), service_of(fallback, robot)
-            return (one[0] + two[0], one[1] + two[1])
-        case _:
-            return (0.0, 0.0)
+    if node.act is not None:
+        action = robot.action[node.act.action]
+        return (node.act.count * action.duration_s, node.act.count * action.energy_j)
+    if node.is_optional_step:
+        return (0.0, 0.0)
+    done = itertools.takewhile(lambda child: not child.ends_plan, node.children)
+    seconds, joules = zip((0.0, 0.0), *(service_of(child, robot) for child in done), strict=True)
+    together = max if node.is_choice else sum
+    times = (1 if node.rounds is None else node.rounds) * (1 if node.at_most is None else node.at_most)
+    return (times * together(seconds), times * together(joules))
 
 
 def tried_again(node: Act, robot: RobotProfile) -> Work:
@@ -64,12 +47,12 @@ def work_of(node: Node, robot: RobotProfile) -> Work:
     return Work(seconds=seconds, joules=joules)
 
 
-def reward_of(node: ForEach, place: Place, site: Site) -> float:
+def reward_of(node: Node, place: Place, site: Site) -> float:
     """What a visit is worth: the tree's attribute that the for-each names (0 where it has none), else 1."""
-    if not node.reward:
+    if not node.rewarded_by:
         return 1.0
     tree = site.by_id.get(place.id) if place.kind == "tree" else None
-    value = None if tree is None else tree.properties.get(node.reward)
+    value = None if tree is None else tree.properties.get(node.rewarded_by)
     if not isinstance(value, int | float) or not math.isfinite(value):
         return 0.0
     return max(0.0, float(value))

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from fieldhand.places.context import Context
 from fieldhand.site.model import Place
+
+if TYPE_CHECKING:
+    from fieldhand.task.run import Frame
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,18 +86,21 @@ class MissionState:
     """What the guard decides on.
 
     Attributes:
-        node: Id of the plan node that is about to drive or act.
+        frames: The nodes in hand, outermost first; the last is about to drive or act.
         context: The place in hand, visited trees, bound places.
         spent: Used since the mission began.
         charge_percent: Battery left.
-        rounds: Further rounds of each ``Repeat`` that is under way, by node id.
     """
 
-    node: str
+    frames: tuple[Frame, ...]
     context: Context
     spent: Spent
     charge_percent: float
-    rounds: Mapping[str, int] = field(default_factory=dict)
+
+    @property
+    def node(self) -> str:
+        """Id of the node that is about to drive or act."""
+        return self.frames[-1].node.id
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -28,6 +28,7 @@ from fieldhand.task.plan import (
     Span,
     Stop,
     Try,
+    acts,
     walk,
 )
 from fieldhand.task.weightless import FUNCTION_WORDS, is_weightless
@@ -110,8 +111,7 @@ def _words(task: Task) -> Iterator[tuple[int, int, Role]]:
             found.append((text, start, end, next(holding, "nothing")))
     spoken = {_stem(text) for text, _, _, role in found if role not in ("no_part", "nothing") and text.isalpha()}
     spoken |= {_stem(r.name.lower()) for r in task.resources if r.kind == "robot"}
-    acts = [node for node in walk(task.composition.plan) if isinstance(node, Act)]
-    spoken |= {_stem(word) for act in acts for word in act.action.split("_")}
+    spoken |= {_stem(word) for act in acts(task.composition.plan) for word in act.action.split("_")}
     for text, start, end, role in found:
         dropped = role == "no_part" and not is_weightless(text) and _stem(text) not in spoken
         yield start, end, "nothing" if dropped else role
@@ -126,8 +126,7 @@ def _ranges(task: Task) -> Iterator[tuple[Span, Role]]:
     """Every range of a Task with what it became."""
     for node in walk(task.composition.plan):
         yield from ((span, _OF_NODE[type(node)]) for span in node.said)
-        if isinstance(node, Act):
-            yield from ((span, "place") for span in node.at_said)
+        yield from ((span, "place") for span in node.at_said)
     for budget in task.constraints.budgets:
         yield from ((span, "limit") for span in budget.said)
     yield from ((span, "limit") for span in task.constraints.reserve_said)

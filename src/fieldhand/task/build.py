@@ -9,7 +9,6 @@ import hashlib
 from collections.abc import Mapping
 from dataclasses import replace
 
-from fieldhand.places.selectors import is_single
 from fieldhand.task.frames import (
     Command,
     Composition,
@@ -22,7 +21,7 @@ from fieldhand.task.frames import (
     Then,
     Variable,
 )
-from fieldhand.task.plan import Act, AnyOrder, ForEach, If, Node, Optional, Repeat, Sequence, Span, Try, walk
+from fieldhand.task.plan import Node, Span, acts
 
 #: What every mission does about faults unless its Task says otherwise.
 FAULTED_EXITS = (
@@ -105,20 +104,7 @@ def _number(node: Node, first: int) -> tuple[Node, int]:
         numbered, following = _number(inner, following)
         return numbered
 
-    match node:
-        case Sequence() | AnyOrder():
-            return replace(node, id=name, steps=tuple([child(s) for s in node.steps])), following
-        case ForEach() | Repeat() | Optional():
-            return replace(node, id=name, body=child(node.body)), following
-        case If():
-            then = child(node.then)
-            otherwise = None if node.otherwise is None else child(node.otherwise)
-            return replace(node, id=name, then=then, otherwise=otherwise), following
-        case Try():
-            body = child(node.body)
-            return replace(node, id=name, body=body, otherwise=child(node.otherwise)), following
-        case _:
-            return replace(node, id=name), following
+    return replace(node.with_children([child(inner) for inner in node.children]), id=name), following
 
 
 def goals(plan: Node) -> tuple[Goal, ...]:
@@ -126,39 +112,23 @@ def goals(plan: Node) -> tuple[Goal, ...]:
     found: list[Goal] = []
 
     def visit(node: Node, times: int | None, conditional: bool, optional: bool) -> None:
-        match node:
-            case Sequence(steps=steps) | AnyOrder(steps=steps):
-                for step in steps:
-                    visit(step, times, conditional, optional)
-            case ForEach():
-                one = times if is_single(node.select) else None
-                visit(node.body, one, conditional or node.until is not None, optional or node.optional)
-            case Repeat():
-                again = None if times is None or node.until is not None else times * node.times
-                visit(node.body, again, conditional or node.until is not None, optional)
-            case If():
-                visit(node.then, times, True, optional)
-                if node.otherwise is not None:
-                    visit(node.otherwise, times, True, optional)
-            case Try():
-                visit(node.body, times, conditional, optional)
-                visit(node.otherwise, times, True, optional)
-            case Optional():
-                visit(node.body, times, conditional, True)
-            case Act():
-                expected = None if times is None else times * node.count
-                found.append(
-                    Goal(
-                        id=f"g{len(found) + 1}",
-                        node=node.id,
-                        action=node.action,
-                        expected=expected,
-                        conditional=conditional,
-                        optional=optional,
-                    )
+        if node.act is not None:
+            expected = None if times is None else times * node.act.count
+            found.append(
+                Goal(
+                    id=f"g{len(found) + 1}",
+                    node=node.id,
+                    action=node.act.action,
+                    expected=expected,
+                    conditional=conditional,
+                    optional=optional,
                 )
-            case _:
-                pass
+            )
+        for part in node.parts:
+            again = None if times is None or part.times is None else times * part.times
+            # What only the budget decides on is optional, and not conditional.
+            decided = node.tested is not None or not (part.certain or node.is_optional)
+            visit(part.node, again, conditional or decided, optional or node.is_optional)
 
     visit(plan, 1, False, False)
     return tuple(found)
@@ -168,7 +138,7 @@ def variables(plan: Node, measures: Mapping[str, tuple[tuple[str, str], ...]]) -
     """The state variables that the readings of a plan bind."""
     return tuple(
         Variable(name=node.reading, quantity=quantity, unit=unit, node=node.id)
-        for node in walk(plan)
-        if isinstance(node, Act) and node.reading
+        for node in acts(plan)
+        if node.reading
         for quantity, unit in measures.get(node.action, ())
     )

@@ -42,6 +42,7 @@ __all__ = [
     "Span",
     "Stop",
     "Try",
+    "acts",
     "children",
     "condition_of",
     "is_optional",
@@ -62,6 +63,11 @@ def walk(node: Node) -> Iterator[Node]:
     yield node
     for child in node.children:
         yield from walk(child)
+
+
+def acts(node: Node) -> Iterator[Act]:
+    """The actions of this node and of every one inside it, in the order in which they stand."""
+    return (inner.act for inner in walk(node) if inner.act is not None)
 
 
 def is_optional(node: Node) -> bool:

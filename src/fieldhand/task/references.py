@@ -12,22 +12,7 @@ from fieldhand.task import conditions
 from fieldhand.task.capabilities import Capabilities
 from fieldhand.task.conditions import Between, Compare, Condition, Level
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import (
-    Act,
-    AnyOrder,
-    ForEach,
-    If,
-    Node,
-    Optional,
-    Repeat,
-    Sequence,
-    Try,
-    children,
-    condition_of,
-    is_optional,
-    selector_of,
-    walk,
-)
+from fieldhand.task.plan import Node, walk
 
 
 def references(task: Task, capabilities: Capabilities | None = None) -> tuple[str, ...]:
@@ -61,16 +46,16 @@ def _ids(task: Task) -> Iterator[str]:
 
 def _frames(task: Task, nodes: Mapping[str, Node]) -> Iterator[str]:
     for goal in task.command.goals:
-        node = nodes.get(goal.node)
-        if not isinstance(node, Act):
+        act = nodes[goal.node].act if goal.node in nodes else None
+        if act is None:
             yield f"goal {goal.id!r} names {goal.node!r}, which is no action of the plan"
-        elif node.action != goal.action:
-            yield f"goal {goal.id!r} counts {goal.action!r}, but its node {goal.node!r} does {node.action!r}"
+        elif act.action != goal.action:
+            yield f"goal {goal.id!r} counts {goal.action!r}, but its node {goal.node!r} does {act.action!r}"
     for variable in task.command.variables:
-        node = nodes.get(variable.node)
-        if not isinstance(node, Act):
+        act = nodes[variable.node].act if variable.node in nodes else None
+        if act is None:
             yield f"state variable {variable.name!r} names {variable.node!r}, which is no action of the plan"
-        elif node.reading != variable.name:
+        elif act.reading != variable.name:
             yield f"state variable {variable.name!r} is not the reading that {variable.node!r} binds"
 
 
@@ -80,26 +65,26 @@ MAX_ROUNDS = 100_000
 
 def _endless(plan: Node, around: int = 1) -> Iterator[str]:
     """Repeats whose rounds multiply beyond all use; of nested ones the outermost at which they do."""
-    rounds = around * plan.times if isinstance(plan, Repeat) else around
+    rounds = around * (1 if plan.rounds is None else plan.rounds)
     if rounds > MAX_ROUNDS:
         yield f"node {plan.id!r} comes to {rounds:,} rounds, with the loops around it; {MAX_ROUNDS:,} is the most"
         return
-    for child in children(plan):
+    for child in plan.children:
         yield from _endless(child, rounds)
 
 
 def _twice_optional(node: Node, around: Node | None = None) -> Iterator[str]:
     """Optional steps in, or around, what is optional: which of the two the guard would weigh is not said."""
-    if around is not None and is_optional(node) and (isinstance(node, Optional) or isinstance(around, Optional)):
+    if around is not None and node.is_optional and (node.is_optional_step or around.is_optional_step):
         yield f"node {node.id!r} is optional inside {around.id!r}, which is optional as a whole; make one of them plain"
-    for child in children(node):
-        yield from _twice_optional(child, node if is_optional(node) else around)
+    for child in node.children:
+        yield from _twice_optional(child, node if node.is_optional else around)
 
 
 def _ordered_optional(plan: Node) -> Iterator[str]:
     """Optional visits in a given order: the solver chooses which are made, and in which order."""
     for node in walk(plan):
-        if isinstance(node, ForEach) and node.optional and node.order == "given":
+        if node.is_optional and node.visits_each and not node.in_any_order:
             yield (
                 f"node {node.id!r} is optional and has a given order, which optional visits cannot keep: as many are"
                 " made as fit, in the order that drives least; let a 'top' or 'take' choose which places, or leave out"
@@ -149,43 +134,25 @@ class _Found:
 def _visit(node: Node, known: _Known, found: _Found) -> _Known:
     """Check a node given what may be bound before it; returns what may be bound after it."""
     _check_places(node, known, found)
-    match node:
-        case Sequence(steps=steps):
-            for step in steps:
-                known = _visit(step, known, found)
-            return known
-        case AnyOrder(steps=steps):
-            # Any of the steps may be the first, so none may count on another.
-            for after in [_visit(step, known, found) for step in steps]:
-                known = known | after
-            return known
-        case ForEach() | Repeat():
-            inside = known.label(node.label) if isinstance(node, ForEach) else known
-            after = _visit(node.body, inside, found)
-            _check_condition(node, after, found)
-            return known | after
-        case If():
-            _check_condition(node, known, found)
-            other = known if node.otherwise is None else _visit(node.otherwise, known, found)
-            return _visit(node.then, known, found) | other
-        case Try():
-            body = _visit(node.body, known, found)
-            return body | _visit(node.otherwise, known | body, found)
-        case Optional():
-            after = _visit(node.body, known, found)
-            found.shed.update((after.labels | after.readings.keys()) - (known.labels | known.readings.keys()))
-            return known | after.within(known)
-        case Act():
-            return known.label(node.label).reading(node.reading, node.action)
-        case _:
-            return known.label(getattr(node, "label", ""))
+    known = known.label(node.label)
+    if node.act is not None:
+        known = known.reading(node.reading, node.act.action)
+    after = node.flow(
+        known,
+        lambda child, before: _visit(child, before, found),
+        lambda tester, before: _check_condition(tester, before, found),
+    )
+    if not node.is_optional_step:
+        return after
+    found.shed.update((after.labels | after.readings.keys()) - (known.labels | known.readings.keys()))
+    return after.within(known)
 
 
 _NOTHING_BINDS, _NOTHING_TAKES = "nothing before it binds", "nothing before it takes"
 
 
 def _check_places(node: Node, known: _Known, found: _Found) -> None:
-    selector = selector_of(node)
+    selector = node.selector
     for part in selectors.walk(selector) if selector is not None else ():
         if isinstance(part, Bound) and part.label not in known.labels:
             by = "only an optional step binds: name it inside that" if part.label in found.shed else _NOTHING_BINDS
@@ -193,7 +160,7 @@ def _check_places(node: Node, known: _Known, found: _Found) -> None:
 
 
 def _check_condition(node: Node, known: _Known, found: _Found) -> None:
-    condition: Condition | None = condition_of(node)
+    condition: Condition | None = node.tested
     for part in conditions.walk(condition) if condition is not None else ():
         if isinstance(part, Between) and part.low > part.high:
             found.add(

@@ -23,8 +23,7 @@ class Frame:
     """A node in hand.
 
     Attributes:
-        left: Steps of it that come after the one in hand, in their order.
-        rounds: Further rounds of a repeat.
+        left: Steps of it that come after the one in hand, in their order; of a repeat the rounds that are left.
         tour: The visits of a for-each.
         made: How many visits of it were made.
         catches: A failure inside goes on here.
@@ -32,7 +31,6 @@ class Frame:
 
     node: Node
     left: tuple[Node, ...] = ()
-    rounds: int = 0
     tour: Tour | None = None
     made: int = 0
     catches: bool = False
@@ -84,13 +82,6 @@ class Run:
     def frame(self) -> Frame:
         """The innermost node in hand."""
         return self.frames[-1]
-
-    @property
-    def rounds(self) -> dict[str, int]:
-        """Further rounds of each repeat in hand, by node id."""
-        from fieldhand.task.nodes.repeat import Repeat
-
-        return {frame.node.id: frame.rounds for frame in self.frames if isinstance(frame.node, Repeat)}
 
     def outwards(self) -> Iterator[Frame]:
         """The frames, innermost first."""

@@ -25,7 +25,7 @@ from fieldhand.site.model import Site
 from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Act, ForEach, If, Repeat, walk
+from fieldhand.task.plan import walk
 
 #: What became of a request: a mission; a question; a refusal; no answer of a model that could be used; a Task that a
 #: check forbids.
@@ -198,8 +198,7 @@ def _answer(outcome: Outcome | ModelError) -> tuple[Answer, str]:
 def _size(task: Task) -> tuple[int, int]:
     """Actions and conditions of a plan."""
     nodes = list(walk(task.composition.plan))
-    tests = sum(isinstance(n, If) or (isinstance(n, ForEach | Repeat) and n.until is not None) for n in nodes)
-    return sum(isinstance(n, Act) for n in nodes), tests
+    return sum(n.act is not None for n in nodes), sum(n.tested is not None for n in nodes)
 
 
 def _approve(task: Task, site: Site, robot: RobotProfile) -> AuthorizedTask:

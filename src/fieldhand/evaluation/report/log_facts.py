@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from fieldhand.forecast.estimate import BranchEstimate, Estimate
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import ForEach, walk
+from fieldhand.task.plan import walk
 from fieldhand.task.results import (
     Acted,
     Arrived,
@@ -88,7 +88,13 @@ def places_ahead(task: Task, events: Sequence[Event]) -> tuple[str, ...]:
         return ()
     loop = events[begun]
     node = next((n for n in walk(task.composition.plan) if n.id == loop.node), None)
-    if not isinstance(loop, Visiting) or not isinstance(node, ForEach) or node.at_most is not None or node.until:
+    if (
+        not isinstance(loop, Visiting)
+        or node is None
+        or not node.visits_each
+        or node.at_most is not None
+        or node.tested
+    ):
         return ()
     gone = {e.place for e in events[begun:] if isinstance(e, Arrived | Acted)}
     gone |= {p for e in events[begun:] if isinstance(e, Shed) for p in e.places}

@@ -94,7 +94,7 @@ def _fits(command: Command, plan: p.Node) -> bool:
     """Whether ids stand once each, and the goals are those of the plan."""
     nodes = list(p.walk(plan))
     ids = Counter(node.id for node in nodes)
-    acts = {(node.id, node.action) for node in nodes if isinstance(node, p.Act)}
+    acts = {(act.id, act.action) for act in p.acts(plan)}
     return "" not in ids and max(ids.values()) == 1 and {(g.node, g.action) for g in command.goals} == acts
 
 

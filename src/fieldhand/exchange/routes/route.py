@@ -21,7 +21,7 @@ from fieldhand.forecast.steps import Step, Walk
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Act, is_optional
+from fieldhand.task.plan import is_optional
 from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event, Started
 
 if TYPE_CHECKING:
@@ -119,10 +119,10 @@ def planned(task: Task, site: Site, robot: RobotProfile) -> Route:
             drives += 1
         elif step.kind == "exit":
             stops[-1] = replace(stops[-1], home=True)
-        elif isinstance(step.node, Act) and step.kind == "act":
+        elif step.kind == "act" and step.node.act is not None:
             done = Work(
                 node=step.node.id,
-                action=step.node.action,
+                action=step.node.act.action,
                 captures=step.captures,
                 certain=drives <= known.drives and (drives, step.node.id) in known.acts,
                 seconds=step.seconds,

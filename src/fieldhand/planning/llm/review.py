@@ -27,7 +27,7 @@ from fieldhand.task.codec_shapes import NAMESPACE, element_name
 from fieldhand.task.codec_xml import line_of, parse_xml
 from fieldhand.task.conditions import TreeHas
 from fieldhand.task.frames import Command, Composition, Task
-from fieldhand.task.plan import ForEach, Node
+from fieldhand.task.plan import Node
 from fieldhand.task.references import references
 from fieldhand.task.schema import validate
 
@@ -119,10 +119,10 @@ def _places(root: Node, site: Site) -> Iterator[Problem]:
         selector = plan.selector_of(node)
         if selector is not None:
             yield from _unresolved(selector, site, node.id)
-            if not isinstance(node, ForEach):
+            if not node.visits_each:
                 yield from _more_than_one(selector, site, node.id)
-        if isinstance(node, ForEach) and node.reward and phrase(node.reward) not in known:
-            yield _no_attribute(node.reward, site, node.id)
+        if node.rewarded_by and phrase(node.rewarded_by) not in known:
+            yield _no_attribute(node.rewarded_by, site, node.id)
         condition = plan.condition_of(node)
         for part in conditions.walk(condition) if condition is not None else ():
             if isinstance(part, TreeHas) and phrase(part.attribute) not in known:

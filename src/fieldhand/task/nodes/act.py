@@ -58,5 +58,9 @@ class Act(PlanNode):
         return f"{say_action(self.action, self.count)}{there}"
 
     @property
+    def act(self) -> Act:
+        return self
+
+    @property
     def selector(self) -> Selector | None:
         return self.at

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
+from operator import or_
 from typing import TYPE_CHECKING
 
-from fieldhand.task.nodes.base import Meaning, PlanNode, SayPlace, Span
+from fieldhand.task.nodes.base import K, Meaning, Part, PlanNode, SayPlace, Span
 from fieldhand.task.requests import Arrange
 
 if TYPE_CHECKING:
@@ -34,5 +37,23 @@ class AnyOrder(PlanNode):
         return "in the best order"
 
     @property
-    def children(self) -> tuple[Node, ...]:
-        return self.steps
+    def parts(self) -> tuple[Part, ...]:
+        return tuple(Part(node=step) for step in self.steps)
+
+    @property
+    def is_series(self) -> bool:
+        return True
+
+    def with_children(self, children: Sequence[Node]) -> AnyOrder:
+        return replace(self, steps=tuple(children))
+
+    def goes_on_after(self, child: Node) -> bool:  # noqa: ARG002
+        return len(self.steps) > 1
+
+    @property
+    def in_any_order(self) -> bool:
+        return True
+
+    def flow(self, known: K, visit: Callable[[Node, K], K], test: Callable[[Node, K], None]) -> K:  # noqa: ARG002
+        # Any of the steps may be the first, so none may count on another.
+        return reduce(or_, [visit(step, known) for step in self.steps], known)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldhand.task.nodes.base import Meaning, PlanNode, SayPlace, Span
+from fieldhand.task.nodes.base import K, Meaning, Part, PlanNode, SayPlace, Span
 from fieldhand.task.requests import Decide
 
 if TYPE_CHECKING:
@@ -37,8 +38,22 @@ class If(PlanNode):
         return "if"
 
     @property
-    def children(self) -> tuple[Node, ...]:
-        return (self.then,) if self.otherwise is None else (self.then, self.otherwise)
+    def parts(self) -> tuple[Part, ...]:
+        sides = (self.then,) if self.otherwise is None else (self.then, self.otherwise)
+        return tuple(Part(node=side, certain=False) for side in sides)
+
+    def with_children(self, children: Sequence[Node]) -> If:
+        then, *other = children
+        return replace(self, then=then, otherwise=other[0] if other else None)
+
+    @property
+    def is_choice(self) -> bool:
+        return True
+
+    def flow(self, known: K, visit: Callable[[Node, K], K], test: Callable[[Node, K], None]) -> K:
+        test(self, known)
+        other = known if self.otherwise is None else visit(self.otherwise, known)
+        return visit(self.then, known) | other
 
     @property
     def tested(self) -> Condition:

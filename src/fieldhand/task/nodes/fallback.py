@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldhand.task.nodes.base import Failed, Meaning, PlanNode, SayPlace, Span
+from fieldhand.task.nodes.base import Failed, K, Meaning, Part, PlanNode, SayPlace, Span
 
 if TYPE_CHECKING:
     from fieldhand.task.plan import Node
@@ -36,5 +37,17 @@ class Try(PlanNode):
         return "try"
 
     @property
-    def children(self) -> tuple[Node, ...]:
-        return (self.body, self.otherwise)
+    def parts(self) -> tuple[Part, ...]:
+        return (Part(node=self.body), Part(node=self.otherwise, certain=False))
+
+    def with_children(self, children: Sequence[Node]) -> Try:
+        body, otherwise = children
+        return replace(self, body=body, otherwise=otherwise)
+
+    @property
+    def caught(self) -> tuple[Node, ...]:
+        return (self.body,)
+
+    def flow(self, known: K, visit: Callable[[Node, K], K], test: Callable[[Node, K], None]) -> K:  # noqa: ARG002
+        body = visit(self.body, known)
+        return body | visit(self.otherwise, known | body)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
-from fieldhand.task.nodes.base import GivenUp, Meaning, PlanNode, SayPlace, Span
+from fieldhand.places.selectors import is_single
+from fieldhand.task.nodes.base import GivenUp, K, Meaning, Part, PlanNode, SayPlace, Span
 from fieldhand.task.requests import Begin, Bind, Decide, Drive, Next
 
 if TYPE_CHECKING:
@@ -71,8 +73,36 @@ class ForEach(PlanNode):
         return f"{'as many as fit of' if self.optional else 'at each of'} {place(self.select)}"
 
     @property
-    def children(self) -> tuple[Node, ...]:
-        return (self.body,)
+    def parts(self) -> tuple[Part, ...]:
+        return (Part(node=self.body, times=1 if is_single(self.select) else None),)
+
+    def with_children(self, children: Sequence[Node]) -> ForEach:
+        (body,) = children
+        return replace(self, body=body)
+
+    def goes_on_after(self, child: Node) -> bool:  # noqa: ARG002
+        return True
+
+    @property
+    def in_any_order(self) -> bool:
+        return self.order == "best"
+
+    @property
+    def keeps_order(self) -> bool:
+        return self.order == "given"
+
+    def flow(self, known: K, visit: Callable[[Node, K], K], test: Callable[[Node, K], None]) -> K:
+        after = visit(self.body, known)
+        test(self, after)
+        return known | after
+
+    @property
+    def visits_each(self) -> bool:
+        return True
+
+    @property
+    def rewarded_by(self) -> str:
+        return self.reward
 
     @property
     def selector(self) -> Selector:

@@ -33,5 +33,9 @@ class GoTo(PlanNode):
         return f"go to {place(self.place)}"
 
     @property
+    def only_drives(self) -> bool:
+        return True
+
+    @property
     def selector(self) -> Selector:
         return self.place

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldhand.task.nodes.base import GivenUp, Meaning, PlanNode, SayPlace, Span
+from fieldhand.task.nodes.base import GivenUp, K, Meaning, Part, PlanNode, SayPlace, Span
 from fieldhand.task.requests import Offer
 
 if TYPE_CHECKING:
@@ -41,9 +42,20 @@ class Optional(PlanNode):
         return "if the budget allows"
 
     @property
-    def children(self) -> tuple[Node, ...]:
-        return (self.body,)
+    def parts(self) -> tuple[Part, ...]:
+        return (Part(node=self.body, certain=False),)
+
+    def with_children(self, children: Sequence[Node]) -> Optional:
+        (body,) = children
+        return replace(self, body=body)
+
+    def flow(self, known: K, visit: Callable[[Node, K], K], test: Callable[[Node, K], None]) -> K:  # noqa: ARG002
+        return known | visit(self.body, known)
 
     @property
     def is_optional(self) -> bool:
+        return True
+
+    @property
+    def is_optional_step(self) -> bool:
         return True

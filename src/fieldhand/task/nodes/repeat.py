@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldhand.language.words import say_times
-from fieldhand.task.nodes.base import Meaning, PlanNode, SayPlace, Span
+from fieldhand.task.nodes.base import K, Meaning, Part, PlanNode, SayPlace, Span
 from fieldhand.task.requests import Decide, Round
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ class Repeat(PlanNode):
 
     def meaning(self, run: Run) -> Meaning:
         for left in reversed(range(self.times)):
-            run.frame.rounds = left
+            run.frame.left = (replace(self, times=left),) if left else ()
             yield Round(node=self, left=left)
             yield from run.do(self.body)
             if self.until is not None and (yield Decide(node=self, condition=self.until)):
@@ -37,8 +38,24 @@ class Repeat(PlanNode):
         return f"{'until it holds, at most ' if self.until else ''}{say_times(self.times)}"
 
     @property
-    def children(self) -> tuple[Node, ...]:
-        return (self.body,)
+    def parts(self) -> tuple[Part, ...]:
+        return (Part(node=self.body, times=self.times if self.until is None else None),)
+
+    def with_children(self, children: Sequence[Node]) -> Repeat:
+        (body,) = children
+        return replace(self, body=body)
+
+    def goes_on_after(self, child: Node) -> bool:  # noqa: ARG002
+        return self.times > 1
+
+    def flow(self, known: K, visit: Callable[[Node, K], K], test: Callable[[Node, K], None]) -> K:
+        after = visit(self.body, known)
+        test(self, after)
+        return known | after
+
+    @property
+    def rounds(self) -> int:
+        return self.times
 
     @property
     def tested(self) -> Condition | None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from collections.abc import Sequence as Sequence_
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldhand.task.nodes.base import Meaning, PlanNode, SayPlace, Span
+from fieldhand.task.nodes.base import K, Meaning, Part, PlanNode, SayPlace, Span
 
 if TYPE_CHECKING:
     from fieldhand.task.plan import Node
@@ -29,5 +31,24 @@ class Sequence(PlanNode):
         return "in order"
 
     @property
-    def children(self) -> tuple[Node, ...]:
-        return self.steps
+    def parts(self) -> tuple[Part, ...]:
+        return tuple(Part(node=step) for step in self.steps)
+
+    @property
+    def is_series(self) -> bool:
+        return True
+
+    def with_children(self, children: Sequence_[Node]) -> Sequence:
+        return replace(self, steps=tuple(children))
+
+    def goes_on_after(self, child: Node) -> bool:
+        return self.steps[-1] is not child
+
+    @property
+    def keeps_order(self) -> bool:
+        return len(self.steps) > 1
+
+    def flow(self, known: K, visit: Callable[[Node, K], K], test: Callable[[Node, K], None]) -> K:  # noqa: ARG002
+        for step in self.steps:
+            known = visit(step, known)
+        return known

@@ -25,3 +25,7 @@ class Stop(PlanNode):
 
     def say(self, place: SayPlace) -> str:  # noqa: ARG002
         return f"stop ({self.exit} exit)"
+
+    @property
+    def ends_plan(self) -> bool:
+        return True

@@ -21,7 +21,7 @@ from fieldhand.robot.bindings import Ros2Bindings
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Act, walk
+from fieldhand.task.plan import acts
 
 
 def bound(robot: RobotProfile, by: Connection) -> Ros2Bindings:
@@ -82,7 +82,7 @@ def board(
             replace(robot, ros2=bindings),
             clock=clock,
             within_s=within_s,
-            actions={node.action for node in walk(task.composition.plan) if isinstance(node, Act)},
+            actions={act.action for act in acts(task.composition.plan)},
         )
         yield Vehicle(
             driver=driver,
