@@ -46,7 +46,7 @@ from fieldhand.evaluation.guard import BudgetGuard
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, Progress
 from fieldhand.execution.drivers.simulation import SimulatedDriver
 from fieldhand.execution.journal.store import Journal, create
-from fieldhand.execution.runtime import run
+from fieldhand.execution.mission_runner import run
 from fieldhand.execution.world import ActionFails, BatteryDrains, Blocked, SensorSilent, Spot, World, WorldFault
 from fieldhand.forecast.routes import drives_for
 from fieldhand.task.authorization import AuthorizedTask
@@ -177,7 +177,7 @@ def live(folder: Path, approved: AuthorizedTask, draft: Draft, line: Connection)
             lookout=Failsafe(task, profile, guard.drain),
             clock=robot,
             emit=nobody_hears,
-            tape=journal,
+            log=journal,
         )
 
 

@@ -12,8 +12,8 @@ from fieldhand.execution import mission_clock
 from fieldhand.execution.drivers.simulation import SimulatedDriver
 from fieldhand.execution.guard import Guard, NoGuard
 from fieldhand.execution.journal.store import Journal, create
+from fieldhand.execution.mission_runner import Result, run
 from fieldhand.execution.orders import Order
-from fieldhand.execution.runtime import Result, run
 from fieldhand.execution.world import World
 from fieldhand.places.selectors import Half, Take, TreeIs
 from fieldhand.robot.model import RobotProfile
@@ -95,9 +95,9 @@ class Field:
         """Carry the mission out, or what is left of it."""
         if not self.outlives:
             self.clock, self.driver = self._new()
-        with journal(self.folder / "journal.sqlite", "mission", self.folder / "log", lambda line: None) as tape:
-            if isinstance(tape, Cut):
-                tape.at, tape.behind = cut, behind
+        with journal(self.folder / "journal.sqlite", "mission", self.folder / "log", lambda line: None) as opened:
+            if isinstance(opened, Cut):
+                opened.at, opened.behind = cut, behind
             return run(
                 authorized(task_for(plan), orchard(), self.robot),
                 site=orchard(),
@@ -107,7 +107,7 @@ class Field:
                 clock=self.clock,
                 emit=lambda event: None,
                 orders=orders,
-                tape=tape,
+                log=opened,
                 simulated=not self.outlives,
             )
 

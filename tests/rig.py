@@ -10,10 +10,14 @@ from typing import TypeVar
 import numpy as np
 
 from fieldhand.clock import Clock, SimulatedClock
+from fieldhand.execution.attempt import Attempt
 from fieldhand.execution.drivers.simulation import SimulatedDriver
-from fieldhand.execution.guard import Guard, NoGuard
-from fieldhand.execution.runtime import Result, run
+from fieldhand.execution.guard import Guard, NoGuard, NoLookout
+from fieldhand.execution.mission_clock import MissionClock
+from fieldhand.execution.mission_runner import Result, run
+from fieldhand.execution.recorded_inputs import RecordedInputs
 from fieldhand.execution.world import World
+from fieldhand.forecast.routes import drives_for
 from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
@@ -109,6 +113,19 @@ class Rig:
     def driver(self) -> SimulatedDriver:
         """A simulated robot at the start."""
         return SimulatedDriver(self.site, self.robot, self.world, self.clock, np.random.default_rng(self.seed))
+
+    def attempt(self, task: Task) -> Attempt:
+        """An attempt at a Task that begins now; its events go nowhere else."""
+        inputs = RecordedInputs(
+            driver=self.driver(),
+            guard=self.guard,
+            lookout=NoLookout(),
+            clock=MissionClock(self.clock),
+            emit=lambda event: None,
+            asked=lambda: None,
+        )
+        drives = drives_for(self.site, self.robot)
+        return Attempt(task=task, site=self.site, robot=self.robot, inputs=inputs, drives=drives)
 
     def fly(
         self,

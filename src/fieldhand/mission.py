@@ -31,9 +31,9 @@ if TYPE_CHECKING:
     from fieldhand.approval.readback import ReadBack
     from fieldhand.evaluation.report.writing import ReportFiles
     from fieldhand.execution.guard import Guard
-    from fieldhand.execution.journal.records import Tape
+    from fieldhand.execution.journal.records import InputLog
+    from fieldhand.execution.mission_runner import Result
     from fieldhand.execution.orders import Order
-    from fieldhand.execution.runtime import Result
     from fieldhand.execution.vehicle import Vehicle
     from fieldhand.execution.world import World
     from fieldhand.forecast.estimate import Estimate
@@ -283,7 +283,7 @@ def carry_out(
     interrupted: Callable[[], str | None] = lambda: None,
     watched: Callable[[Guard], Guard] = lambda guard: guard,
     orders: Callable[[], Order | None] = lambda: None,
-    tape: Tape | None = None,
+    log: InputLog | None = None,
 ) -> Result:
     """Carry a mission out. :mod:`fieldhand.missions` keeps it in a folder: then it outlasts a power cut.
 
@@ -291,12 +291,12 @@ def carry_out(
         authorized: What approval gave, for ``site`` and ``robot``.
         vehicle: The robot, or the simulation (:func:`fieldhand.execution.vehicle.simulation`).
         seed: Of what the budget guard draws.
-        emit, interrupted: As for :func:`fieldhand.execution.runtime.run`; so are ``orders`` and ``tape``.
+        emit, interrupted: As for :func:`fieldhand.execution.mission_runner.run`; so are ``orders`` and ``log``.
         watched: Takes the budget guard and gives one that asks it: to time its decisions, say.
     """
     from fieldhand.evaluation.failsafe import Failsafe
     from fieldhand.evaluation.guard import BudgetGuard
-    from fieldhand.execution.runtime import run
+    from fieldhand.execution.mission_runner import run
     from fieldhand.forecast.routes import drives_for
 
     charge, drives = vehicle.charge_percent, drives_for(site, robot)
@@ -313,7 +313,7 @@ def carry_out(
         interrupted=interrupted,
         wall=vehicle.wall,
         orders=orders,
-        tape=tape,
+        log=log,
         simulated=vehicle.simulated,
     )
 

@@ -220,7 +220,6 @@ def test_an_otherwise_stands_in_for_work_out_of_reach() -> None:
 
 
 def test_what_was_found_blocked_can_be_taken_up_again_from_the_log() -> None:
-    from fieldhand.execution.attempt import Attempt
     from fieldhand.forecast.routes import drives_for
 
     site = upright(4, 8)
@@ -229,10 +228,7 @@ def test_what_was_found_blocked_can_be_taken_up_again_from_the_log() -> None:
     events = rig.fly(each(*ids[8:24])).events
     assert of_type(events, Obstructed)
     again = Rig(site=site)
-    attempt = Attempt(
-        task=task_for(act()), site=site, robot=again.robot, driver=again.driver(), guard=again.guard,
-        clock=again.clock, drives=drives_for(site, again.robot), emit=lambda event: None,
-    )  # fmt: skip
+    attempt = again.attempt(task_for(act()))
     recall(attempt, events)
     assert len(attempt.blockages.stretches) == len(of_type(events, Obstructed)[-1].blocked)
     two = (site.trees[8 + 2].place, site.trees[8 + 6].place)

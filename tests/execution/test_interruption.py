@@ -13,7 +13,7 @@ from fieldhand.clock import SimulatedClock
 from fieldhand.execution.drivers.protocol import Progress
 from fieldhand.execution.drivers.simulation import SimulatedDriver
 from fieldhand.execution.interrupts import ctrl_c_as_request
-from fieldhand.execution.runtime import Result, run
+from fieldhand.execution.mission_runner import Result, run
 from fieldhand.execution.world import ActionFails, Blocked, Spot, World
 from fieldhand.places.selectors import Half, Take, TreeIs
 from fieldhand.task.conditions import Compare

@@ -16,9 +16,8 @@ from fieldhand.evaluation.outcome import judge
 from fieldhand.evaluation.report.observations import observations_csv
 from fieldhand.execution import mission_clock
 from fieldhand.execution.journal import store
-from fieldhand.execution.journal.desk import Desk
 from fieldhand.execution.journal.store import Journal
-from fieldhand.execution.orders import Order
+from fieldhand.execution.orders import Order, OrderFile
 from fieldhand.places.selectors import TreeIs
 from fieldhand.task.event_lines import from_json, to_json
 from fieldhand.task.plan import Act
@@ -257,18 +256,18 @@ def test_a_paused_mission_that_is_cut_off_is_paused_again(tmp_path: Path) -> Non
 
 
 def test_orders_lie_where_another_process_finds_them(tmp_path: Path) -> None:
-    desk = Desk(tmp_path / "orders.sqlite")
-    desk.create()
-    assert desk.standing() is None
-    assert desk.say("pause", "lunch") == 1
-    assert desk.standing() == Order(wanted="pause", reason="lunch", number=1)
-    desk.say("abort", "rain")
+    order_file = OrderFile(tmp_path / "orders.sqlite")
+    order_file.create()
+    assert order_file.current() is None
+    assert order_file.give("pause", "lunch") == 1
+    assert order_file.current() == Order(wanted="pause", reason="lunch", number=1)
+    order_file.give("abort", "rain")
     with pytest.raises(Exception, match="told to abort already"):
-        desk.say("continue", "")
-    desk.close()
+        order_file.give("continue", "")
+    order_file.close()
     (tmp_path / "orders.sqlite").write_bytes(b"garbage" * 99)
     for name in ("orders.sqlite-wal", "orders.sqlite-shm"):
         (tmp_path / name).unlink(missing_ok=True)
-    stop = Desk(tmp_path / "orders.sqlite").standing()
+    stop = OrderFile(tmp_path / "orders.sqlite").current()
     assert stop is not None
     assert stop.wanted == "abort"

@@ -13,10 +13,10 @@ import pytest
 from fieldhand.errors import JournalError
 from fieldhand.execution import mission_clock
 from fieldhand.execution.journal import store
-from fieldhand.execution.journal.desk import Desk
 from fieldhand.execution.journal.records import Record
 from fieldhand.execution.journal.store import Journal, create, heard, lines_after
-from fieldhand.execution.runtime import Result
+from fieldhand.execution.mission_runner import Result
+from fieldhand.execution.orders import OrderFile
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.results import Resumed
 from journalled import Field, PowerCut
@@ -343,14 +343,14 @@ def test_a_journal_under_a_second_name_is_refused(tmp_path: Path) -> None:
 
 
 def test_orders_that_lie_elsewhere_than_people_give_them_stop_the_mission(tmp_path: Path) -> None:
-    desk = Desk(tmp_path / "orders.sqlite")
-    desk.create()
-    assert desk.standing() is None
+    order_file = OrderFile(tmp_path / "orders.sqlite")
+    order_file.create()
+    assert order_file.current() is None
     (tmp_path / "orders.sqlite").rename(tmp_path / "moved")
     for _ in range(2):
-        order = desk.standing()
+        order = order_file.current()
         assert order is not None
         assert (order.wanted, "cannot be read" in order.reason) == ("abort", True)
     with pytest.raises(JournalError, match="orders of the mission cannot be used"):
-        desk.say("pause", "lunch")
+        order_file.give("pause", "lunch")
     assert not (tmp_path / "orders.sqlite").exists()

@@ -17,7 +17,7 @@ from fieldhand.clock import Clock, ScaledClock
 from fieldhand.errors import NotApprovedError, OutputError
 from fieldhand.execution.drivers.protocol import DriveGoal
 from fieldhand.execution.drivers.simulation import SimulatedDriver
-from fieldhand.execution.runtime import run
+from fieldhand.execution.mission_runner import run
 from fieldhand.execution.world import (
     ActionFails,
     Blocked,

@@ -7,12 +7,8 @@ import math
 import pytest
 from py_trees.common import Status
 
-from fieldhand.clock import SimulatedClock
-from fieldhand.execution.attempt import Attempt
-from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.tree import compile_tree
 from fieldhand.execution.world import ActionFails, DriveFails, SensorSilent, Spot, Truth, World
-from fieldhand.forecast.routes import drives_for
 from fieldhand.places.selectors import (
     Bound,
     Excluding,
@@ -72,17 +68,7 @@ def test_every_node_is_a_behavior_named_by_its_id() -> None:
         Try(id="", body=act(CO2), otherwise=act(AIR)),
     )
     task, rig = task_for(plan), Rig()
-    attempt = Attempt(
-        task=task,
-        site=rig.site,
-        robot=rig.robot,
-        driver=rig.driver(),
-        guard=NoGuard(),
-        clock=SimulatedClock(),
-        drives=drives_for(rig.site, rig.robot),
-        emit=lambda event: None,
-    )
-    root = compile_tree(attempt)
+    root = compile_tree(rig.attempt(task))
     names = [behavior.name for behavior in root.iterate()]
     for node in walk(task.composition.plan):
         assert any(name.startswith(f"{node.id} ") for name in names)

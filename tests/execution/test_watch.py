@@ -123,7 +123,7 @@ def flown_with_lookout(world: World, robot: RobotProfile, tree: str = "r3c4") ->
     """One mandatory capture far away, without a guard: only the lookout foresees the way home."""
     from fieldhand.clock import SimulatedClock
     from fieldhand.execution.guard import NoGuard
-    from fieldhand.execution.runtime import run
+    from fieldhand.execution.mission_runner import run
     from rig import authorized
 
     task = task_for(Act(id="", action="read_co2", at=TreeIs(tree=tree)), nominal="return_to_start")

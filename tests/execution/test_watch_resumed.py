@@ -17,7 +17,7 @@ from fieldhand.execution.drivers.simulation import SimulatedDriver
 from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.journal import store
 from fieldhand.execution.journal.store import create
-from fieldhand.execution.runtime import Result, run
+from fieldhand.execution.mission_runner import Result, run
 from fieldhand.execution.world import BatteryDrains, World
 from fieldhand.places.selectors import TreeIs, Trees
 from fieldhand.task.event_lines import to_json
@@ -58,7 +58,7 @@ def fly(folder: Path, factor: float, *, cut: int = 0, behind: bool = False) -> R
             clock=clock,
             emit=lambda event: None,
             lookout=Failsafe(task, robot, Drain(robot)),
-            tape=journal,
+            log=journal,
             simulated=True,
         )
 

@@ -25,7 +25,7 @@ from fieldhand.execution.drivers.ros2.driver import Ros2Driver
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.twin.robot import bindings_of
 from fieldhand.execution.guard import NoGuard
-from fieldhand.execution.runtime import Result, run
+from fieldhand.execution.mission_runner import Result, run
 from fieldhand.execution.vehicle import Connection, Vehicle
 from fieldhand.robot.bindings import Ros2Bindings
 from fieldhand.robot.loader import load_robot

@@ -16,7 +16,7 @@ from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import ActionGoal, Progress
 from fieldhand.execution.drivers.ros2.dds.names import reply_name, request_name, wire_type
 from fieldhand.execution.drivers.ros2.dds.transport import DdsTransport
-from fieldhand.execution.runtime import Result
+from fieldhand.execution.mission_runner import Result
 from fieldhand.places.selectors import TreeIs
 from fieldhand.task.plan import Act, GoTo, Node, Sequence
 from fieldhand.task.results import Acted, Driving, Faulted, Waited

@@ -18,7 +18,7 @@ from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.transport import Quality, Transport
 from fieldhand.execution.drivers.ros2.twin.robot import SimulatedRobot
 from fieldhand.execution.guard import NoGuard
-from fieldhand.execution.runtime import Result, run
+from fieldhand.execution.mission_runner import Result, run
 from fieldhand.execution.world import ActionFails, Blocked, LocalisationLost, SensorSilent, Spot, World
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned

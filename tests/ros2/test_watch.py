@@ -8,7 +8,7 @@ from typing import ClassVar
 from fieldhand.evaluation.drain import Drain
 from fieldhand.evaluation.failsafe import Failsafe
 from fieldhand.execution.guard import NoGuard
-from fieldhand.execution.runtime import run
+from fieldhand.execution.mission_runner import run
 from fieldhand.execution.world import BatteryDrains, World
 from fieldhand.places.selectors import TreeIs
 from fieldhand.robot.model import RobotProfile

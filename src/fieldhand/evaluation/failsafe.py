@@ -28,7 +28,7 @@ _LESS_LIKELY, _LESS = 0.02, 0.8
 
 
 class Failsafe:
-    """Implements :class:`fieldhand.execution.watch.Lookout`.
+    """Implements :class:`fieldhand.execution.guard.Lookout`.
 
     Args:
         task, robot: The mission.

@@ -8,18 +8,21 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from fieldhand.clock import Clock, WallClock
+from fieldhand.clock import Clock
 from fieldhand.errors import ActionFault, BlockedFault, DriveFault, FieldhandError, LostFault, PlaceError
 from fieldhand.execution.battery import BatteryMeter
-from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, Progress
+from fieldhand.execution.drive_controller import AT_M, DriveController, drive_goal
+from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Progress
 from fieldhand.execution.guard import Guard
-from fieldhand.execution.recording import OpenCapture, OpenDrive, end_capture, end_drive, joules_done
+from fieldhand.execution.journal.records import Observation
+from fieldhand.execution.levels import charge_levels, fastest_drain
+from fieldhand.execution.open_goals import OpenCapture, OpenDrive, joules_done, unusable
+from fieldhand.execution.recorded_inputs import RecordedInputs
 from fieldhand.execution.timeofday import TimeOfDay
-from fieldhand.execution.watch import Lookout, NoLookout, Watch
 from fieldhand.forecast.conditions import Facts
 from fieldhand.forecast.routes import beginning
 from fieldhand.forecast.state import MissionState, Spent
@@ -27,19 +30,16 @@ from fieldhand.forecast.visits import Visits
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve, resolve_one
 from fieldhand.places.selectors import Selector
-from fieldhand.robot.model import RobotProfile
+from fieldhand.robot.model import InDoubtPolicy, RobotProfile
 from fieldhand.site.blockages import Blockages
 from fieldhand.site.drives import Drive, Drives
 from fieldhand.site.model import Place, Site
 from fieldhand.task.build import exit_of
 from fieldhand.task.frames import Fault, Task, Then
-from fieldhand.task.results import ClockSet, Driving, Event, Faulted, MissionStatus
+from fieldhand.task.results import Acted, Arrived, ClockSet, Driving, Event, Faulted, InDoubt, MissionStatus, Resumed
 from fieldhand.task.run import Run
 
-#: Metres within which the robot counts as standing at a place.
-AT_M = 0.5
-
-#: Seconds of the mission between two looks while the robot waits for something.
+#: Seconds of the mission between two looks while the robot waits.
 LOOK_AGAIN_S = 1.0
 
 
@@ -59,16 +59,13 @@ class Attempt:
 
     Args:
         task, site, robot: What is carried out, where, by which robot.
-        driver: The robot, real or simulated.
-        guard: Who watches the budget.
-        clock: The mission's time; the attempt begins now.
+        inputs: Driver, guard, clock and orders, recorded. The attempt begins now.
         drives: Ways between places.
-        emit: Takes each event as it happens.
-        wall: The time of day, where there is one.
-        lookout: Asked at every look whether the way home still lasts.
 
     Attributes:
-        watch: Over battery, distance and time.
+        controller: Carries out the current goal.
+        guard: The budget guard.
+        clock: The mission's time.
         halted: Nothing new is begun: the mission is about to turn home.
         blockages: What it found in its way.
         here: The place in hand (:mod:`fieldhand.task.plan`).
@@ -89,27 +86,25 @@ class Attempt:
         task: Task,
         site: Site,
         robot: RobotProfile,
-        driver: Driver,
-        guard: Guard,
-        clock: Clock,
+        inputs: RecordedInputs,
         drives: Drives,
-        emit: Callable[[Event], None],
-        wall: WallClock | None = None,
-        lookout: Lookout | None = None,
     ) -> None:
         self.task = task
         self.site = site
         self.robot = robot
-        self.driver = driver
-        self.guard = guard
-        self.clock = clock
+        self.inputs = inputs
+        self.guard: Guard = inputs
+        self.clock: Clock = inputs
+        self.controller = DriveController(
+            inputs, site, robot, ways=lambda: self.drives, on_restart=self._restarted, on_doubt=self._in_doubt
+        )
         self.blockages = Blockages(drives)
-        self._emit = emit
-        self._begun_s = clock.now()
-        self.time_of_day = TimeOfDay(clock, wall)
+        self._begun_s = self.clock.now()
+        self.time_of_day = TimeOfDay(inputs)
         self._wake_s: float | None = None
         self.action_j = 0.0
-        self._full = driver.charge_percent()
+        self._full = self.seen.charge_percent
+        self._cuts = 0
         self._open: OpenDrive | OpenCapture | None = None
         self.events: list[Event] = []
         self.here = beginning(drives)
@@ -125,14 +120,18 @@ class Attempt:
         self.fault: Fault = "action_failed"
         self.what = ""
         self.halted = False
-        self.watch = Watch(self, lookout or NoLookout())
         self._battery = BatteryMeter(
             self._full,
-            clock.now(),
+            self.clock.now(),
             hold_s=robot.energy.hold_s,
-            fastest=self.watch.fastest,
-            levels=self.watch.charge_levels(self._full),
+            fastest=fastest_drain(robot),
+            levels=charge_levels(task.constraints, robot, self._full),
         )
+
+    @property
+    def seen(self) -> Observation:
+        """The robot as observed now."""
+        return self.inputs.seen
 
     @property
     def t(self) -> float:
@@ -144,7 +143,7 @@ class Attempt:
         """Return what was used so far, including the goal in hand."""
         metres, joules, goal = self.travelled_m, self.action_j, self._open
         if goal is not None:
-            progress = self.driver.poll()
+            progress = self.controller.poll()
             if isinstance(goal, OpenDrive):
                 metres += progress.metres
             else:
@@ -169,7 +168,7 @@ class Attempt:
 
     def charge_percent(self) -> float:
         """Return the charge that counts: what the driver says, without single false readings."""
-        return self._battery.read(self.driver.charge_percent(), self.clock.now())
+        return self._battery.read(self.seen.charge_percent, self.clock.now())
 
     def next_reading_in(self) -> float:
         """Return seconds until the battery's meter is to be read again, after a reading that surprised."""
@@ -180,7 +179,7 @@ class Attempt:
         if by_s := self.time_of_day.set_by():
             self.emit(ClockSet(t=self.t, by_s=by_s))
         self.events.append(event)
-        self._emit(event)
+        self.inputs.event(event)
 
     def resolve(self, selector: Selector) -> tuple[Place, ...]:
         """The places of a selector, as they are now; where the robot will stand there is open.
@@ -271,74 +270,51 @@ class Attempt:
         if place.kind == "tree" and place.id not in self.visited:
             self.visited.append(place.id)
 
-    def stranded(self) -> None:
-        """A drive ended on its way: the robot is at no place, or at the one in hand still."""
-        self.arrived_at, self.standing = None, self._stands()
-
     def start_drive(self, node: str, place: Place) -> None:
         """Let the driver begin a drive.
 
         Raises:
             DriveFault, PlaceError: There is no way to the place.
         """
-        drive = self.way_to(place)
-        place = drive.end
-        corners = tuple((float(x), float(y)) for x, y in drive.points)
-        degrees = tuple((float(lat), float(lon)) for lat, lon in self.site.projection.degrees(corners))
         wanted = self.task.constraints.speed_m_s
-        goal = DriveGoal(
-            place=place,
-            path_m=corners,
-            path_degrees=degrees,
-            length_m=drive.length_m,
-            speed_m_s=self.robot.speed_m_s if wanted is None else min(wanted, self.robot.speed_m_s),
-        )
-        self.emit(
-            Driving(
-                t=self.t,
-                node=node,
-                kind=place.kind,
-                place=place.id,
-                planned_m=drive.length_m,
-                path=degrees,
-                speed_m_s=goal.speed_m_s,
-            )
-        )
-        self._open, self.driven = OpenDrive(node=node, goal=goal), corners
-        self.driver.start_drive(goal)
+        speed_m_s = self.robot.speed_m_s if wanted is None else min(wanted, self.robot.speed_m_s)
+        goal = drive_goal(self.site, self.way_to(place), speed_m_s)
+        self._emit_driving(node, goal)
+        self._open = OpenDrive(node=node, goal=goal)
+        self.controller.start(goal)
 
     def start_capture(self, node: str, action: str, parameters: Mapping[str, str | float], number: int) -> None:
         """Let the driver begin the ``number``-th try of a capture."""
         self._open = OpenCapture(node=node, action=action, number=number)
-        self.driver.start_action(ActionGoal(action=action, place=self.here, parameters=parameters))
+        self.controller.start(ActionGoal(action=action, place=self.here, parameters=parameters))
 
     def attend(self) -> Progress:
         """How the goal in hand stands; when it is over, what came of it is recorded, once."""
-        progress = self.driver.poll()
+        progress = self.controller.poll()
         goal = self._open
         if goal is None or not progress.over:
             return progress
         self._open = None
         if isinstance(goal, OpenCapture):
-            return end_capture(self, goal, progress)
-        end_drive(self, goal, progress)
+            return self._end_capture(goal, progress)
+        self._end_drive(goal, progress)
         return progress
 
     def stop_driver(self) -> None:
         """Ask the driver to end the goal in hand, if there is one."""
         if self._open is not None:
-            self.driver.cancel()
+            self.controller.cancel()
 
     def wait_until(self, mission_s: float | None) -> None:
         """Stand still until that moment of the clock; None: no longer."""
         self._wake_s = mission_s
 
     def next_event_in(self) -> float | None:
-        """Seconds until there is something to look at; None where the robot does nothing and waits for nothing."""
-        found = [] if (soon := self.driver.next_event_in()) is None else [soon]
+        """Return seconds until the robot or a wait needs a look, or None if it neither works nor waits."""
+        found = [] if (soon := self.seen.next_in) is None else [soon]
         if self._wake_s is not None:
             found.append(min(LOOK_AGAIN_S, max(0.0, self._wake_s - self.clock.now())))
-        return min(*found, self.watch.next_look_in()) if found else None
+        return min(found, default=None)
 
     @property
     def busy(self) -> bool:
@@ -350,12 +326,115 @@ class Attempt:
         """The goal in hand."""
         return self._open
 
+    def note_power_cuts(self) -> None:
+        """Record that the mission was resumed, if it was since this was last called."""
+        if self.inputs.cuts != self._cuts:
+            self._cuts = self.inputs.cuts
+            at = self.seen.position
+            self.emit(Resumed(t=self.t, lat=at.lat, lon=at.lon, charge_percent=self.charge_percent()))
+
+    def emit_arrived(self, node: str, place: Place, leg_m: float) -> None:
+        """Record that the robot has arrived at a place."""
+        position = self.seen.position
+        self.emit(
+            Arrived(
+                t=self.t,
+                node=node,
+                kind=place.kind,
+                place=place.id,
+                lat=position.lat,
+                lon=position.lon,
+                leg_m=leg_m,
+                travelled_m=self.travelled_m,
+                charge_percent=self.charge_percent(),
+            )
+        )
+
+    def _emit_driving(self, node: str, goal: DriveGoal) -> None:
+        """Record that a drive begins."""
+        self.driven = goal.path_m
+        self.emit(
+            Driving(
+                t=self.t,
+                node=node,
+                kind=goal.place.kind,
+                place=goal.place.id,
+                planned_m=goal.length_m,
+                path=goal.path_degrees,
+                speed_m_s=goal.speed_m_s,
+            )
+        )
+
+    def _restarted(self, goal: DriveGoal) -> None:
+        """Record that a drive begins in place of one that was cut short."""
+        self.note_power_cuts()
+        self._emit_driving("" if self._open is None else self._open.node, goal)
+
+    def _in_doubt(self, goal: ActionGoal, then: InDoubtPolicy, progress: Progress) -> None:
+        """Record that a capture is in doubt."""
+        self.note_power_cuts()
+        doing, place = self._open, goal.place
+        self.emit(
+            InDoubt(
+                t=self.t,
+                node="" if doing is None else doing.node,
+                action=goal.action,
+                then=then,
+                kind=place.kind,
+                place=place.id,
+                lat=place.lat,
+                lon=place.lon,
+                attempt=doing.number if isinstance(doing, OpenCapture) else 1,
+                what=progress.what,
+                charge_percent=self.charge_percent(),
+            )
+        )
+
+    def _end_drive(self, open_: OpenDrive, progress: Progress) -> None:
+        """Record the end of a drive: the robot has arrived, or stands somewhere on the way."""
+        self.travelled_m += progress.metres
+        if progress.state != "succeeded":
+            self.arrived_at, self.standing = None, self._stands()
+            return
+        self.stop_at(open_.goal.place)
+        self.emit_arrived(open_.node, open_.goal.place, progress.metres)
+
+    def _end_capture(self, open_: OpenCapture, progress: Progress) -> Progress:
+        """Record the end of a capture; return its progress, failed if its readings cannot be believed."""
+        action, here = self.robot.action[open_.action], self.here
+        self.action_j += joules_done(action, progress)
+        if progress.state in ("cancelled", "cut_off"):
+            return progress  # nothing happened, or it is in doubt, which is recorded already
+        if progress.state == "succeeded":
+            why = (unusable(self.robot, q, progress.readings.get(q)) for q in action.measures)
+            if what := next(filter(None, why), ""):
+                progress = dataclasses.replace(progress, state="failed", fault="failed", readings={}, what=what)
+        done = progress.state == "succeeded"
+        self.emit(
+            Acted(
+                t=self.t,
+                node=open_.node,
+                action=open_.action,
+                status="success" if done else "failed",
+                kind=here.kind,
+                place=here.id,
+                lat=here.lat,
+                lon=here.lon,
+                attempt=open_.number,
+                readings={q: progress.readings[q] for q in action.measures} if done else {},
+                units={q: self.robot.quantity[q].unit for q in action.measures} if done else {},
+                what=progress.what,
+                charge_percent=self.charge_percent(),
+            )
+        )
+        return progress
+
     def _context(self, here: Place) -> Context:
         return Context(here=here, visited=tuple(self.visited), bound=dict(self.bound))
 
     def _stands(self) -> Place:
         """Where the robot is, as a place: the place in hand if it is there."""
-        position = self.driver.position()
+        position = self.seen.position
         xy = (position.x, position.y)
         if math.dist(xy, self.here.stand or self.here.xy) <= AT_M:
             return self.here

@@ -17,7 +17,7 @@ from fieldhand.language.words import say_place
 from fieldhand.robot.model import Action
 from fieldhand.site.model import Place
 from fieldhand.task.plan import Act
-from fieldhand.task.results import Arrived, Faulted
+from fieldhand.task.results import Faulted
 from fieldhand.task.run import Steps
 
 #: So often one drive is stopped by something in its way, and one drive or capture by a lost position, before it fails.
@@ -45,7 +45,9 @@ def drive(attempt: Attempt, node: str, place: Place, *, patient: bool = True, as
     if attempt.is_at(place):
         return
     if (attempt.standing.kind, attempt.standing.id) == (place.kind, place.id):
-        _arrive_in_place(attempt, node, attempt.standing)
+        # The robot began the mission at this very place: it is there without a drive.
+        attempt.stop_at(attempt.standing)
+        attempt.emit_arrived(node, attempt.standing, 0.0)
         return
     tries, stops, waited, obstacle = attempt.robot.retries + 1, 0, not patient, ""
     while True:
@@ -167,25 +169,6 @@ def _stand(attempt: Attempt, place: Place) -> Place | None:
         return attempt.reached(place)
     except DriveFault:
         return None
-
-
-def _arrive_in_place(attempt: Attempt, node: str, place: Place) -> None:
-    """The robot began the mission at this very place: it is there without a drive."""
-    attempt.stop_at(place)
-    position = attempt.driver.position()
-    attempt.emit(
-        Arrived(
-            t=attempt.t,
-            node=node,
-            kind=place.kind,
-            place=place.id,
-            lat=position.lat,
-            lon=position.lon,
-            leg_m=0.0,
-            travelled_m=attempt.travelled_m,
-            charge_percent=attempt.charge_percent(),
-        )
-    )
 
 
 def _named(place: Place) -> str:

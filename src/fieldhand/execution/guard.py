@@ -1,4 +1,4 @@
-"""What execution asks of whoever watches the budget. Evaluation's guard answers; execution does not know how."""
+"""Protocols of the budget guard and of the lookout, which evaluation implements."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Protocol
 
 from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
+from fieldhand.forecast.underway import Foresight, Underway
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -38,6 +39,14 @@ class Guard(Protocol):
         ...
 
 
+class Lookout(Protocol):
+    """Foresees whether what is left lasts for the way home; asked at every look."""
+
+    def foresee(self, now: Underway) -> Foresight:
+        """Return whether the mission may go on as it does."""
+        ...
+
+
 class NoGuard:
     """A guard for missions without limits: everything is allowed, optional visits in the order given."""
 
@@ -56,3 +65,10 @@ class NoGuard:
 
     def ways_are(self, drives: Drives) -> None:
         pass
+
+
+class NoLookout:
+    """A lookout for missions without limits: nothing is ever foreseen."""
+
+    def foresee(self, now: Underway) -> Foresight:  # noqa: ARG002
+        return Foresight()

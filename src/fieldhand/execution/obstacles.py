@@ -28,7 +28,7 @@ def avoid(attempt: Attempt, node: str, place: Place, what: str) -> None:
     """Remember what stands before the robot, which was stopped on the way to a place, and say what that closes off."""
     trees = [tree.place for tree in attempt.site.trees]
     before = attempt.drives.linked(trees, attempt.standing)
-    position, path = attempt.driver.position(), LineString(attempt.driven)
+    position, path = attempt.seen.position, LineString(attempt.driven)
     along = path.project(Point(position.x, position.y))
     ahead = path.interpolate(min(path.length, along + _AHEAD_M))
     if ahead.distance(Point(position.x, position.y)) <= 0.0:
@@ -95,7 +95,7 @@ def recall(attempt: Attempt, events: Iterable[Event]) -> None:
 def _say(
     attempt: Attempt, node: str, place: Place, what: str, *, unreachable: Sequence[str] = (), free: bool = False
 ) -> None:
-    position, projection = attempt.driver.position(), attempt.site.projection
+    position, projection = attempt.seen.position, attempt.site.projection
     areas = [projection.degrees(np.array(s.exterior.coords)[:-1]) for s in attempt.blockages.stretches]
     attempt.emit(
         Obstructed(

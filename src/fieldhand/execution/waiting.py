@@ -33,7 +33,7 @@ def know_position(attempt: Attempt, node: str) -> Steps:
     """
     while attempt.halted:
         yield
-    why = attempt.driver.lost()
+    why = attempt.seen.lost
     if why is None:
         return
     begun_s, patience = attempt.clock.now(), attempt.robot.patience.lost_wait_s
@@ -41,8 +41,8 @@ def know_position(attempt: Attempt, node: str) -> Steps:
     still = message("it stands still for at most {seconds} s", context="log", seconds=f"{patience:g}")
     standing = joined("; ", (what, still))
     attempt.emit(Faulted(t=attempt.t, node=node, fault="lost", what=standing, handled=True))
-    yield from wait(attempt, patience, over=lambda: attempt.driver.lost() is None)
-    known, waited_s = attempt.driver.lost() is None, attempt.clock.now() - begun_s
+    yield from wait(attempt, patience, over=lambda: attempt.seen.lost is None)
+    known, waited_s = attempt.seen.lost is None, attempt.clock.now() - begun_s
     attempt.emit(Waited(t=attempt.t, node=node, wanted="position", seconds=waited_s, over=known, what=why))
     if not known:
         lasting = message("{known}, {seconds} s on still", context="log", known=what, seconds=f"{patience:g}")

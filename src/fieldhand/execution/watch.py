@@ -3,35 +3,32 @@
 The guard decides between drives. This looks in between: every level of the battery and every limit that is crossed is
 an event of the log, once, and what follows from it is done at once. At the return level the mission turns home, at the
 stop level the robot stops where it stands. Whether what is left still lasts for the way home is asked of a
-:class:`Lookout`, which evaluation implements.
+:class:`~fieldhand.execution.guard.Lookout`, which evaluation implements.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, Protocol
+from typing import Literal
 
 from shapely.geometry import LineString, Point
 
 from fieldhand.errors import DriveFault
-from fieldhand.execution.recording import OpenCapture, OpenDrive
-from fieldhand.forecast.limits import reserve_percent
+from fieldhand.execution.attempt import Attempt
+from fieldhand.execution.guard import Lookout
+from fieldhand.execution.levels import Consequence, Level, fastest_drain, levels_of
+from fieldhand.execution.open_goals import OpenCapture, OpenDrive
 from fieldhand.forecast.state import Spent, Work
 from fieldhand.forecast.underway import Foresight, Underway
 from fieldhand.site.model import Place, Site
 from fieldhand.site.stopping import safe_stop
-from fieldhand.task.exceeded import is_exceeded
 from fieldhand.task.frames import Then as Exit
 from fieldhand.task.limit_words import say_crossing
 from fieldhand.task.results import Crossable, Crossing, LimitCrossed
 
-if TYPE_CHECKING:
-    from fieldhand.execution.attempt import Attempt
-
-#: The next look is no later than a battery that empties so many times as fast as its model could reach a level, and
-#: never sooner than that after the last: where time jumps, nobody looks in between.
-FASTEST, SOONEST_S = 16.0, 0.2
+#: Seconds between two looks at least, where time jumps. The next look is no later than the fastest drain could reach a
+#: level.
+SOONEST_S = 0.2
 
 #: A robot drives no faster than this many times its speed.
 _SPEED = 2.0
@@ -44,42 +41,7 @@ CLEAR_PERCENT = 3.0
 
 #: ``plan``: the plan is carried out. ``exit``: the robot is on its way home. ``over``: it stands, or is told to.
 Phase = Literal["plan", "exit", "over"]
-Then = Literal["go_on", "return", "end", "stop"]
 Alarm = Literal["none", "return", "stop", "shelter"]
-
-
-class Lookout(Protocol):
-    """Foresees whether what is left lasts for the way home; asked at every look."""
-
-    def foresee(self, now: Underway) -> Foresight:
-        """Return whether the mission may go on as it does."""
-        ...
-
-
-class NoLookout:
-    """A lookout for missions without limits: nothing is ever foreseen."""
-
-    def foresee(self, now: Underway) -> Foresight:  # noqa: ARG002
-        return Foresight()
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Level:
-    """A threshold, and what follows where it is crossed."""
-
-    quantity: Crossable
-    level: Crossing
-    threshold: float
-    then: Then
-
-    def is_crossed(self, value: float) -> bool:
-        match self.level:
-            case "limit":
-                return is_exceeded(self.quantity, value, self.threshold) if self.quantity != "charge_percent" else False
-            case "reserve":
-                return is_exceeded("reserve", value, self.threshold)
-            case _:
-                return value <= self.threshold
 
 
 class Watch:
@@ -105,36 +67,11 @@ class Watch:
         #: A mission that ends where its last visit was has no way home in its limits: driving home would exceed them.
         self._has_open_end = attempt.task.composition.nominal == "stay"
         self._reach_m = 0.0
-        robot, constraints = attempt.robot, attempt.task.constraints
-        reserve = reserve_percent(constraints, robot)
-        battery = robot.energy.levels(reserve)
-        charges: tuple[tuple[Crossing, float, Then], ...] = (
-            ("warn", battery.warn, "go_on"),
-            ("return", battery.home, "return"),
-            ("reserve", reserve, "go_on"),
-            ("stop", battery.stop, "stop"),
-        )
-        self._levels = (
-            # At a level of 0 the battery is empty, and nobody says anything any more.
-            *(
-                _Level(quantity="charge_percent", level=level, threshold=at, then=then)
-                for level, at, then in charges
-                if at > 0.0
-            ),
-            *(_Level(quantity=b.kind, level="limit", threshold=b.limit, then="return") for b in constraints.budgets),
-        )
-        self._crossed: set[_Level] = set()
+        self._levels = levels_of(attempt.task.constraints, attempt.robot)
+        self._crossed: set[Level] = set()
         self._homes: tuple[tuple[tuple[float, float], ...], float, float] | None = None
         self._foreseen: set[Phase] = set()
-        #: Percent a second that a battery loses at most.
-        self.fastest = FASTEST * _fastest_percent_per_s(attempt)
-
-    def charge_levels(self, full: float) -> tuple[float, ...]:
-        """Return the percents of charge at which something follows, of a mission that begins with ``full``."""
-        return (
-            *(level.threshold for level in self._levels if level.quantity == "charge_percent"),
-            *(full - level.threshold for level in self._levels if level.quantity == "energy_percent"),
-        )
+        self._fastest = fastest_drain(attempt.robot)
 
     def turn(self, phase: Phase) -> None:
         """Begin a phase of the mission; what the alarm asked for is done."""
@@ -178,8 +115,8 @@ class Watch:
         spent, charge = self._attempt.spent, self._attempt.charge_percent()
         speed, found = _SPEED * self._attempt.robot.speed_m_s, [self._attempt.next_reading_in()]
         pace: dict[Crossable, float] = {
-            "charge_percent": self.fastest,
-            "energy_percent": self.fastest,
+            "charge_percent": self._fastest,
+            "energy_percent": self._fastest,
             "distance_m": speed,
             "duration_s": 1.0,
         }
@@ -201,7 +138,7 @@ class Watch:
         None where it cannot: then it drives on until the battery is at its stop level. The alarm is over either way.
         """
         self.alarm = "none"
-        attempt, at = self._attempt, self._attempt.driver.position()
+        attempt, at = self._attempt, self._attempt.seen.position
         try:
             way = attempt.drives.between(point_at(attempt.site, (at.x, at.y), "on the way"), home)
         except DriveFault:
@@ -225,7 +162,7 @@ class Watch:
 
     # --- crossings -----------------------------------------------------------------------------------------------
 
-    def _follows(self, level: _Level) -> Then:
+    def _follows(self, level: Level) -> Consequence:
         """Return what is done about a crossing, in this phase."""
         if self.phase == "over" or (self.phase == "exit" and level.then == "return"):
             return "go_on"
@@ -239,7 +176,7 @@ class Watch:
             return "stay"
         return self._attempt.exit_for("low_budget")
 
-    def _clear(self, level: _Level, value: float) -> None:
+    def _clear(self, level: Level, value: float) -> None:
         if value >= level.threshold + CLEAR_PERCENT and not level.is_crossed(value):
             self._crossed.discard(level)
             self._say(level.quantity, level.level, value, level.threshold, "go_on", cleared=True)
@@ -250,11 +187,11 @@ class Watch:
         level: Crossing,
         value: float,
         threshold: float,
-        then: Then,
+        then: Consequence,
         *,
         cleared: bool = False,
     ) -> None:
-        attempt, at = self._attempt, self._attempt.driver.position()
+        attempt, at = self._attempt, self._attempt.seen.position
         event = LimitCrossed(
             t=attempt.t,
             node="" if attempt.doing is None else attempt.doing.node,
@@ -322,7 +259,7 @@ class Watch:
             returning = self.phase == "exit"
             ways = (0.0, 0.0) if returning else (self._home_m(begins), self._home_m(end))
             self._homes = attempt.driven, *ways
-        path, at = LineString(attempt.driven), attempt.driver.position()
+        path, at = LineString(attempt.driven), attempt.seen.position
         done = path.project(Point(at.x, at.y))
         on_m = max(0.0, path.length - done)
         _, from_start, from_end = self._homes
@@ -341,7 +278,7 @@ class Watch:
         if not isinstance(doing, OpenCapture):
             return Work()
         action = self._attempt.robot.action[doing.action]
-        left = max(0.0, 1.0 - self._attempt.driver.poll().seconds / action.duration_s)
+        left = max(0.0, 1.0 - self._attempt.controller.poll().seconds / action.duration_s)
         return Work(seconds=left * action.duration_s, joules=left * action.energy_j)
 
 
@@ -349,10 +286,3 @@ def point_at(site: Site, xy: tuple[float, float], name: str) -> Place:
     """Return a point of the site as a place at which the robot stands."""
     ((lat, lon),) = site.projection.degrees([xy])
     return Place(kind="point", id=name, x=xy[0], y=xy[1], lat=float(lat), lon=float(lon), stand=xy)
-
-
-def _fastest_percent_per_s(attempt: Attempt) -> float:
-    """Percent of the battery that the robot takes in a second by its model, doing all that it can at once."""
-    robot = attempt.robot
-    action = max((a.energy_j / a.duration_s for a in robot.actions), default=0.0)
-    return robot.percent(robot.speed_m_s, 1.0, action)

@@ -186,8 +186,8 @@ def begin(under: Path, name: str, inputs: Inputs) -> Mission:
     Raises:
         JournalError: There is a mission of that name, or the folder cannot be written.
     """
-    from fieldhand.execution.journal.desk import Desk
     from fieldhand.execution.journal.store import create
+    from fieldhand.execution.orders import OrderFile
     from fieldhand.execution.world import World
 
     folder, world = under / name, inputs.world or World()
@@ -222,7 +222,7 @@ def begin(under: Path, name: str, inputs: Inputs) -> Mission:
         for file, data in files.items():
             write_stored(folder / file, data, mode=0o644)
         create(folder / JOURNAL, _sha256(whole))
-        Desk(folder / ORDERS).create()
+        OrderFile(folder / ORDERS).create()
         store_names(folder / "site")
         write_whole(folder / ABOUT, whole, mode=0o644)
         store_names(under)

@@ -29,8 +29,8 @@ from fieldhand.task.results import Event
 if TYPE_CHECKING:
     from fieldhand.evaluation.standing import Standing
     from fieldhand.execution.guard import Guard
-    from fieldhand.execution.journal.desk import Said
-    from fieldhand.execution.runtime import Result
+    from fieldhand.execution.mission_runner import Result
+    from fieldhand.execution.orders import OrderWord
     from fieldhand.execution.vehicle import Vehicle
 
 
@@ -76,8 +76,8 @@ def carry_out(
         JournalError: Another process carries it out; its journal is damaged, of another mission or does not fit; the
             disk is full.
     """
-    from fieldhand.execution.journal.desk import Desk
     from fieldhand.execution.journal.store import Journal
+    from fieldhand.execution.orders import OrderFile
     from fieldhand.execution.vehicle import simulation
 
     require_vehicle(given.id, given.departure, simulated=vehicle is None or vehicle.simulated)
@@ -95,7 +95,7 @@ def carry_out(
     folder = given.folder
     with (
         Journal(folder / JOURNAL, given.sha256, folder / LOG, tell) as journal,
-        closing(Desk(folder / ORDERS)) as desk,
+        closing(OrderFile(folder / ORDERS)) as order_file,
     ):
         return mission.carry_out(
             given.authorized,
@@ -106,8 +106,8 @@ def carry_out(
             emit=emit,
             interrupted=interrupted,
             watched=watched,
-            orders=latest(given.told, desk.standing),
-            tape=journal,
+            orders=latest(given.told, order_file.current),
+            log=journal,
         )
 
 
@@ -145,9 +145,9 @@ def status(folder: Path) -> Status:
         JournalError: This is no mission, or its journal cannot be read.
     """
     from fieldhand.evaluation.standing import standing
-    from fieldhand.execution.journal.desk import Desk
-    from fieldhand.execution.journal.records import sight_of
+    from fieldhand.execution.journal.records import observation_of
     from fieldhand.execution.journal.store import heard
+    from fieldhand.execution.orders import OrderFile
     from fieldhand.robot.loader import parse_profile
     from fieldhand.task.codec import decode
 
@@ -159,7 +159,7 @@ def status(folder: Path) -> Status:
     robot = parse_profile(read_kept(folder, "robot.yaml", about["files"]["robot.yaml"]), source=f"{folder}/robot.yaml")
     now = standing(task, robot, events, running=running)
     if sight is not None and now.state != "ended":
-        seen = sight_of(sight)
+        seen = observation_of(sight)
         now = replace(
             now,
             lat=seen.position.lat,
@@ -167,7 +167,7 @@ def status(folder: Path) -> Status:
             seconds=max(now.seconds, seen.t),
             charge_percent=seen.charge_percent,
         )
-    waiting, said = Desk(folder / ORDERS).last()
+    waiting, said = OrderFile(folder / ORDERS).last()
     return Status(
         mission=folder.name,
         request=task.command.request,
@@ -184,11 +184,11 @@ def stands(folder: Path) -> bool:
     Raises:
         JournalError: This is no mission, or its journal cannot be read.
     """
-    from fieldhand.execution.journal.records import sight_of
+    from fieldhand.execution.journal.records import observation_of
     from fieldhand.execution.journal.store import heard
 
     sight = heard(folder / JOURNAL)[2]
-    return sight is None or sight_of(sight).progress.over
+    return sight is None or observation_of(sight).progress.over
 
 
 def events_of(folder: Path) -> tuple[Event, ...]:
@@ -215,7 +215,7 @@ def lines_after(folder: Path, after: int, most: int) -> tuple[tuple[int, str, st
 
 
 def order(
-    folder: Path, said: Said, reason: str, *, wait: Callable[[], bool] = lambda: False
+    folder: Path, said: OrderWord, reason: str, *, wait: Callable[[], bool] = lambda: False
 ) -> bool:  # fmt: skip
     """Tell a mission something: to pause, to continue, to come home (``return``) or to stop here (``abort``).
 
@@ -230,13 +230,13 @@ def order(
         ExecutionError: It has ended, or was told to stop before.
         JournalError: This is no mission.
     """
-    from fieldhand.execution.journal.desk import Desk
     from fieldhand.execution.journal.store import heard
+    from fieldhand.execution.orders import OrderFile
     from fieldhand.task.results import Ended
 
     if any(isinstance(event, Ended) for event in events_of(folder)):
         raise ExecutionError(message("the mission has ended"), where=folder.name)
-    number = Desk(folder / ORDERS).say(said, reason)
+    number = OrderFile(folder / ORDERS).give(said, reason)
     while is_locked(folder):
         if heard(folder / JOURNAL)[0] >= number:
             return True
@@ -251,9 +251,9 @@ def last_order(folder: Path) -> str:
     Raises:
         JournalError: This is no mission.
     """
-    from fieldhand.execution.journal.desk import Desk
+    from fieldhand.execution.orders import OrderFile
 
-    return Desk(folder / ORDERS).last()[1]
+    return OrderFile(folder / ORDERS).last()[1]
 
 
 def is_running(folder: Path) -> bool:

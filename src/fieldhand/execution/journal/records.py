@@ -1,4 +1,4 @@
-"""Records of the tape: each an answer that the robot, the guard or a person gave, as JSON."""
+"""Records of a mission's inputs: answers that the robot, the guard or a person gave, as JSON."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from fieldhand.execution.orders import Order
 from fieldhand.forecast.state import Choice, Verdict
 from fieldhand.forecast.underway import Foresight
 
-#: ``sight``: what was seen at one instant. ``begun``: a goal is about to begin. ``cancel``: its end is asked for.
+#: ``sight``: an observation. ``begun``: a goal is about to begin. ``cancel``: its end is asked for.
 #: ``admit``, ``choose``: an answer of the guard. ``cut``: here the power was cut. ``interrupt``: Ctrl-C a second time.
 #: ``foresee``: the lookout's alarm; an answer without one is not kept.
 Kind = Literal["sight", "begun", "cancel", "admit", "choose", "foresee", "cut", "interrupt"]
@@ -29,19 +29,19 @@ class Record:
     body: str
 
 
-class Tape(Protocol):
-    """Where answers and events are kept, in their order."""
+class InputLog(Protocol):
+    """A log of inputs and events, in their order."""
 
     def next(self) -> Record | None:
-        """The next answer that was recorded before; None once they are used up."""
+        """Return the next answer recorded before, or None once they are used up."""
         ...
 
     def append(self, record: Record) -> None:
-        """Keep an answer; it is safe after :meth:`commit`."""
+        """Append an answer; it is on the disk after :meth:`commit`."""
         ...
 
     def event(self, line: str) -> None:
-        """Keep an event. One that was kept before has to be the same.
+        """Append an event. One that was logged before has to be the same.
 
         Raises:
             JournalError: It is another.
@@ -49,7 +49,7 @@ class Tape(Protocol):
         ...
 
     def commit(self, *, order: int = 0) -> None:
-        """Bring all that was kept to the disk, and wait until it is there.
+        """Write what was appended to the disk, and wait until it is there.
 
         Args:
             order: Number of the last order that was heard.
@@ -60,14 +60,14 @@ class Tape(Protocol):
         ...
 
     @property
-    def unsaid(self) -> bool:
-        """Whether there are events that nobody was told yet."""
+    def has_new_events(self) -> bool:
+        """True if there are events that wait for a commit."""
         ...
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sight:
-    """What the mission knows of robot, time and orders at one instant.
+class Observation:
+    """Robot, time and orders as observed at one instant.
 
     Attributes:
         lost: Why the robot does not know where it is; None while it does.
@@ -86,7 +86,7 @@ class Sight:
     wall: float | None = None
 
     def record(self) -> Record:
-        """As it is kept."""
+        """Return the record of the observation."""
         p, g, o = self.position, self.progress, self.order
         body = {
             "t": self.t,
@@ -102,18 +102,18 @@ class Sight:
         return Record(kind="sight", body=json.dumps(body))
 
 
-def sight_of(record: Record) -> Sight:
-    """A sight from its record.
+def observation_of(record: Record) -> Observation:
+    """Return the observation of a record.
 
     Raises:
-        JournalError: It is none.
+        JournalError: The record is not valid.
     """
     try:
         body = json.loads(record.body)
         x, y, lat, lon = body["at"]
         state, metres, seconds, readings, what, fault = body["goal"]
         order = body["order"]
-        return Sight(
+        return Observation(
             t=float(body["t"]),
             position=Position(x=x, y=y, lat=lat, lon=lon),
             charge_percent=float(body["charge"]),
@@ -129,7 +129,7 @@ def sight_of(record: Record) -> Sight:
 
 
 def goal_record(goal: DriveGoal | ActionGoal) -> Record:
-    """What is begun, in so many words as tell it from any other goal."""
+    """Return the record of a goal that begins, with what distinguishes it from any other."""
     place = [goal.place.kind, goal.place.id]
     if isinstance(goal, DriveGoal):
         body: dict[str, Any] = {"drive": place, "from": goal.path_m[0], "to": goal.path_m[-1], "m": goal.length_m}
@@ -139,7 +139,7 @@ def goal_record(goal: DriveGoal | ActionGoal) -> Record:
 
 
 def answer_record(kind: Kind, node: str, answer: Verdict | Choice | FieldhandError) -> Record:
-    """An answer of the guard about a node, or the error that it gave instead."""
+    """Return the record of the guard's answer about a node, or of the error that it raised."""
     said: dict[str, Any]
     if isinstance(answer, FieldhandError):
         said = {"error": [type(answer).__name__, answer.what, answer.where, answer.advice]}
@@ -149,10 +149,10 @@ def answer_record(kind: Kind, node: str, answer: Verdict | Choice | FieldhandErr
 
 
 def verdict_of(record: Record, node: str) -> Verdict:
-    """The verdict of a record about this node; the error that was given instead is raised.
+    """Return the verdict of a record about a node, or raise the recorded error.
 
     Raises:
-        JournalError: It is none, or about another node.
+        JournalError: The record is not valid, or about another node.
     """
     answer = _answer(record, node)
     try:
@@ -162,7 +162,7 @@ def verdict_of(record: Record, node: str) -> Verdict:
 
 
 def choice_of(record: Record, node: str) -> Choice:
-    """The choice of a record about this node; as :func:`verdict_of`."""
+    """Return the choice of a record about a node; as :func:`verdict_of`."""
     answer = _answer(record, node)
     try:
         return Choice(**{**answer, "shed": tuple(answer["shed"])})
@@ -171,15 +171,15 @@ def choice_of(record: Record, node: str) -> Choice:
 
 
 def foresight_record(said: Foresight) -> Record:
-    """An alarm of the lookout."""
+    """Return the record of an alarm of the lookout."""
     return Record(kind="foresee", body=json.dumps(dataclasses.asdict(said)))
 
 
-def foresight_of(record: Record) -> Foresight:
-    """The alarm of a record.
+def foreobservation_of(record: Record) -> Foresight:
+    """Return the alarm of a record.
 
     Raises:
-        JournalError: It is none.
+        JournalError: The record is not valid.
     """
     try:
         return Foresight(**json.loads(record.body))
@@ -210,14 +210,14 @@ def _error(said: Sequence[str]) -> FieldhandError:
 
 
 def garbled(why: object) -> JournalError:
-    """A record that this program did not write."""
+    """Return the error for a record that this program did not write."""
     return JournalError(
         f"the journal holds something that no mission wrote ({why})", advice="carry the Task out as a new mission"
     )
 
 
 def diverged(why: str) -> JournalError:
-    """The mission does not go as it went."""
+    """Return the error for a mission that does not go as recorded."""
     return JournalError(
         f"the mission does not go as the journal says: {why}",
         advice="resume it with the version of Fieldhand that began it, or carry the Task out as a new mission",

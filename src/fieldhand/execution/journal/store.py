@@ -72,7 +72,7 @@ def create(path: Path, mission: str) -> None:
 
 
 class Journal:
-    """A :class:`~fieldhand.execution.journal.records.Tape` on the disk, open for writing.
+    """An :class:`~fieldhand.execution.journal.records.InputLog` on the disk, open for writing.
 
     The folder is locked as long as it is open. Each opening has a number of its own, its epoch, and each commit checks
     in the same transaction that no later opening has written another one: where the lock did not keep two writers
@@ -128,7 +128,7 @@ class Journal:
             raise diverged(f"event {self._said} was {self.before[self._said - 1]}, now it would be {line}")
 
     @property
-    def unsaid(self) -> bool:
+    def has_new_events(self) -> bool:
         return bool(self._events)
 
     def commit(self, *, order: int = 0) -> None:

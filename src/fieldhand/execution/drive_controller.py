@@ -1,7 +1,7 @@
-"""Goals that outlast a pause and a power cut: between the mission, which knows of neither, and the driver.
+"""Goals that outlast a pause and a power cut.
 
-A drive that was cut short is gone on with from where the robot then stands. A capture is never cut short by a pause:
-the robot waits when it is made. One that the power cut off is in doubt, and what the profile says is done.
+A drive that was cut short is resumed from where the robot then stands. A capture is never cut short by a pause: the
+robot waits once it is made. One that a power cut ended is in doubt, and the profile says what is done about it.
 """
 
 from __future__ import annotations
@@ -11,42 +11,43 @@ import math
 from collections.abc import Callable
 
 from fieldhand.errors import FieldhandError, OutputError
-from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, Position, Progress
+from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Progress
+from fieldhand.execution.recorded_inputs import RecordedInputs
 from fieldhand.robot.model import InDoubtPolicy, RobotProfile
-from fieldhand.site.drives import Drives
+from fieldhand.site.drives import Drive, Drives
 from fieldhand.site.model import Place, Site
 
 #: Metres within which the robot is where it was.
 AT_M = 0.5
 
 
-class Helm:
-    """A :class:`~fieldhand.execution.drivers.protocol.Driver` on top of another.
+class DriveController:
+    """Carries out one goal of a mission at a time, in as many goals of the driver as it takes.
 
     Args:
-        driver: Who moves the robot.
+        inputs: Starts goals of the driver and observes the robot.
         site, robot: Of the mission.
-        ways: Gives the ways that are left now.
-        set_out: Told of each drive that begins in place of one that was cut short.
-        doubt: Told of each capture that is in doubt, and what is done about it.
+        ways: Returns the ways that are open now.
+        on_restart: Called before a drive begins in place of one that was cut short.
+        on_doubt: Called with each capture in doubt, what is done about it, and its progress.
 
     Attributes:
-        held: Nothing new begins, and no wheel turns.
+        paused: True while nothing new begins and the robot stands still.
     """
 
     def __init__(
         self,
-        driver: Driver,
+        inputs: RecordedInputs,
         site: Site,
         robot: RobotProfile,
         *,
         ways: Callable[[], Drives],
-        set_out: Callable[[DriveGoal], None],
-        doubt: Callable[[ActionGoal, InDoubtPolicy, Progress], None],
+        on_restart: Callable[[DriveGoal], None],
+        on_doubt: Callable[[ActionGoal, InDoubtPolicy, Progress], None],
     ) -> None:
-        self.held = False
-        self._driver, self._site, self._robot, self._ways = driver, site, robot, ways
-        self._set_out, self._doubt = set_out, doubt
+        self.paused = False
+        self._inputs, self._site, self._robot, self._ways = inputs, site, robot, ways
+        self._on_restart, self._on_doubt = on_restart, on_doubt
         self._goal: DriveGoal | ActionGoal | None = None
         self._under_way = False
         self._approaching = False
@@ -56,46 +57,25 @@ class Helm:
         self._before = Progress(state="idle")
         self._result: Progress | None = None
 
-    # --- pause ---------------------------------------------------------------------------------------------------
-
-    def hold(self) -> None:
-        """Let the robot stand still as soon as it can: a drive is broken off, a capture is finished."""
-        self.held = True
-        if self._under_way and (self._approaching or isinstance(self._goal, DriveGoal)):
-            self._broken_off = True
-            self._driver.cancel()
-
-    def go_on(self) -> None:
-        """The pause is over."""
-        self.held = False
-
-    def at_rest(self) -> bool:
-        """Whether the robot stands still for as long as it is held."""
-        return self.held and (self.poll().over or not self._under_way)
-
-    # --- a driver ------------------------------------------------------------------------------------------------
-
-    @property
-    def seed(self) -> int | None:
-        return self._driver.seed
-
-    def start_drive(self, goal: DriveGoal) -> None:
-        self._take(goal)
-
-    def start_action(self, goal: ActionGoal) -> None:
-        self._take(goal)
+    def start(self, goal: DriveGoal | ActionGoal) -> None:
+        """Begin a goal, after the pause if the mission is paused."""
+        self._goal, self._result, self._before = goal, None, Progress(state="running")
+        self._under_way = self._cancelled = False
+        if not self.paused:
+            self._begin()
 
     def poll(self) -> Progress:
+        """Return the progress of the goal, all of its parts together; ``idle`` before the first."""
         while self._result is None and self._goal is not None:
             if not self._under_way:
                 if self._cancelled:
                     self._end(Progress(state="cancelled", what="cancelled"))
                     continue
-                if self.held:
+                if self.paused:
                     return dataclasses.replace(self._before, state="running")
                 self._begin()
                 continue
-            progress = self._driver.poll()
+            progress = self._inputs.seen.progress
             if not progress.over:
                 return self._sum(progress)
             self._under_way = False
@@ -103,32 +83,29 @@ class Helm:
         return self._result or Progress(state="idle")
 
     def cancel(self) -> None:
+        """Ask for the end of the goal; it is over when :meth:`poll` returns so."""
         self._cancelled = True
         if self._under_way:
-            self._driver.cancel()
+            self._inputs.cancel()
 
-    def next_event_in(self) -> float | None:
-        return self._driver.next_event_in()
+    # --- pause ---------------------------------------------------------------------------------------------------
 
-    def position(self) -> Position:
-        return self._driver.position()
+    def pause(self) -> None:
+        """Stop the robot as soon as possible: break a drive off, finish a capture."""
+        self.paused = True
+        if self._under_way and (self._approaching or isinstance(self._goal, DriveGoal)):
+            self._broken_off = True
+            self._inputs.cancel()
 
-    def charge_percent(self) -> float:
-        return self._driver.charge_percent()
+    def unpause(self) -> None:
+        """End the pause."""
+        self.paused = False
 
-    def stopped(self) -> str | None:
-        return self._driver.stopped()
-
-    def lost(self) -> str | None:
-        return self._driver.lost()
+    def at_rest(self) -> bool:
+        """Return True if the robot stands still until the pause ends."""
+        return self.paused and (self.poll().over or not self._under_way)
 
     # --- a goal --------------------------------------------------------------------------------------------------
-
-    def _take(self, goal: DriveGoal | ActionGoal) -> None:
-        self._goal, self._result, self._before = goal, None, Progress(state="running")
-        self._under_way = self._cancelled = False
-        if not self.held:
-            self._begin()
 
     def _begin(self) -> None:
         """Let the driver begin the goal, or what is left of it."""
@@ -143,7 +120,7 @@ class Helm:
                 if self._strayed:
                     self._drive(self._way_to(goal.place, self._robot.speed_m_s), goal)
                 else:
-                    self._driver.start_action(goal)
+                    self._inputs.start(goal)
         except OutputError:
             raise
         except FieldhandError as error:
@@ -153,20 +130,20 @@ class Helm:
 
     def _drive(self, way: DriveGoal, goal: DriveGoal | ActionGoal) -> None:
         if way is not goal:
-            self._set_out(way)
-        self._driver.start_drive(way)
+            self._on_restart(way)
+        self._inputs.start(way)
 
     def _conclude(self, goal: DriveGoal | ActionGoal, progress: Progress) -> None:
-        """What a goal of the driver that is over means for the one that the mission gave."""
-        no_more = self._cancelled or self._driver.stopped() is not None
+        """Conclude the mission's goal, or prepare its next part, after a goal of the driver is over."""
+        no_more = self._cancelled or self._inputs.seen.stopped is not None
         cut = progress.state == "cut_off"
         if isinstance(goal, ActionGoal) and not self._approaching:
             if not cut:
                 self._end(progress)
                 return
             then = "skip" if no_more else self._robot.action[goal.action].in_doubt
-            self._doubt(goal, then, progress)
-            # Whoever mended the robot may have moved it.
+            self._on_doubt(goal, then, progress)
+            # Whoever repaired the robot may have moved it.
             self._strayed = True
             if then == "skip":
                 self._end(progress)
@@ -184,7 +161,7 @@ class Helm:
         self._result = dataclasses.replace(self._sum(progress), state=progress.state)
 
     def _sum(self, progress: Progress) -> Progress:
-        """With what was done of the goal before it was cut short."""
+        """Add the parts of the goal that were cut short."""
         return dataclasses.replace(
             progress,
             state="running",
@@ -193,20 +170,24 @@ class Helm:
         )
 
     def _is_at(self, xy: tuple[float, float]) -> bool:
-        at = self._driver.position()
+        at = self._inputs.seen.position
         return math.dist((at.x, at.y), xy) <= AT_M
 
     def _way_to(self, place: Place, speed_m_s: float) -> DriveGoal:
-        """The drive from where the robot is.
+        """Return the drive to a place from where the robot is.
 
         Raises:
             DriveFault: There is no way.
         """
-        at = self._driver.position()
+        at = self._inputs.seen.position
         here = Place(kind="point", id="on the way", x=at.x, y=at.y, lat=at.lat, lon=at.lon, stand=(at.x, at.y))
-        drive = self._ways().between(here, place)
-        corners = tuple((float(x), float(y)) for x, y in drive.points)
-        degrees = tuple((float(lat), float(lon)) for lat, lon in self._site.projection.degrees(corners))
-        return DriveGoal(
-            place=drive.end, path_m=corners, path_degrees=degrees, length_m=drive.length_m, speed_m_s=speed_m_s
-        )
+        return drive_goal(self._site, self._ways().between(here, place), speed_m_s)
+
+
+def drive_goal(site: Site, drive: Drive, speed_m_s: float) -> DriveGoal:
+    """Return the goal of a drive."""
+    corners = tuple((float(x), float(y)) for x, y in drive.points)
+    degrees = tuple((float(lat), float(lon)) for lat, lon in site.projection.degrees(corners))
+    return DriveGoal(
+        place=drive.end, path_m=corners, path_degrees=degrees, length_m=drive.length_m, speed_m_s=speed_m_s
+    )

@@ -1,0 +1,73 @@
+"""Levels of the battery and limits of the budget at which something follows while a mission is under way."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from fieldhand.forecast.limits import reserve_percent
+from fieldhand.robot.model import RobotProfile
+from fieldhand.task.exceeded import is_exceeded
+from fieldhand.task.frames import Constraints
+from fieldhand.task.results import Crossable, Crossing
+
+#: A battery may empty so many times as fast as its model says.
+FASTEST = 16.0
+
+Consequence = Literal["go_on", "return", "end", "stop"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Level:
+    """A threshold, and what follows if it is crossed."""
+
+    quantity: Crossable
+    level: Crossing
+    threshold: float
+    then: Consequence
+
+    def is_crossed(self, value: float) -> bool:
+        """Return True if a value lies beyond the threshold."""
+        match self.level:
+            case "limit":
+                return is_exceeded(self.quantity, value, self.threshold) if self.quantity != "charge_percent" else False
+            case "reserve":
+                return is_exceeded("reserve", value, self.threshold)
+            case _:
+                return value <= self.threshold
+
+
+def levels_of(constraints: Constraints, robot: RobotProfile) -> tuple[Level, ...]:
+    """Return the levels of a Task on a robot."""
+    reserve = reserve_percent(constraints, robot)
+    battery = robot.energy.levels(reserve)
+    charges: tuple[tuple[Crossing, float, Consequence], ...] = (
+        ("warn", battery.warn, "go_on"),
+        ("return", battery.home, "return"),
+        ("reserve", reserve, "go_on"),
+        ("stop", battery.stop, "stop"),
+    )
+    return (
+        # At a level of 0 the battery is empty, and nothing is reported any more.
+        *(
+            Level(quantity="charge_percent", level=level, threshold=at, then=then)
+            for level, at, then in charges
+            if at > 0.0
+        ),
+        *(Level(quantity=b.kind, level="limit", threshold=b.limit, then="return") for b in constraints.budgets),
+    )
+
+
+def charge_levels(constraints: Constraints, robot: RobotProfile, full: float) -> tuple[float, ...]:
+    """Return the percents of charge at which something follows, of a mission that begins with ``full``."""
+    levels = levels_of(constraints, robot)
+    return (
+        *(level.threshold for level in levels if level.quantity == "charge_percent"),
+        *(full - level.threshold for level in levels if level.quantity == "energy_percent"),
+    )
+
+
+def fastest_drain(robot: RobotProfile) -> float:
+    """Return the percent of the battery that a robot loses in a second at most: :data:`FASTEST` times its model."""
+    action = max((a.energy_j / a.duration_s for a in robot.actions), default=0.0)
+    return FASTEST * robot.percent(robot.speed_m_s, 1.0, action)

@@ -1,0 +1,423 @@
+"""Carry out an approved Task: tick its behavior tree until the plan is over, take its exit, record the end."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from fieldhand.clock import Clock, WallClock
+from fieldhand.errors import DriveFault, FieldhandError, NotApprovedError, OutputError
+from fieldhand.execution.attempt import Attempt, Ending
+from fieldhand.execution.drivers.protocol import Driver
+from fieldhand.execution.goals import drive
+from fieldhand.execution.guard import Guard, Lookout, NoLookout
+from fieldhand.execution.interrupts import ctrl_c_as_request
+from fieldhand.execution.journal.records import InputLog
+from fieldhand.execution.mission_clock import MissionClock, StopTimeout
+from fieldhand.execution.orders import Order
+from fieldhand.execution.recorded_inputs import RecordedInputs
+from fieldhand.execution.watch import Watch
+from fieldhand.forecast.limits import reserve_percent
+from fieldhand.forecast.routes import drives_for
+from fieldhand.forecast.state import Spent, Verdict
+from fieldhand.language import joined, message, named
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Place, Site
+from fieldhand.site.stopping import stands_in
+from fieldhand.task.authorization import AuthorizedTask
+from fieldhand.task.exceeded import exceeded, final_status, reason_with
+from fieldhand.task.frames import Task, Then
+from fieldhand.task.results import Continued, Ended, Event, Exited, MissionStatus, Paused, Started
+from fieldhand.task.run import Steps
+
+if TYPE_CHECKING:
+    from fieldhand.execution.tree import MissionTree
+
+
+@dataclass(frozen=True, kw_only=True)
+class Result:
+    """The result of a mission: how it ended, and its events.
+
+    Attributes:
+        status: As in :class:`~fieldhand.task.results.Ended`.
+        reason: Why it did not complete, in words; empty if it did.
+        spent: Metres, seconds and percent of the battery, the way home included.
+        events: Every event, in order; the first is ``Started``, the last ``Ended``.
+    """
+
+    status: MissionStatus
+    reason: str
+    spent: Spent
+    events: tuple[Event, ...]
+
+
+def nobody() -> None:
+    """Give no order and no reason to stop."""
+
+
+def run(
+    authorized: AuthorizedTask,
+    *,
+    site: Site,
+    robot: RobotProfile,
+    driver: Driver,
+    guard: Guard,
+    clock: Clock,
+    emit: Callable[[Event], None],
+    interrupted: Callable[[], str | None] = nobody,
+    wall: WallClock | None = None,
+    orders: Callable[[], Order | None] = nobody,
+    lookout: Lookout | None = None,
+    log: InputLog | None = None,
+    simulated: bool = False,
+) -> Result:
+    """Carry out a mission, whatever comes: it always ends with one ``Ended`` event, the last.
+
+    Args:
+        authorized: The approved Task.
+        site, robot: Those that were approved.
+        driver: The robot, real or simulated, without a goal.
+        guard: Asked before every drive and every action; it has the last word on the budget.
+        clock: The mission's time, and the driver's.
+        emit: Takes each event as it happens. An exception of it ends the mission, and is raised here once the robot
+            stands still.
+        interrupted: Asked at every tick; a reason ends the mission as ``aborted``. So does Ctrl-C.
+        wall: The time of day, to be recorded.
+        orders: Asked at every tick what a person wants now.
+        lookout: Asked at every look whether what is left lasts for the way home; None for missions without limits.
+        log: Records inputs, so that the mission can be resumed after a power cut. If it holds some already, they are
+            replayed and the mission continues from there. It passes events on itself, instead of ``emit``.
+        simulated: True if the driver is a simulation. Resuming replays the mission to a new one.
+
+    Raises:
+        NotApprovedError: The site or the profile is not the one that was approved; nothing was done.
+        JournalError: The log cannot be written, or the mission does not go as it says.
+    """
+    _require_approved(authorized, site, robot)
+    with ctrl_c_as_request() as pressed:
+
+        def asked() -> Order | None:
+            reason = pressed() or interrupted()
+            return Order(wanted="end", reason=reason) if reason else orders()
+
+        inputs = RecordedInputs(
+            driver=driver,
+            guard=guard,
+            lookout=lookout or NoLookout(),
+            clock=clock if isinstance(clock, MissionClock) else MissionClock(clock),
+            emit=emit,
+            asked=asked,
+            wall=wall,
+            log=log,
+            simulated=simulated,
+        )
+        return MissionRunner(authorized.task, site, robot, inputs).run()
+
+
+def _require_approved(authorized: AuthorizedTask, site: Site, robot: RobotProfile) -> None:
+    approved = authorized.authorization
+    for kind, name, given, wanted in (
+        ("site", site.name, site.sha256, approved.site_sha256),
+        ("robot profile", robot.name, robot.sha256, approved.robot_sha256),
+    ):
+        if given != wanted:
+            raise NotApprovedError(
+                f"the {kind} {name} is not the one that was approved (SHA-256 {given[:12]}, approved {wanted[:12]})",
+                where=f"task {authorized.task.id}",
+                advice="approve the Task again",
+            )
+
+
+class MissionRunner:
+    """Carries out one mission.
+
+    Args:
+        task, site, robot: Of the mission.
+        inputs: Driver, guard, lookout, clock and orders.
+
+    Attributes:
+        attempt: The state of the mission.
+        watch: The watch over battery, distance and time.
+    """
+
+    def __init__(self, task: Task, site: Site, robot: RobotProfile, inputs: RecordedInputs) -> None:
+        self._inputs = inputs
+        self.attempt = Attempt(task=task, site=site, robot=robot, inputs=inputs, drives=drives_for(site, robot))
+        self.watch = Watch(self.attempt, inputs)
+
+    def run(self) -> Result:
+        """Carry the mission out, and bring the robot to rest whatever happens."""
+        try:
+            ending = self._attempt_plan()
+        except BaseException:
+            self._inputs.abandon()
+            raise
+        finally:
+            # Whatever happened, a bug of this program too: no wheel turns when nobody looks.
+            self._come_to_rest()
+        result = self._end(ending)
+        self._inputs.finish()
+        return result
+
+    def _come_to_rest(self) -> None:
+        """Stop the robot and wait until it stands still, without writing, which may be impossible now."""
+        self.attempt.stop_driver()
+        timeout = StopTimeout(self.attempt.clock)
+        while not self.attempt.controller.poll().over and not timeout.expired():
+            self._let_time_pass()
+
+    def _attempt_plan(self) -> Ending:
+        """Carry out the plan, then the exit that follows from how it went."""
+        try:
+            self._start()
+            return self._take_exit(self._settled(self._carry_out_plan()))
+        except KeyboardInterrupt:
+            self._inputs.interrupted()
+            ending = self._aborted(Order(wanted="abort", reason=message("stopped by the operator", context="log")))
+            try:
+                return self._settled(ending)
+            except KeyboardInterrupt:
+                return ending
+
+    def _start(self) -> None:
+        attempt, position = self.attempt, self.attempt.seen.position
+        attempt.emit(
+            Started(
+                t=attempt.t,
+                task=attempt.task.id,
+                robot=attempt.robot.name,
+                site=attempt.site.name,
+                lat=position.lat,
+                lon=position.lon,
+                charge_percent=attempt.charge_percent(),
+                seed=self._inputs.seed,
+                at=attempt.time_of_day.began_at,
+                reserve_percent=reserve_percent(attempt.task.constraints, attempt.robot),
+            )
+        )
+        self.watch.look()
+
+    # --- the plan ------------------------------------------------------------------------------------------------
+
+    def _carry_out_plan(self) -> Ending:
+        """Tick the tree until it is done, has failed, or was cut short.
+
+        Orders are read before anything new begins, and again before time passes.
+        """
+        from py_trees.common import Status
+
+        from fieldhand.execution.tree import compile_tree
+
+        tree = compile_tree(self.attempt)
+        try:
+            while True:
+                order = self._order() or self._stopped()
+                if order:
+                    return self._aborted(order)
+                if self.watch.alarm != "none":
+                    return self._alarmed(tree)
+                tree.tick_once()
+                if (ending := self._over(tree)) is not None:
+                    return ending
+                order = self._order()
+                if order:
+                    return self._aborted(order)
+                self._let_time_pass()
+        finally:
+            tree.stop(Status.INVALID)
+
+    def _over(self, tree: MissionTree) -> Ending | None:
+        """Return the end of the plan, or None while it continues."""
+        from py_trees.common import Status
+
+        attempt = self.attempt
+        if attempt.ending is not None:
+            return attempt.ending
+        stopped = self._stopped()
+        if stopped and tree.status == Status.FAILURE:
+            return self._aborted(stopped)
+        if tree.status == Status.SUCCESS:
+            return Ending(status="completed", exit="nominal", then=attempt.task.composition.nominal)
+        if tree.status == Status.FAILURE:
+            then = attempt.exit_for(attempt.fault)
+            return Ending(status="faulted", exit="faulted", then=then, reason=attempt.what)
+        return None
+
+    def _alarmed(self, tree: MissionTree) -> Ending:
+        """Stop the robot for good, or give up the rest of the plan and turn home, as the alarm requires.
+
+        A goal that is over by now is done: the plan proceeds to what it would begin next, and gives that up.
+        """
+        attempt, why = self.attempt, self.watch.why
+        if self.watch.alarm == "stop":
+            return self._settled(self._stranded(why))
+        attempt.halted = True
+        result = attempt.controller.poll()
+        if attempt.busy and not result.over:
+            broken_off = self._settled(Ending(status="returned", exit="faulted", then="stay", reason=why))
+            if not attempt.controller.poll().over:
+                return broken_off
+            result = attempt.controller.poll()
+        while result.state in ("idle", "succeeded"):
+            tree.tick_once()
+            if (ending := self._over(tree)) is not None:
+                return ending
+            if not tree.between:
+                break
+        attempt.halted = False
+        tree.give_up(Verdict(go=False, reason=why))
+        return Ending(status="returned", exit="faulted", then=self.watch.exit, reason=why)
+
+    def _stranded(self, why: str) -> Ending:
+        """Return the ending of a mission whose robot cannot come home and stays where it stands."""
+        attempt, at = self.attempt, self.attempt.seen.position
+        home = attempt.site.home(attempt.exit_for("low_budget"), attempt.standing)
+        away = math.dist((at.x, at.y), home.stand or home.xy)
+        stands = message(
+            "it stands in {where}, {metres} m from {place}",
+            context="log",
+            where=stands_in(attempt.drives, (at.x, at.y)),
+            metres=f"{away:.0f}",
+            place=message("the {role}", context="log", role=named(home.id, "role")),
+        )
+        return Ending(status="faulted", exit="faulted", then="stay", reason=joined("; ", (why, stands)))
+
+    # --- the exit ------------------------------------------------------------------------------------------------
+
+    def _take_exit(self, ending: Ending) -> Ending:
+        """Drive where the exit leads. A failure on the way ends the mission where the robot then is."""
+        attempt, watch = self.attempt, self.watch
+        watch.turn("exit")
+        attempt.emit(Exited(t=attempt.t, node=ending.node, exit=ending.exit, then=ending.then, reason=ending.reason))
+        home = attempt.site.home(ending.then, attempt.standing)
+        heard = self._order() if ending.status == "aborted" else None
+        way = drive(attempt, "", home) if ending.then != "stay" else None
+        short_of_home = ""
+        try:
+            while way is not None:
+                if not _advance(way):
+                    # The estimate was cautious: from a safe place the rest of the way may be in reach after all.
+                    way = drive(attempt, "", home) if short_of_home and watch.reaches(home) else None
+                    short_of_home = "" if way is not None else short_of_home
+                    continue
+                # An operator who aborted the mission and let it drive home must give a new order to stop that.
+                order = self._order()
+                if order is not None and (order == heard or order.wanted == "return"):
+                    order = None
+                order = self._stopped() or order
+                if order:
+                    return self._settled(self._aborted(Order(wanted="abort", reason=order.reason)))
+                if watch.alarm == "stop":
+                    return self._settled(self._stranded(watch.why))
+                if watch.alarm == "shelter" and (refuge := watch.refuge(home)) is not None:
+                    short_of_home, way = watch.why, self._redirect(refuge)
+                self._let_time_pass()
+        except OutputError:
+            raise
+        except FieldhandError as error:
+            attempt.fail("", error, handled=False)
+            then = message("then {what}", context="log", what=str(error))
+            reason = joined("; ", (ending.reason, then)) if ending.reason else str(error)
+            status: MissionStatus = "aborted" if ending.status == "aborted" else "faulted"
+            return Ending(status=status, exit="faulted", then="stay", reason=reason)
+        return self._stranded(short_of_home) if short_of_home else ending
+
+    def _redirect(self, place: Place) -> Steps:
+        """Break off the current drive and drive to another place."""
+        attempt = self.attempt
+        attempt.stop_driver()
+        while attempt.busy and not attempt.attend().over:
+            yield
+        yield from drive(attempt, "", place)
+
+    # --- orders --------------------------------------------------------------------------------------------------
+
+    def _order(self) -> Order | None:
+        """Return what a person wants now. A pause is waited for here until it is over or the robot is stopped."""
+        attempt, inputs, controller = self.attempt, self._inputs, self.attempt.controller
+        order = inputs.order()
+        attempt.note_power_cuts()
+        if order is None or order.wanted != "pause":
+            return order
+        attempt.emit(Paused(t=attempt.t, reason=order.reason))
+        controller.pause()
+        while order is not None and order.wanted == "pause" and inputs.seen.stopped is None:
+            if controller.at_rest():
+                inputs.wait(self.watch.has_news)
+            else:
+                inputs.advance(inputs.seen.next_in or 0.0)
+            self.watch.look()
+            order = inputs.order()
+            attempt.note_power_cuts()
+        controller.unpause()
+        if order is None:
+            attempt.emit(Continued(t=attempt.t))
+        return None if order is None or order.wanted == "pause" else order
+
+    def _stopped(self) -> Order | None:
+        """Return the robot's own stop as an order."""
+        reason = self._inputs.seen.stopped
+        return Order(wanted="abort", reason=reason) if reason else None
+
+    def _aborted(self, order: Order) -> Ending:
+        """Return the ending that an order or the robot's own stop requires. A robot that cannot move any more stays."""
+        attempt = self.attempt
+        then: Then = "stay"
+        if attempt.seen.stopped is None and order.wanted == "end":
+            then = attempt.exit_for("aborted")
+        elif attempt.seen.stopped is None and order.wanted == "return":
+            home = attempt.exit_for("low_budget")
+            then = "return_to_start" if home == "stay" else home
+        return Ending(status="aborted", exit="faulted", then=then, reason=order.reason)
+
+    # --- time ----------------------------------------------------------------------------------------------------
+
+    def _settled(self, ending: Ending) -> Ending:
+        """Bring the robot to rest, and record the end of its goal: a capture that was made is kept."""
+        attempt = self.attempt
+        attempt.stop_driver()
+        timeout = StopTimeout(attempt.clock)
+        while attempt.busy and not attempt.attend().over:
+            if timeout.expired():
+                error = DriveFault(
+                    message("the robot does not stop when told to", context="log"),
+                    advice=message("use its emergency stop", context="log"),
+                )
+                attempt.fail("", error, handled=False)
+                return Ending(status="faulted", exit="faulted", then="stay", reason=str(error))
+            self._let_time_pass()
+        return ending
+
+    def _let_time_pass(self) -> None:
+        """Let time pass until the driver needs a look or a level could be crossed, then look."""
+        seconds = self.attempt.next_event_in()
+        self.attempt.clock.advance(0.0 if seconds is None else min(seconds, self.watch.next_look_in()))
+        self.watch.look()
+
+    def _end(self, ending: Ending) -> Result:
+        self.watch.turn("over")
+        self.watch.look()
+        attempt, position = self.attempt, self.attempt.seen.position
+        spent = attempt.spent
+        ended = Ended(
+            t=attempt.t,
+            status=ending.status,
+            lat=position.lat,
+            lon=position.lon,
+            travelled_m=attempt.travelled_m,
+            charge_percent=attempt.charge_percent(),
+            reason=ending.reason if ending.status != "completed" else "",
+        )
+        found = exceeded(attempt.task.constraints, [*attempt.events, ended])
+        status = final_status(ending.status, found)
+        if status != ending.status:
+            ended = replace(ended, status=status, reason=reason_with(found, ended.reason))
+        attempt.emit(ended)
+        return Result(status=ended.status, reason=ended.reason, spent=spent, events=tuple(attempt.events))
+
+
+def _advance(steps: Steps) -> bool:
+    """Take one step; return True if there are more."""
+    return next(steps, True) is None

@@ -1,0 +1,49 @@
+"""Goals of a mission that have begun and whose end is not recorded yet, and checks of what a capture yields."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from fieldhand.execution.drivers.protocol import DriveGoal, Progress
+from fieldhand.language import message
+from fieldhand.robot.model import Action, RobotProfile
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenDrive:
+    """A drive that the driver has begun and whose end is not recorded yet."""
+
+    node: str
+    goal: DriveGoal
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenCapture:
+    """A capture that the driver has begun and whose end is not recorded yet; ``number`` counts its attempts."""
+
+    node: str
+    action: str
+    number: int
+
+
+def joules_done(action: Action, progress: Progress) -> float:
+    """Return the energy that a capture has taken so far, by the profile."""
+    return action.energy_j * min(1.0, progress.seconds / action.duration_s)
+
+
+def unusable(robot: RobotProfile, name: str, value: float | None) -> str:
+    """Return why a reading cannot be believed, or nothing if it can."""
+    quantity = robot.quantity[name]
+    if value is None:
+        return message("the sensor gave no {quantity}", context="log", quantity=name)
+    if not math.isfinite(value) or not quantity.minimum <= value <= quantity.maximum:
+        return message(
+            "{quantity} {reading} is outside {low} to {high}: the sensor cannot be believed",
+            context="log",
+            quantity=name,
+            reading=f"{value:g} {quantity.unit}",
+            low=f"{quantity.minimum:g}",
+            high=f"{quantity.maximum:g}",
+        )
+    return ""
