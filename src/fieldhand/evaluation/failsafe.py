@@ -32,7 +32,7 @@ class Failsafe:
 
     Args:
         task, robot: The mission.
-        drain: How fast the battery empties; learns at each question.
+        drain: How fast the battery empties; learns at each call.
     """
 
     def __init__(self, task: Task, robot: RobotProfile, drain: Drain) -> None:
@@ -40,9 +40,13 @@ class Failsafe:
         reserve = reserve_percent(task.constraints, robot)
         self._stop_percent = robot.energy.levels(reserve).stop
 
-    def foresee(self, now: Underway) -> Foresight:
-        """Return whether the mission may go on as it does; the battery's drain is learned first."""
+    def learn(self, now: Underway) -> None:
+        """Learn how fast the battery empties."""
         self._drain.learn(now.spent)
+
+    def foresee(self, now: Underway) -> Foresight:
+        """Return whether the mission may continue as it does; the battery's drain is learned first."""
+        self.learn(now)
         return self._homeward(now, now.on_m) if now.returning else self._outward(now)
 
     def _outward(self, now: Underway) -> Foresight:

@@ -42,8 +42,12 @@ class Guard(Protocol):
 class Lookout(Protocol):
     """Foresees whether what is left lasts for the way home; asked at every look."""
 
+    def learn(self, now: Underway) -> None:
+        """Take note of what has been spent. A mission that is replayed only learns."""
+        ...
+
     def foresee(self, now: Underway) -> Foresight:
-        """Return whether the mission may go on as it does."""
+        """Return whether the mission may continue as it does, after learning."""
         ...
 
 
@@ -69,6 +73,9 @@ class NoGuard:
 
 class NoLookout:
     """A lookout for missions without limits: nothing is ever foreseen."""
+
+    def learn(self, now: Underway) -> None:
+        pass
 
     def foresee(self, now: Underway) -> Foresight:  # noqa: ARG002
         return Foresight()

@@ -145,7 +145,7 @@ class MissionRunner:
     def __init__(self, task: Task, site: Site, robot: RobotProfile, inputs: RecordedInputs) -> None:
         self._inputs = inputs
         self.attempt = Attempt(task=task, site=site, robot=robot, inputs=inputs, drives=drives_for(site, robot))
-        self.watch = Watch(self.attempt, inputs)
+        self.watch = Watch(self.attempt)
 
     def run(self) -> Result:
         """Carry the mission out, and bring the robot to rest whatever happens."""

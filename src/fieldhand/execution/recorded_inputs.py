@@ -33,7 +33,7 @@ from fieldhand.execution.journal.records import (
     answer_record,
     choice_of,
     diverged,
-    foreobservation_of,
+    foresight_of,
     foresight_record,
     goal_record,
     observation_of,
@@ -57,11 +57,10 @@ Answer = TypeVar("Answer", Verdict, Choice)
 
 
 class RecordedInputs:
-    """All inputs of one mission: a clock, a guard and a lookout that record and replay, and the robot as observed.
+    """All inputs of one mission: a clock and a guard that record and replay, and the robot as observed.
 
-    Implements :class:`~fieldhand.clock.Clock`, :class:`~fieldhand.execution.guard.Guard` and
-    :class:`~fieldhand.execution.guard.Lookout`. :class:`~fieldhand.execution.drive_controller.DriveController` starts
-    the goals.
+    Implements :class:`~fieldhand.clock.Clock` and :class:`~fieldhand.execution.guard.Guard`.
+    :class:`~fieldhand.execution.drive_controller.DriveController` starts the goals.
 
     Args:
         driver, guard, lookout: Asked where the log ends.
@@ -214,14 +213,12 @@ class RecordedInputs:
         self._guard.ways_are(drives)
 
     def foresee(self, now: Underway) -> Foresight:
-        """Return the lookout's answer, recorded or new. Only alarms are recorded: no record means no alarm.
-
-        In a replay it is asked again all the same, so that it learns the same.
-        """
-        live, answer = self._live, self._lookout.foresee(now)
-        if not live:
+        """Return the lookout's answer, recorded or new. Only alarms are recorded: no record means no alarm."""
+        if not self._live:
+            self._lookout.learn(now)
             record = self._recorded_if("foresee")
-            return Foresight() if record is None else foreobservation_of(record)
+            return Foresight() if record is None else foresight_of(record)
+        answer = self._lookout.foresee(now)
         if answer.alarm != "none":
             self._record(foresight_record(answer))
         return answer

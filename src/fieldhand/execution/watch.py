@@ -15,7 +15,6 @@ from shapely.geometry import LineString, Point
 
 from fieldhand.errors import DriveFault
 from fieldhand.execution.attempt import Attempt
-from fieldhand.execution.guard import Lookout
 from fieldhand.execution.levels import Consequence, Level, fastest_drain, levels_of
 from fieldhand.execution.open_goals import OpenCapture, OpenDrive
 from fieldhand.forecast.state import Spent, Work
@@ -49,7 +48,6 @@ class Watch:
 
     Args:
         attempt: The mission.
-        lookout: Asked whether the way home still lasts.
 
     Attributes:
         phase: What the mission is at.
@@ -58,8 +56,8 @@ class Watch:
         exit: Where the alarm to turn home sends the robot.
     """
 
-    def __init__(self, attempt: Attempt, lookout: Lookout) -> None:
-        self._attempt, self._lookout = attempt, lookout
+    def __init__(self, attempt: Attempt) -> None:
+        self._attempt = attempt
         self.phase: Phase = "plan"
         self.alarm: Alarm = "none"
         self.why = ""
@@ -236,7 +234,7 @@ class Watch:
     ) -> Foresight:
         """Ask the lookout; the ways are those of :meth:`_ways`."""
         on_m, after_m, home_m = ways
-        return self._lookout.foresee(
+        return self._attempt.inputs.foresee(
             Underway(
                 spent=spent,
                 charge_percent=charge,

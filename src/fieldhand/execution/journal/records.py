@@ -175,7 +175,7 @@ def foresight_record(said: Foresight) -> Record:
     return Record(kind="foresee", body=json.dumps(dataclasses.asdict(said)))
 
 
-def foreobservation_of(record: Record) -> Foresight:
+def foresight_of(record: Record) -> Foresight:
     """Return the alarm of a record.
 
     Raises:
