@@ -104,9 +104,10 @@ def test_places_of_the_extent_hold(farm, selector, place):
     assert [tree for tree in ids(selector, site) if not holds(place, tree)] == []
 
 
-def test_neighbours_and_far_trees_of_every_tree_hold(farm):
+def test_neighbours_and_far_trees_hold(farm):
+    """Of every tree; on a large farm of each so many, since the referee measures to all trees for each of them."""
     site, holds = farm
-    for tree in site.trees:
+    for tree in site.trees[:: max(1, len(site.trees) // 150)]:
         me, label = TreeIs(tree=tree.place.id), {"A": tree.index}
         assert all(holds({"near": "A"}, k, label) for k in ids(Nearest(to=me, count=6), site))
         assert holds({"far": "A"}, resolve_one(Farthest(origin=me), site, at_start(site)).id, label)
