@@ -122,9 +122,9 @@ class Scripted:
         return None
 
     def _fail(self, request: ask.Request) -> None:
-        catching = next((f.node for f in self.run.outwards() if f.catches), None)
-        if isinstance(catching, Try):
-            self.must_be_in = {node.id for node in walk(catching.otherwise)} | self._after(catching)
+        catching = next((f for f in self.run.outwards() if f.instead), None)
+        if catching is not None:
+            self.must_be_in = {node.id for node in walk(catching.instead[0])} | self._after(catching.node)
         raise Failed(request.node.id)
 
     def _give_up(self) -> None:

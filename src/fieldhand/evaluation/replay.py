@@ -1,18 +1,25 @@
 """Follow a plan along an event log: how many captures each action was to give on the branch that was taken.
 
-A robot does one thing after another, so the events of a node stand together; the plan says what must come, the log says
-which branch, how many places, what was given up. Where the two do not fit (a log of another program, a log that was cut
-off) the rest of a node counts as not reached and the replay goes on at the next node that the log names.
+The plan is carried out as it is on the robot (:mod:`fieldhand.task.run`), and the log answers what its nodes ask: which
+branch, how many places, what was given up. A robot does one thing after another, so the events of a node stand
+together. Where the log has no answer (it was cut off, or another program wrote it), what is left of the nodes in hand
+counts as not reached, up to the node behind which the log goes on.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from enum import Enum, auto
+import itertools
+from bisect import bisect_left
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import Any
 
 from fieldhand.evaluation.tally import Tallies, Tally
 from fieldhand.language import message
-from fieldhand.task import plan as p
+from fieldhand.task import requests as ask
+from fieldhand.task.nodes.base import Cut, Failed, GivenUp, Stopped
+from fieldhand.task.plan import Act, Node, walk
 from fieldhand.task.results import (
     Acted,
     Arrived,
@@ -30,27 +37,47 @@ from fieldhand.task.results import (
     Visiting,
     Waited,
 )
+from fieldhand.task.run import Frame, Outcome, Run, carry_out
 
 
-class _Flow(Enum):
-    """How a node came to its end."""
-
-    DONE = auto()
-    FAILED = auto()
-    CUT = auto()
-    STOPPED = auto()
-
-
-def replay(plan: p.Node, events: Sequence[Event]) -> dict[str, Tally]:
+def replay(plan: Node, events: Sequence[Event]) -> dict[str, Tally]:
     """The tally of every action of a plan, by the id of its node."""
     return _Replay(plan, events).run()
 
 
-class _Replay:
-    """The plan, the events that belong to it, and how far they are read."""
+@dataclass(kw_only=True)
+class _Visits:
+    """The visits of a for-each, as the log lists them; the one of an optional step.
 
-    def __init__(self, plan: p.Node, events: Sequence[Event]) -> None:
-        self._plan = plan
+    Attributes:
+        listed: The places.
+        most: How many of them may be visited.
+        begun: How many visits were begun, without those that were given up half-way.
+        shed: How many of the places were given up.
+        before: The tallies when the visit in hand began.
+    """
+
+    listed: frozenset[str] = frozenset()
+    most: int
+    begun: int = 0
+    shed: int = 0
+    before: Mapping[str, Tally] = field(default_factory=dict)
+
+    @property
+    def unmade(self) -> int:
+        """How many of them were not begun."""
+        return max(0, self.most - self.begun)
+
+    @property
+    def to_come(self) -> int:
+        """How many visits the log can still have."""
+        return min(self.most, len(self.listed) - self.shed) - self.begun
+
+
+class _Replay:
+    """The plan under way, the events that belong to it, and how far they are read."""
+
+    def __init__(self, plan: Node, events: Sequence[Event]) -> None:
         self._tallies = Tallies(plan)
         self._inside = self._tallies.inside
         own = self._inside[plan.id]
@@ -61,17 +88,16 @@ class _Replay:
         aside = (Obstructed, Waited, ClockSet, LimitCrossed)
         self._events = [e for e in events[: over + 1] if e.node in own and not isinstance(e, aside)]
         self._next = 0
+        self._of: dict[str, list[int]] = {}
+        for position, event in enumerate(self._events):
+            self._of.setdefault(event.node, []).append(position)
+        self._run = Run(plan)
+        self._run.entered, self._run.left = self._entered, self._left
 
     def run(self) -> dict[str, Tally]:
-        for event in self._events:
-            if isinstance(event, Acted) and event.node in self._tallies.of:
-                tally = self._tallies.of[event.node]
-                tally.reached = True
-                tally.done += event.count if event.status == "success" else 0
-            elif isinstance(event, InDoubt) and event.node in self._tallies.of:
-                self._tallies.of[event.node].reached = True
-                self._tallies.of[event.node].in_doubt += event.then == "skip"
-        self._play(self._plan)
+        self._tallies.count(self._events)
+        with suppress(Stopped):
+            carry_out(self._run.program(), self._answer)
         return self._tallies.of
 
     # --- the log -----------------------------------------------------------------------------------------------
@@ -79,171 +105,80 @@ class _Replay:
     def _peek(self) -> Event | None:
         return self._events[self._next] if self._next < len(self._events) else None
 
-    def _comes(self, nodes: Iterable[p.Node]) -> bool:
-        """Whether the next event belongs to one of these nodes."""
+    def _peek_own(self, node: Node) -> Event | None:
+        """The next event if it belongs to the node itself."""
+        event = self._peek()
+        return event if event is not None and event.node == node.id else None
+
+    def _shed(self, node: Node) -> bool:
+        """Read that places of the node itself were given up, if that comes next."""
+        event = self._skim(node)
+        if not isinstance(event, Shed) or event.node != node.id:
+            return False
+        self._next += 1
+        visits = self._run.frame.tour
+        if isinstance(visits, _Visits):
+            # Places that were closed when the loop began are shed, and not among those to visit.
+            visits.shed += len(visits.listed.intersection(event.places))
+        self._tallies.shed(node, event)
+        return True
+
+    def _comes(self, nodes: Iterable[Node]) -> bool:
+        """Whether the next event belongs to one of these nodes, or to one inside."""
         event = self._peek()
         return event is not None and any(event.node in self._inside[node.id] for node in nodes)
 
-    # --- nodes -------------------------------------------------------------------------------------------------
-
-    def _play(self, node: p.Node) -> _Flow:
-        match node:
-            case p.Sequence(steps=steps):
-                return self._sequence(steps)
-            case p.AnyOrder(steps=steps):
-                return self._any_order(steps)
-            case p.ForEach():
-                return self._for_each(node)
-            case p.Repeat():
-                return self._repeat(node)
-            case p.If():
-                return self._if(node)
-            case p.Try():
-                return self._try(node)
-            case p.Optional():
-                return self._optional(node)
-            case p.Act():
-                return self._act(node)
-            case p.GoTo():
-                return self._go_to(node)
-            case p.Stop():
-                self._next += self._comes([node])
-                return _Flow.STOPPED
-
-    def _sequence(self, steps: Sequence[p.Node]) -> _Flow:
-        for k, step in enumerate(steps):
-            flow, rest = self._play(step), steps[k + 1 :]
-            if flow is _Flow.DONE or (flow is _Flow.FAILED and self._comes(rest)):
-                continue
-            self._leave(rest, flow)
-            return flow
-        return _Flow.DONE
-
-    def _any_order(self, steps: Sequence[p.Node]) -> _Flow:
-        left = list(steps)
-        while left:
-            step = next((s for s in left if self._comes([s])), None)
-            if step is None:
-                # Nothing more of it in the log. A step without events of its own (a stop) is played at the end.
-                if all(self._silent(s) for s in left):
-                    return self._sequence(left)
-                self._leave(left, _Flow.CUT)
-                return _Flow.CUT if self._peek() is None else _Flow.DONE
-            left.remove(step)
-            flow = self._play(step)
-            if flow is not _Flow.DONE and not self._comes(left):
-                self._leave(left, flow)
-                return flow
-        return _Flow.DONE
-
-    def _for_each(self, node: p.ForEach) -> _Flow:
-        event = self._skim(node)
-        if not isinstance(event, Visiting):
-            return self._absent(node)
-        self._next += 1
-        listed, places, visits, shed = frozenset(event.places), len(event.places), 0, 0
-        most = places if node.at_most is None else min(places, node.at_most)
-        while True:
-            event = self._skim(node)
-            left = min(most, places - shed) - visits
-            if isinstance(event, Shed) and event.node == node.id:
-                # Places that were closed when the loop began are shed, and not among those to visit.
-                shed += len(listed.intersection(event.places))
-                self._shed(node, event)
-            elif isinstance(event, Decided) and event.node == node.id:
-                self._next += 1
-                if event.holds:
-                    return _Flow.DONE
-            elif left > 0 and self._comes([node.body]):
-                visits += 1
-                before = self._tallies.copies(node.body)
-                flow = self._play(node.body)
-                event = self._peek()
-                if self._sheds(node) and flow is _Flow.FAILED:
-                    # The visit itself was given up half-way: what it lacks is left out, not failed.
-                    visits -= 1
-                    self._tallies.forgive(before)
-                elif flow is not _Flow.DONE and not self._goes_on(node):
-                    self._unmade(node, most - visits, flow)
-                    return flow
-            else:
-                break
-        if not node.optional or left > 0:
-            self._unmade(node, most - visits, _Flow.CUT)
-        if left <= 0 or self._silent(node.body):
-            return _Flow.DONE
-        return _Flow.CUT if event is None else _Flow.FAILED
-
-    def _repeat(self, node: p.Repeat) -> _Flow:
-        for k in range(node.times):
-            flow, left = self._play(node.body), node.times - k - 1
-            event = self._peek()
-            if isinstance(event, Shed) and event.node == node.id:
-                self._shed(node, event)
-                self._leave([node.body], flow, left)
-                return _Flow.FAILED
-            if isinstance(event, Decided) and event.node == node.id:
-                self._next += 1
-                if event.holds:
-                    return _Flow.DONE
-            elif event is None and node.until is not None and flow is not _Flow.STOPPED:
-                # The log stops before the test: whether there was to be another round is not known.
-                if left:
-                    self._tallies.open(node.body)
-                return flow
-            elif flow is not _Flow.DONE and not self._comes([node]):
-                if left:
-                    self._leave([node.body], flow, left)
-                return flow
-        return _Flow.DONE
-
-    def _if(self, node: p.If) -> _Flow:
-        event = self._skim(node)
-        if not isinstance(event, Decided):
-            return self._absent(node)
-        self._next += 1
-        taken, other = (node.then, node.otherwise) if event.holds else (node.otherwise, node.then)
-        for tally in self._tallies.under(other) if other is not None else ():
-            tally.skipped.append(event.why)
-        return _Flow.DONE if taken is None else self._play(taken)
-
-    def _try(self, node: p.Try) -> _Flow:
-        flow = self._play(node.body)
-        if self._comes([node.otherwise]):
-            return self._play(node.otherwise)
-        for tally in self._tallies.under(node.otherwise):
-            if flow is _Flow.DONE or flow is _Flow.STOPPED:
-                tally.skipped.append(message("what it stands in for went well", context="log"))
-            else:
-                tally.open = tally.undecided = True
-        return flow
-
-    def _optional(self, node: p.Optional) -> _Flow:
-        self._skim(node)
-        if not self._comes([node]) and not self._silent(node.body):
-            return self._absent(node)
-        before, flow = self._tallies.copies(node.body), _Flow.FAILED
-        if not self._sheds(node):
-            flow = self._play(node.body)
-        event = self._peek()
-        # Behind work that was done whole it is the next time that was shed; a drive alone may have left no trace.
-        of_this = flow is not _Flow.DONE or isinstance(list(p.walk(node.body))[-1], p.GoTo)
-        if isinstance(event, Shed) and self._sheds(node) and of_this:
-            # Given up as a whole or half-way: what it lacks is left out, not failed.
+    def _skim(self, node: Node) -> Event | None:
+        """The next event, drives and faults of the node itself passed over."""
+        while isinstance(self._peek_own(node), Driving | Arrived | Faulted):
             self._next += 1
-            self._tallies.forgive(before)
-            self._tallies.spare(node, event)
-            return _Flow.DONE
-        return flow
+        return self._peek()
 
-    def _act(self, node: p.Act) -> _Flow:
+    def _when(self, node: Node) -> int:
+        """The position of the next event of a node or of one inside."""
+        some = [self._of[name] for name in self._inside[node.id] if name in self._of]
+        later = (positions[k] for positions in some if (k := bisect_left(positions, self._next)) < len(positions))
+        return min(later, default=len(self._events))
+
+    # --- answers -----------------------------------------------------------------------------------------------
+
+    def _answer(self, request: ask.Request) -> Any:
+        match request:
+            case ask.Capture(node=act):
+                self._capture(act)
+            case ask.Drive(node=node, tour=None) if node.act is None:
+                self._drive(node)
+            case ask.Decide(node=node):
+                return self._decide(node)
+            case ask.Begin(node=loop):
+                return self._begin(loop)
+            case ask.Next(node=loop, tour=tour):
+                return self._visit(loop, tour)
+            case ask.Round(node=repeat, left=left):
+                if self._shed(repeat):
+                    # All of its rounds are given up, whatever its test would have said.
+                    self._tallies.miss(repeat.body, left + 1)
+                    self._run.frame.left = ()
+                    raise self._lost()
+            case ask.Offer(node=step):
+                return self._offer(step)
+            case ask.Arrange(node=node):
+                return self._arrange(node)
+        return None
+
+    def _arrange(self, node: Node) -> tuple[int, ...]:
+        """The order of the log; steps without events come last, and of those such that need have none (a stop)."""
+        if not self._comes([node]) and not _is_silent(node):
+            raise self._absent(node)
+        keys = [(self._when(step), _is_silent(step)) for step in node.children]
+        return tuple(sorted(range(len(keys)), key=keys.__getitem__))
+
+    def _capture(self, node: Act) -> None:
         tally = self._tallies.of[node.id]
         tally.wanted += node.count
-        captures, unknown, failed_at, faulted = 0, 0, 0, False
+        captures, unknown, failed_at = 0, 0, 0
         while captures + unknown < node.count:
-            event = self._peek()
-            if event is None or event.node != node.id:
-                break
+            event = self._peek_own(node)
             # The same place again from the first attempt is the next visit; the last one failed for good.
             begun = captures + unknown > 0 or failed_at > 0
             if isinstance(event, Acted):
@@ -253,88 +188,153 @@ class _Replay:
                 captures, failed_at = (captures + event.count, 0) if good else (captures, event.attempt)
             elif isinstance(event, InDoubt):
                 unknown, failed_at = (unknown + 1, 0) if event.then == "skip" else (unknown, failed_at)
-            elif isinstance(event, Faulted):
-                faulted = faulted or not event.handled
             elif isinstance(event, Shed):
                 tally.given_up += max(1, len(event.places))
                 tally.reasons.append(event.reason)
-                faulted = True
-            elif begun:
+            elif event is None or (begun and not isinstance(event, Faulted)):
                 break
             self._next += 1
         tally.seen += captures
-        if captures + unknown >= node.count:
-            return _Flow.DONE
-        tally.failed += 1 if failed_at else 0
-        return _Flow.CUT if self._peek() is None and not (failed_at or faulted) else _Flow.FAILED
+        if captures + unknown < node.count:
+            tally.failed += failed_at > 0
+            raise self._lost()
 
-    def _go_to(self, node: p.GoTo) -> _Flow:
-        flow = _Flow.DONE
-        while (event := self._peek()) is not None and event.node == node.id:
-            if isinstance(event, Shed) or (isinstance(event, Faulted) and not event.handled):
-                flow = _Flow.FAILED
+    def _drive(self, node: Node) -> None:
+        """Read a drive of its own; one to where the robot is leaves no trace."""
+        step, failed = self._run.optional, False
+        while (event := self._peek_own(node)) is not None and not isinstance(event, Arrived):
+            failed = failed or isinstance(event, Shed | Faulted)
             self._next += 1
-            if isinstance(event, Arrived):
-                return _Flow.DONE
-        return flow
+        if event is not None:
+            self._next += 1
+        elif failed or (step is not None and step.node.is_optional_step and self._peek_own(step.node) is not None):
+            raise self._lost()
+
+    def _decide(self, node: Node) -> bool:
+        event = self._skim(node)
+        if isinstance(event, Decided) and event.node == node.id:
+            self._next += 1
+            if node.is_choice:
+                for tally in self._tallies.under(*(node.children[1:] if event.holds else node.children[:1])):
+                    tally.skipped.append(event.why)
+            return event.holds
+        if node.is_choice:
+            raise self._absent(node)
+        if event is None and self._run.frame.left:
+            raise self._lost()
+        return False
+
+    def _begin(self, node: Node) -> _Visits:
+        event = self._skim(node)
+        if not isinstance(event, Visiting):
+            raise self._absent(node)
+        self._next += 1
+        most = len(event.places) if node.at_most is None else min(len(event.places), node.at_most)
+        return _Visits(listed=frozenset(event.places), most=most)
+
+    def _visit(self, node: Node, visits: _Visits) -> bool | None:
+        """Begin the next visit, if the log has one."""
+        while self._shed(node):
+            pass
+        if visits.to_come > 0 and self._comes(node.children):
+            visits.begun += 1
+            visits.before = self._tallies.copies(node)
+            return True
+        if visits.to_come > 0 and not _is_silent(node):
+            raise self._lost()
+        if visits.to_come > 0 or not node.is_optional:
+            self._miss_visits(node, visits)
+        return None
+
+    def _offer(self, node: Node) -> bool:
+        self._skim(node)
+        if self._given_up(self._run.frame):
+            return False
+        if not self._comes([node]) and not _is_silent(node):
+            raise self._absent(node)
+        self._run.frame.tour = _Visits(most=1, begun=1, before=self._tallies.copies(node))
+        return True
 
     # --- what was not reached ----------------------------------------------------------------------------------
 
-    def _skim(self, node: p.Node) -> Event | None:
-        """The next event, drives and faults of the node itself passed over."""
-        while (event := self._peek()) is not None:
-            if event.node != node.id or not isinstance(event, Driving | Arrived | Faulted):
-                return event
-            self._next += 1
-        return None
-
-    def _sheds(self, node: p.Node) -> bool:
-        """Whether the log goes on with optional work of this very node that was given up."""
-        event = self._peek()
-        return isinstance(event, Shed) and event.node == node.id and event.optional
-
-    def _absent(self, node: p.Node) -> _Flow:
-        """The log never came to this node."""
-        event = self._peek()
-        if isinstance(event, Shed) and event.node == node.id:
-            self._shed(node, event)
-        flow = _Flow.CUT if self._peek() is None else _Flow.DONE
-        self._leave([node], _Flow.CUT)
-        return flow
-
-    def _goes_on(self, node: p.ForEach) -> bool:
-        """Whether the log has more of this very loop, so that a failed visit did not end it."""
-        event = self._peek()
-        return event is not None and event.node in self._inside[node.id] and not isinstance(event, Visiting)
-
-    def _unmade(self, node: p.ForEach, left: int, flow: _Flow) -> None:
-        """The visits that a loop still had before it when it ended."""
-        if left <= 0:
+    def _entered(self, node: Node) -> None:
+        if not node.ends_plan:
             return
-        if flow is _Flow.STOPPED:
-            self._leave([node.body], flow)
-        elif node.optional:
-            # An optional loop is whole when the mission ended in order: what it left out, the budget left out.
-            if not self._orderly:
-                self._tallies.open(node.body)
-        elif node.until is not None:
-            self._tallies.open(node.body)
+        self._next += self._comes([node])
+        for frame in self._run.frames:
+            self._went_well(frame)
+            left = frame.node.children if isinstance(frame.tour, _Visits) and frame.tour.unmade else frame.left
+            for tally in self._tallies.under(*left):
+                tally.stopped = True
+
+    def _left(self, _: Node, outcome: Outcome) -> None:
+        if outcome == "done" and self._run.frames:
+            self._went_well(self._run.frame)
+
+    def _went_well(self, frame: Frame) -> None:
+        for tally in self._tallies.under(*frame.instead):
+            tally.skipped.append(message("what it stands in for went well", context="log"))
+
+    def _absent(self, node: Node) -> Exception:
+        """Count a node to which the log never came, and give what to throw to go on behind it."""
+        self._shed(node)
+        self._tallies.miss(node, 1)
+        return self._lost()
+
+    def _lost(self) -> Exception:
+        """Count what is left of the nodes in hand up to where the log goes on, and give what to throw to do so."""
+        for inner, around in itertools.pairwise(self._run.outwards()):
+            self._miss(inner)
+            thrown = self._onward(around, inner.node)
+            if thrown is not None:
+                return thrown
+        root = self._run.frames[0]
+        self._miss(root)
+        return Cut(root.node.id)
+
+    def _onward(self, around: Frame, child: Node) -> Exception | None:
+        """What to throw where the log goes on behind a child of a node in hand; None where it does not."""
+        node, visits = around.node, around.tour
+        if isinstance(visits, _Visits) and self._given_up(around):
+            # What the visit or the step lacks is left out, not failed.
+            visits.begun -= 1
+            self._tallies.forgive(visits.before)
+            return GivenUp(node.id)
+        if around.instead:
+            return Failed(child.id) if self._comes(around.instead) else None
+        if node.visits_each:
+            return Cut(child.id) if self._comes([node]) and not isinstance(self._peek(), Visiting) else None
+        later = around.left if node.rounds is None else (node,)
+        return Cut(child.id) if self._comes(later) else None
+
+    def _given_up(self, frame: Frame) -> bool:
+        """Whether the log goes on with optional work of a node in hand that was given up; of a step that is read."""
+        node, event = frame.node, self._peek_own(frame.node)
+        if not isinstance(event, Shed) or not event.optional or not node.is_optional:
+            return False
+        if node.is_optional_step:
+            self._next += 1
+            self._tallies.spare(node, event)
+        return True
+
+    def _miss(self, frame: Frame) -> None:
+        """Count what a node in hand still had before it."""
+        if isinstance(frame.tour, _Visits):
+            self._miss_visits(frame.node, frame.tour)
+        for tally in self._tallies.under(*frame.instead):
+            tally.open = tally.undecided = True
+        for later in frame.left:
+            self._tallies.miss(later, 1)
+
+    def _miss_visits(self, node: Node, visits: _Visits) -> None:
+        if not visits.unmade or (node.is_optional and self._orderly):
+            return  # an optional loop is whole when the mission ended in order: the budget left out the rest
+        if node.is_optional or node.tested is not None:
+            self._tallies.open(node)
         else:
-            self._leave([node.body], flow, left)
+            self._tallies.miss(node.children[0], visits.unmade)
 
-    def _leave(self, nodes: Iterable[p.Node], flow: _Flow, times: int = 1) -> None:
-        """Nodes that the robot did not come to."""
-        for node in nodes:
-            if flow is _Flow.STOPPED:
-                for tally in self._tallies.under(node):
-                    tally.stopped = True
-            else:
-                self._tallies.miss(node, times)
 
-    def _shed(self, node: p.Node, event: Shed) -> None:
-        self._next += 1
-        self._tallies.shed(node, event)
-
-    def _silent(self, node: p.Node) -> bool:
-        """Whether a node holds nothing that must leave a trace in the log."""
-        return not any(isinstance(n, p.Act | p.If) for n in p.walk(node))
+def _is_silent(node: Node) -> bool:
+    """Return True if a node holds nothing that must leave a trace in the log."""
+    return not any(inner.act is not None or inner.is_choice for inner in walk(node))

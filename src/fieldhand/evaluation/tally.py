@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
 from fieldhand.task import plan as p
-from fieldhand.task.results import Shed
+from fieldhand.task.results import Acted, Event, InDoubt, Shed
 
 
 @dataclass(kw_only=True)
@@ -57,9 +57,18 @@ class Tallies:
         self.of = {act.id: Tally() for act in p.acts(plan)}
         self.inside = {node.id: frozenset(n.id for n in p.walk(node)) for node in p.walk(plan)}
 
-    def under(self, node: p.Node) -> list[Tally]:
-        """The tallies of a node's actions, in the order in which they stand."""
-        return [self.of[act.id] for act in p.acts(node)]
+    def count(self, events: Iterable[Event]) -> None:
+        """Add what was done, wherever the plan was then."""
+        for event in events:
+            tally = self.of.get(event.node)
+            if tally is not None and isinstance(event, Acted | InDoubt):
+                tally.reached = True
+                tally.done += event.count if isinstance(event, Acted) and event.status == "success" else 0
+                tally.in_doubt += isinstance(event, InDoubt) and event.then == "skip"
+
+    def under(self, *nodes: p.Node) -> list[Tally]:
+        """The tallies of the actions in some nodes, in the order in which they stand."""
+        return [self.of[act.id] for node in nodes for act in p.acts(node)]
 
     def copies(self, node: p.Node) -> Mapping[str, Tally]:
         """The tallies of a node's actions as they are now, for :meth:`forgive`."""

@@ -71,7 +71,7 @@ def give_up_unreachable(attempt: Attempt, why: str) -> str:
         Id of the optional node; empty where none is in hand, or a try/otherwise nearer than that catches the fault.
     """
     for frame in attempt.run.outwards():
-        if frame.catches:
+        if frame.instead:
             return ""
         if frame.node.is_optional:
             places = [] if frame.tour is None or frame.tour.place is None else [frame.tour.place]

@@ -6,7 +6,7 @@ from collections.abc import Callable, Generator, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
-from fieldhand.task.nodes.base import Failed, GivenUp, Meaning
+from fieldhand.task.nodes.base import Cut, Failed, GivenUp, Meaning
 
 if TYPE_CHECKING:
     from fieldhand.task.plan import Node
@@ -26,14 +26,14 @@ class Frame:
         left: Steps of it that come after the one in hand, in their order; of a repeat the rounds that are left.
         tour: The visits of a for-each.
         made: How many visits of it were made.
-        catches: A failure inside goes on here.
+        instead: What is done if the node inside fails; empty where the failure goes on outwards.
     """
 
     node: Node
     left: tuple[Node, ...] = ()
     tour: Tour | None = None
     made: int = 0
-    catches: bool = False
+    instead: tuple[Node, ...] = ()
 
 
 def _unheard(*_: object) -> None:
@@ -74,6 +74,9 @@ class Run:
         except Failed:
             outcome = "failed"
             raise
+        except Cut as cut:
+            if cut.node != node.id:
+                raise
         finally:
             del self.frames[depth - 1 :]
             self.left(node, outcome)
@@ -95,7 +98,7 @@ class Run:
     @property
     def is_caught(self) -> bool:
         """Whether a ``Try`` goes on if the node in hand fails."""
-        return any(frame.catches for frame in self.frames)
+        return any(frame.instead for frame in self.frames)
 
 
 def carry_out(program: Meaning, answer: Callable[[Request], Any]) -> None:
@@ -103,8 +106,8 @@ def carry_out(program: Meaning, answer: Callable[[Request], Any]) -> None:
 
     Args:
         program: The meaning of a node.
-        answer: Answers each request, or raises :class:`Failed` or :class:`GivenUp`, which is thrown into the program.
-            Whatever else it raises ends the program and comes out of here.
+        answer: Answers each request, or raises :class:`Failed`, :class:`GivenUp` or :class:`Cut`, which is thrown into
+            the program. Whatever else it raises ends the program and comes out of here.
 
     Raises:
         Failed: Nothing in the plan catches the failure.
@@ -115,7 +118,7 @@ def carry_out(program: Meaning, answer: Callable[[Request], Any]) -> None:
         while request is not None:
             try:
                 found = answer(request)
-            except (Failed, GivenUp) as thrown:
+            except (Failed, GivenUp, Cut) as thrown:
                 request = _thrown(program, thrown)
             else:
                 request = _sent(program, found)
@@ -135,7 +138,7 @@ def carry_out_in_steps(program: Meaning, perform: Callable[[Request], Generator[
         while request is not None:
             try:
                 found = yield from perform(request)
-            except (Failed, GivenUp) as thrown:
+            except (Failed, GivenUp, Cut) as thrown:
                 request = _thrown(program, thrown)
             else:
                 request = _sent(program, found)

@@ -6,6 +6,7 @@ out, is sent the answers, and returns when the node is done. What goes wrong is 
 * :class:`Failed`: an action, a drive or a place failed for good. The nearest ``Try`` around goes on with its otherwise;
   where there is none, the plan has failed.
 * :class:`GivenUp`: a visit of a for-each, or an optional step, is given up half-way. That node goes on behind it.
+* :class:`Cut`: a log does not tell what came of a node. What comes behind that node goes on.
 
 A ``Stop`` raises :class:`Stopped`, which nothing catches: the plan is over.
 """
@@ -45,6 +46,18 @@ class GivenUp(Exception):
 
     Args:
         node: Id of the for-each or the optional step.
+    """
+
+    def __init__(self, node: str) -> None:
+        self.node = node
+        super().__init__(node)
+
+
+class Cut(Exception):
+    """Nobody knows what is left of a node. Thrown into a meaning; that node is over, and what comes behind it goes on.
+
+    Args:
+        node: Id of the node.
     """
 
     def __init__(self, node: str) -> None:

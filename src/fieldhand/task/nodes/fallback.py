@@ -24,11 +24,11 @@ class Try(PlanNode):
 
     def meaning(self, run: Run) -> Meaning:
         frame = run.frame
-        frame.catches = True
+        frame.instead = (self.otherwise,)
         try:
             yield from run.do(self.body)
         except Failed:
-            frame.catches = False
+            frame.instead = ()
         else:
             return
         yield from run.do(self.otherwise)
