@@ -20,7 +20,7 @@ sys.path.insert(0, str(SOURCE.parent))
 from fieldhand.language.message import Message  # noqa: E402
 from fieldhand.language.po import Entry, read_entries  # noqa: E402
 from fieldhand.language.words import say_action, say_captures, say_name  # noqa: E402
-from fieldhand.places.attribute_words import say_attribute, say_with_article  # noqa: E402
+from fieldhand.places.filters.attribute_words import say_attribute, say_with_article  # noqa: E402
 from fieldhand.planning.english.languages import known_languages  # noqa: E402
 from fieldhand.planning.english.vocabulary import vocabulary  # noqa: E402
 from fieldhand.robot.loader import builtin_names, load_robot  # noqa: E402

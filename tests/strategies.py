@@ -14,7 +14,7 @@ from typing import Any, Literal, Union, get_args, get_origin
 
 from hypothesis import strategies as st
 
-from fieldhand.places.selectors import Selector
+from fieldhand.places.selectors import SELECTORS
 from fieldhand.task.build import make_task
 from fieldhand.task.capabilities import (
     ActionCapability,
@@ -82,7 +82,7 @@ class Parts:
 
     @cached_property
     def selectors(self) -> st.SearchStrategy[Any]:
-        return self.one_of(get_args(Selector), self.depth)
+        return self.one_of(SELECTORS, self.depth)
 
     @cached_property
     def conditions(self) -> st.SearchStrategy[Any]:

@@ -6,7 +6,8 @@ from dataclasses import replace
 
 from fieldhand.approval.checks import examine
 from fieldhand.approval.readback import read_back
-from fieldhand.places.selectors import AlongRow, Selector, Top, TreeIs
+from fieldhand.places.selector import Selector
+from fieldhand.places.selectors import AlongRow, Top, TreeIs
 from fieldhand.site.geojson import load_demo
 from fieldhand.site.model import Site
 from fieldhand.task.plan import Act, ForEach, Sequence

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from fieldhand.approval.clauses import say_act, say_condition
 from fieldhand.places import selectors as s
-from fieldhand.places.words import say_selector
+from fieldhand.places.saying import say_selector
 from fieldhand.task import conditions as c
 from fieldhand.task.plan import Act
 from fieldhand.terms import Side, Test
@@ -197,7 +197,7 @@ def test_selectors_are_said_as_people_say_them(selector, count, words):
 
 
 def test_every_kind_of_selector_has_an_example():
-    assert {type(selector) for selector, _, _ in SAID} == set(get_args(s.Selector))
+    assert {type(selector) for selector, _, _ in SAID} == set(s.SELECTORS)
 
 
 @settings(max_examples=150, deadline=None)
@@ -205,7 +205,7 @@ def test_every_kind_of_selector_has_an_example():
 def test_no_selector_shows_a_class_name(selector):
     said = say_selector(selector)
     assert said
-    names = "|".join(cls.__name__ for cls in get_args(s.Selector))
+    names = "|".join(cls.__name__ for cls in s.SELECTORS)
     assert not re.search(rf"\b(?:{names})\(", said)
 
 

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import itertools
-from typing import get_args
 
 import numpy as np
 import pytest
 import shapely
 
 from fieldhand.bench.site import benchmark_orchard, measure_site, samples
-from fieldhand.bench.site.samples import LABEL
 from fieldhand.errors import InputError
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
-from fieldhand.places.selectors import Selector, walk
+from fieldhand.places.selectors import SELECTORS
+from fieldhand.places.sources.bound import EXAMPLE_LABEL
 from fieldhand.site.geojson import parse_site
 
 
@@ -53,16 +52,16 @@ def test_too_few_trees_are_refused():
 
 def test_every_kind_of_selector_is_measured():
     site = parse_site(benchmark_orchard(200, 1), name="orchard")
-    measured = {type(part) for selector in samples(site).values() for part in walk(selector)}
-    assert measured == set(get_args(Selector))
-    assert {kind.__name__ for kind in get_args(Selector)} <= samples(site).keys()
+    measured = {type(part) for selector in samples(site).values() for part in selector.walk()}
+    assert measured == set(SELECTORS)
+    assert {kind.__name__ for kind in SELECTORS} <= samples(site).keys()
 
 
 @pytest.mark.parametrize("trees", [200, 3000])
 def test_every_measured_selector_finds_places(trees):
     site = parse_site(benchmark_orchard(trees, 1), name="orchard")
     here = site.trees[trees // 3].place
-    context = Context(here=here, visited=("1", "2"), bound={LABEL: (here,)})
+    context = Context(here=here, visited=("1", "2"), bound={EXAMPLE_LABEL: (here,)})
     for name, selector in samples(site).items():
         assert resolve(selector, site, context), name
 

@@ -29,7 +29,8 @@ from fieldhand.execution.world import (
     World,
 )
 from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
-from fieldhand.places.selectors import Half, Selector, TreeIs, Trees, Union
+from fieldhand.places.selector import Selector
+from fieldhand.places.selectors import Half, TreeIs, Trees, Union
 from fieldhand.task.conditions import Compare
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Constraints, FaultedExit

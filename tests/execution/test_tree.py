@@ -9,6 +9,7 @@ from py_trees.common import Status
 
 from fieldhand.execution.tree import compile_tree
 from fieldhand.execution.world import ActionFails, DriveFails, SensorSilent, Spot, Truth, World
+from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import (
     Bound,
     Excluding,
@@ -18,7 +19,6 @@ from fieldhand.places.selectors import (
     Marker,
     Nearest,
     Other,
-    Selector,
     Take,
     TreeIs,
     Union,

@@ -18,6 +18,7 @@ from shapely.ops import unary_union
 
 from examples import examples
 from fieldhand.execution.world import Blocked, Spot, World
+from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import (
     AlongRow,
     Corners,
@@ -28,7 +29,6 @@ from fieldhand.places.selectors import (
     Nearest,
     Other,
     Rows,
-    Selector,
     Spaced,
     Take,
     TreeIs,

@@ -13,6 +13,7 @@ from fieldhand.errors import PlaceError
 from fieldhand.places import selectors as s
 from fieldhand.places.context import Context
 from fieldhand.places.explanation import explain, notes
+from fieldhand.places.picks.ordered import Order
 from fieldhand.places.resolution import resolve
 from fieldhand.places.words import say_selector
 from fieldhand.terms import AnySide, CountedFrom, Side, Towards
@@ -82,7 +83,7 @@ def _around(inner: st.SearchStrategy[s.Selector]) -> st.SearchStrategy[s.Selecto
         st.builds(s.AlongRow, trees=counts, towards=st.sampled_from(get_args(Towards)), origin=inner),
         st.builds(s.Across, origin=inner, side=counted_from),
         st.builds(s.Successive, count=counts, near=inner, of=inner),
-        st.builds(s.Ordered, by=st.sampled_from(get_args(s.Order)), attribute=st.just("n"), of=inner),
+        st.builds(s.Ordered, by=st.sampled_from(get_args(Order)), attribute=st.just("n"), of=inner),
         st.builds(s.Nth, nth=st.integers(-3, 3), of=inner),
         st.builds(
             s.Spaced, apart_m=st.floats(1, 9), count=counts, zone=st.sampled_from(["", "z"]), near=inner, of=inner
@@ -128,7 +129,7 @@ def test_any_selector_gives_places_each_once_and_explains_the_same_or_says_why_n
     last = told.parts[-1]
     assert (last.selector, last.chosen) == (selector, len(found))
     assert last.ids == tuple(p.id for p in found)[: len(last.ids)]
-    assert {part.selector for part in told.parts} <= set(s.walk(selector))
+    assert {part.selector for part in told.parts} <= set(selector.walk())
     assert len(told.say()) == len(told.parts)
 
 

@@ -20,6 +20,7 @@ from hypothesis import strategies as st
 from fieldhand.errors import PlaceError
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve, resolve_one
+from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import (
     Adjacent,
     AmongExtreme,
@@ -42,7 +43,6 @@ from fieldhand.places.selectors import (
     Other,
     Quarter,
     Random,
-    Selector,
     Spaced,
     Spread,
     Successive,

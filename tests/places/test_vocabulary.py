@@ -17,6 +17,7 @@ from fieldhand.errors import PlaceError
 from fieldhand.places import selectors as s
 from fieldhand.places.context import Context
 from fieldhand.places.explanation import explain
+from fieldhand.places.picks.ordered import Order
 from fieldhand.places.resolution import resolve
 from fieldhand.site.model import Place, Site
 from sites import at_start, place_at, planted, point, read, site_of, without_rows
@@ -362,7 +363,7 @@ def test_a_place_that_is_no_tree_of_a_row_counts_from_the_nearest_one():
 
 
 @settings(max_examples=100)
-@given(farms(), st.sampled_from(s.Order.__args__), st.booleans(), st.data())
+@given(farms(), st.sampled_from(Order.__args__), st.booleans(), st.data())
 def test_an_order_is_what_sorting_gives_with_ties_as_in_the_file(farm, by, descending, data):
     here = place_at(3.0, -5.0)
     row_major = [t for row in farm.rows for t in row]

@@ -10,7 +10,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from fieldhand.errors import TaskError
-from fieldhand.places.selectors import Corners, Half, Here, Nearest, Selector, Trees, Where
+from fieldhand.places.selector import Selector
+from fieldhand.places.selectors import Corners, Half, Here, Nearest, Trees, Where
 from fieldhand.task.codec import decode, decode_draft, encode
 from fieldhand.task.codec_shapes import FAMILIES, all_shapes, shape_of
 from fieldhand.task.conditions import Condition, TreeHas
@@ -29,7 +30,7 @@ def task_of(plan: Node, request: str = "") -> Task:
 
 def holding(part: object) -> Task:
     """A Task that holds one part."""
-    if isinstance(part, get_args(Selector)):
+    if isinstance(part, Selector):
         return task_of(GoTo(id="n1", place=part))
     if isinstance(part, get_args(Condition)):
         return task_of(If(id="n1", condition=part, then=Stop(id="n2")))

@@ -24,7 +24,7 @@ from fieldhand.forecast.routes import beginning, drives_for
 from fieldhand.language import message, named
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve, resolve_one
-from fieldhand.places.selectors import Selector, is_relative
+from fieldhand.places.selector import Selector
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.drives import Drives
@@ -160,7 +160,7 @@ def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
     steps = {inner.id: node for node in walk(task.composition.plan) if node.is_optional_step for inner in walk(node)}
     for node in walk(task.composition.plan):
         selector = selector_of(node)
-        if selector is None or is_relative(selector):
+        if selector is None or selector.relative:
             continue
         try:
             places = _resolved(node, selector, site)

@@ -7,7 +7,7 @@ from typing import assert_never
 
 from fieldhand.language import joined, labelled, message, named
 from fieldhand.language.words import listed, say_action, say_name, say_number, say_quantity, say_times
-from fieldhand.places.attribute_words import say_of_tree, say_with_article
+from fieldhand.places.filters.attribute_words import say_of_tree, say_with_article
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task import conditions as c
 from fieldhand.task.plan import Act

@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from fieldhand.forecast.steps import Outlook, Walk
-from fieldhand.places.selectors import is_relative
 from fieldhand.site.model import Place
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Node
@@ -91,7 +90,7 @@ def _doubtful(plan: Node) -> frozenset[str]:
     def visit(node: Node) -> None:
         nonlocal after
         selector = node.selector
-        if after and selector is not None and is_relative(selector):
+        if after and selector is not None and selector.relative:
             found.add(node.id)
         after = after or (node.is_optional and node.visits_each)
         for child in node.children:

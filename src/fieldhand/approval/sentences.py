@@ -10,8 +10,9 @@ from fieldhand.approval.resolved import Found
 from fieldhand.approval.visits import in_order, say_expected, say_expected_visits, say_ids
 from fieldhand.language import counted, message, shaped
 from fieldhand.language.words import CORNERS, say_marker, say_name, say_number, say_times, say_tree
-from fieldhand.places.selectors import Corners, Marker, Selector, TreeIs, Trees, Union, is_single
-from fieldhand.places.words import say_places, say_selector
+from fieldhand.places.saying import say_places, say_selector
+from fieldhand.places.selector import Selector
+from fieldhand.places.selectors import Corners, Marker, TreeIs, Trees, Union
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.conditions import Condition
@@ -231,7 +232,7 @@ class _Writer:
         """Which places a for-each goes to, and in which order."""
         found = self._found.get(node.id)
         places = (*found.places, *found.shed) if found else ()
-        if is_single(node.select) and len(places) < 2:
+        if node.select.single and len(places) < 2:
             return message("At {place}", place=self._at(node, node.select))
         whole = node.optional or node.at_most is None
         count = len(places) if found and found.known and places and whole else None

@@ -9,7 +9,8 @@ from typing import Literal
 import numpy as np
 
 from fieldhand.bench.scenes import WORTH
-from fieldhand.places.selectors import EveryNth, Half, Nearest, Other, Selector, TreeIs, Trees, Union, Where
+from fieldhand.places.selector import Selector
+from fieldhand.places.selectors import EveryNth, Half, Nearest, Other, TreeIs, Trees, Union, Where
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.conditions import Compare

@@ -12,7 +12,7 @@ from fieldhand.bench.account import Account, Made, Undone
 from fieldhand.errors import PlaceError
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
-from fieldhand.places.selectors import Selector, is_relative
+from fieldhand.places.selector import Selector
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 from fieldhand.task.results import (
@@ -321,7 +321,7 @@ class _Reader:
 
     def _known(self, selector: Selector) -> tuple[str, ...]:
         """Ids of the places of a selector; none where only the robot knows them."""
-        if is_relative(selector):
+        if selector.relative:
             return ()
         try:
             return tuple(place.id for place in resolve(selector, self._site, Context(here=self._site.start)))

@@ -29,7 +29,7 @@ from fieldhand.forecast.state import MissionState, Spent
 from fieldhand.forecast.visits import Visits
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve, resolve_one
-from fieldhand.places.selectors import Selector
+from fieldhand.places.selector import Selector
 from fieldhand.robot.model import InDoubtPolicy, RobotProfile
 from fieldhand.site.blockages import Blockages
 from fieldhand.site.drives import Drive, Drives

@@ -10,7 +10,6 @@ from fieldhand.execution.attempt import Attempt, Ending
 from fieldhand.forecast.service import service_of
 from fieldhand.forecast.state import Choice, Verdict, Visit
 from fieldhand.language import message
-from fieldhand.places.selectors import is_relative
 from fieldhand.site.model import Place
 from fieldhand.task import plan
 from fieldhand.task.nodes.base import GivenUp
@@ -137,7 +136,7 @@ def first_places_of(node: Node, attempt: Attempt) -> tuple[Place, ...]:
 
 def _places_of(node: Node, attempt: Attempt) -> tuple[Place, ...]:
     selector = node.selector
-    if selector is None or is_relative(selector):
+    if selector is None or selector.relative:
         return ()
     try:
         return attempt.resolve(selector)

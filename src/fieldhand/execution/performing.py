@@ -15,7 +15,7 @@ from fieldhand.forecast.conditions import evaluate
 from fieldhand.forecast.routes import home_if_last, steps_in_order
 from fieldhand.forecast.state import Choice
 from fieldhand.language import message
-from fieldhand.places.selectors import Selector
+from fieldhand.places.selector import Selector
 from fieldhand.site.model import Place
 from fieldhand.task.conditions import Condition
 from fieldhand.task.nodes.base import Failed, GivenUp, Stopped

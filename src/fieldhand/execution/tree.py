@@ -16,7 +16,7 @@ from fieldhand.execution.attempt import Attempt
 from fieldhand.execution.giving_up import give_up_rest
 from fieldhand.execution.performing import Performer
 from fieldhand.forecast.state import Verdict
-from fieldhand.places.selectors import Selector
+from fieldhand.places.selector import Selector
 from fieldhand.task.plan import Node
 from fieldhand.task.run import Outcome
 
@@ -102,6 +102,6 @@ class MissionTree(NodeBehavior):
 
 
 def _say_selector(selector: Selector) -> str:
-    from fieldhand.places.words import say_selector
+    from fieldhand.places.saying import say_selector
 
     return say_selector(selector)

@@ -17,8 +17,6 @@ from fieldhand.terms import Side
 
 _SIDES: tuple[Side, ...] = ("north", "east", "south", "west")
 _CHARGER = frozenset({"charger", "dock"})
-#: Selectors that stand for a side without naming it: rows and trees in them count from one.
-_UNNAMED = (s.Rows, s.InRow, s.RowOf, s.AlongRow, s.Across, s.EveryNth, s.Successive, s.Nth)
 #: Words of a request that says what is to be done when something goes wrong.
 _OF_FAULTS = w.words_in("fail fails failed fault error abort aborted wrong stuck problem battery charge budget low")
 _EACH_KIND = frozenset({"each", "every", "all", "per", "both", "different", "any"})
@@ -201,7 +199,7 @@ def _sides(said: Stated, plan: Planned) -> Iterator[Mismatch]:
     held = (
         set(plan.sides) | counted | {side for side in spoken if side[0] in corners or any(side in by for by in orders)}
     )
-    if not any(isinstance(x, _UNNAMED) for _, x in plan.selectors):
+    if not any(x.counts_from_a_side for _, x in plan.selectors):
         for side in sorted(spoken - held):
             yield Mismatch(kind="side", message=f"the request says '{side}', and no place of the plan is there")
     if said.unknown or said.words & w.VAGUE_SIDES or _OTHER_PART.search(said.text):

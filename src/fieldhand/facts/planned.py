@@ -10,9 +10,9 @@ from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Literal
 
-from fieldhand.facts.selected import ONE, Range, counts, places, sides
 from fieldhand.places import selectors as s
-from fieldhand.places.selectors import Selector
+from fieldhand.places.selector import Selector
+from fieldhand.places.size import ONE, Range, exactly
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 from fieldhand.task.frames import Task
@@ -99,7 +99,7 @@ class Planned:
     @cached_property
     def trees(self) -> tuple[tuple[str, str], ...]:
         """Ids of trees that are named, each with its node."""
-        return tuple((node, x.tree) for node, x in self.selectors if isinstance(x, s.TreeIs))
+        return tuple((node, x.named_tree) for node, x in self.selectors if x.named_tree)
 
     @cached_property
     def markers(self) -> frozenset[str]:
@@ -123,7 +123,7 @@ class Planned:
         for node, x in self.selectors:
             if isinstance(x, s.Corners) and len(visited[x.of]) == 4:
                 continue  # one after the other they are all four, whose sides nobody has to say
-            for side in sides(x):
+            for side in x.sides:
                 found.setdefault(side, node)
         return found
 
@@ -132,7 +132,7 @@ class Planned:
         """Sides that only tell apart the ends of a way: drives to both ends of the same trees, and no other place."""
         drives = {n.id: n.selector for n in self.nodes if n.only_drives and isinstance(n.selector, s.Extreme)}
         ends = {(place.of, place.side) for place in drives.values()}
-        elsewhere = {side for node, x in self.selectors if x != drives.get(node) for side in sides(x)}
+        elsewhere = {side for node, x in self.selectors if x != drives.get(node) for side in x.sides}
         ways = [{one, other} for one, other in _ACROSS for of, _ in ends if {(of, one), (of, other)} <= ends]
         return frozenset(side for way in ways for side in way) - elsewhere
 
@@ -155,7 +155,7 @@ def planned(task: Task, size: Callable[[str], int | None]) -> Planned:
     """
     root = task.composition.plan
     nodes = tuple(p.walk(root))
-    selectors = tuple((n.id, x) for n in nodes if (top := p.selector_of(n)) is not None for x in s.walk(top))
+    selectors = tuple((n.id, x) for n in nodes if (top := p.selector_of(n)) is not None for x in top.walk())
     return Planned(
         task=task,
         nodes=nodes,
@@ -180,13 +180,13 @@ def _captures(node: p.Node, around: _Around, size: Callable[[str], int | None]) 
     """The acts inside a node."""
     act = node.act
     if act is not None:
-        own = {act.count, *(counts(act.at) if act.at is not None else ())}
+        own = {act.count, *(_counts(act.at) if act.at is not None else ())}
         yield Captures(
             node=act.id,
             action=act.action,
             each=act.count,
             places=around.places,
-            total=around.places.times(around.rounds).times(Range(low=act.count, high=act.count)),
+            total=around.places.times(around.rounds).times(exactly(act.count)),
             bound=around.bound,
             around=around.numbers | own,
         )
@@ -203,7 +203,7 @@ def _captures(node: p.Node, around: _Around, size: Callable[[str], int | None]) 
 
 def _visited(node: p.Node, select: Selector, around: _Around, size: int | None, *, loose: bool) -> _Around:
     """What stands around the body of a node that visits each place of a selector."""
-    inside = places(select) if size is None else Range(low=size, high=size)
+    inside = select.size if size is None else exactly(size)
     most = frozenset({node.at_most} if node.at_most is not None else ())
     if node.at_most is not None:
         high = node.at_most if inside.high is None else min(inside.high, node.at_most)
@@ -212,8 +212,15 @@ def _visited(node: p.Node, select: Selector, around: _Around, size: int | None, 
     return replace(
         around,
         places=around.places.times(inside),
-        numbers=around.numbers | most | frozenset(counts(select)),
+        numbers=around.numbers | most | frozenset(_counts(select)),
     )
+
+
+def _counts(selector: Selector) -> Iterator[int]:
+    """The counts in a selector."""
+    for part in selector.walk():
+        count = getattr(part, "count", 0)
+        yield from (count,) if count else ()
 
 
 def _tests(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], ...]) -> Iterator[Tested]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from fieldhand.errors import PlaceError
-from fieldhand.facts.selected import places
 from fieldhand.places import selectors as s
 from fieldhand.places.context import Context
 from fieldhand.site.model import Place, Site
@@ -43,10 +42,10 @@ class Sizes:
         if selector is None:
             self._bind(node, (self._here,))
             return
-        self.every.update(n for part in s.walk(selector) if (n := self._size(part)) is not None)
+        self.every.update(n for part in selector.walk() if (n := self._size(part)) is not None)
         found = self._places(selector)
-        visited = any(isinstance(part, s.Other) for part in s.walk(selector))
-        self._of_node[node.id] = places(selector).exact if found is None or visited else len(found)
+        visited = any(isinstance(part, s.Other) for part in selector.walk())
+        self._of_node[node.id] = selector.size.exact if found is None or visited else len(found)
         if found:
             self._bind(node, found)
             self._here = found[-1]
@@ -58,13 +57,13 @@ class Sizes:
 
     def _size(self, selector: s.Selector) -> int | None:
         found = self._places(selector)
-        return places(selector).exact if found is None else len(found)
+        return selector.size.exact if found is None else len(found)
 
     def _places(self, selector: s.Selector) -> tuple[Place, ...] | None:
         """Return the places of a selector from where the robot would be; None where it names none."""
         from fieldhand.places.resolution import resolve
 
-        known = self._from_here if s.is_relative(selector) else self._known
+        known = self._from_here if selector.relative else self._known
         key = repr(selector)
         if key not in known:
             try:

@@ -20,7 +20,6 @@ from fieldhand.forecast.trail import Answers
 from fieldhand.forecast.walker import Walker
 from fieldhand.forecast.ways import Way, way_of
 from fieldhand.places.context import Context
-from fieldhand.places.selectors import is_relative
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task import plan
@@ -184,7 +183,7 @@ def _walk_rest(walker: Walker, nodes: Sequence[Node]) -> Rest:
 def _is_relative(following: Node) -> bool:
     """Whether places in it hang on where the robot is or has been by then."""
     selectors = (plan.selector_of(node) for node in plan.walk(following))
-    return any(s is not None and is_relative(s) for s in selectors)
+    return any(s is not None and s.relative for s in selectors)
 
 
 def every_answer(nodes: Sequence[Node]) -> list[Answer]:

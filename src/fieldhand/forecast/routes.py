@@ -12,7 +12,7 @@ from fieldhand.errors import PlaceError
 from fieldhand.language import joined, message
 from fieldhand.orienteering.order import shortest_order
 from fieldhand.places.context import Context
-from fieldhand.places.selectors import Selector
+from fieldhand.places.selector import Selector
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task import plan

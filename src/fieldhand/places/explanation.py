@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import Resolution, Step
-from fieldhand.places.selectors import Selector
-from fieldhand.places.words import say_selectors
+from fieldhand.places.saying import say_selectors
+from fieldhand.places.selector import Selector
 from fieldhand.site.model import Place, Site
 
 _FEW = 6

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable, Sequence
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from fieldhand.errors import PlaceError
 from fieldhand.language import counted, joined, message, shaped
-from fieldhand.places.selectors import Rows, Selector, Top, Where
-from fieldhand.site.counting import block_words
-from fieldhand.site.kinds import number_text
-from fieldhand.site.model import Site
-from fieldhand.site.names import listed, short
-from fieldhand.site.planting import Block
-from fieldhand.terms import Value
+from fieldhand.places.saying import say_selector
+from fieldhand.site.kinds import number_text, phrase
+from fieldhand.site.names import listed, say_block, short
+
+if TYPE_CHECKING:
+    from fieldhand.places.filters.where import Where
+    from fieldhand.places.rows.rows import Rows
+    from fieldhand.places.selector import Selector
+    from fieldhand.site.model import Site
+    from fieldhand.site.planting import Block
+    from fieldhand.terms import Value
 
 #: With more rows or values than this the first and the last are named, or the least and the greatest.
 _MOST = 8
@@ -72,7 +76,7 @@ def no_such_row(site: Site, blocks: Sequence[Block], said: str) -> PlaceError:
     near = "" if said.lstrip("-").isdecimal() else _alike(said, names)
     what = message("there is no row '{name}'", name=short(said))
     if len(site.planting.blocks) > 1:
-        what = message("{what} in {blocks}", what=what, blocks=listed([block_words(b) for b in blocks]))
+        what = message("{what} in {blocks}", what=what, blocks=listed([say_block(b.name) for b in blocks]))
     return PlaceError(what, where=site.name, advice=joined(" ", (near, has)) if near else has)
 
 
@@ -113,8 +117,6 @@ def no_such_attribute(site: Site, attribute: str) -> PlaceError:
 
 def no_such_value(site: Site, selector: Where) -> PlaceError:
     """No tree of the whole site has that value."""
-    from fieldhand.site.kinds import phrase
-
     name = next(k for k in site.attributes if k == selector.attribute or phrase(k) == phrase(selector.attribute))
     values = [value_text(v) for v in site.attributes[name]]
     numbers = [v for v in site.attributes[name] if isinstance(v, float)]
@@ -139,27 +141,28 @@ def no_such_value_here(site: Site, selector: Where, values: Sequence[Value]) -> 
     return PlaceError(error.what, where=site.name, advice=has)
 
 
-def not_a_number(selector: Where | Top, which: Literal["value", "attribute"]) -> PlaceError:
-    """A comparison that needs numbers has something else."""
-    if which == "value" and isinstance(selector, Where):
-        return PlaceError(
-            message(
-                "{name} cannot be above or below '{value}'",
-                name=short(selector.attribute),
-                value=short(value_text(selector.value)),
-            ),
-            advice=message("compare with a number, or ask whether it is equal"),
-        )
+def not_comparable(selector: Where) -> PlaceError:
+    """A comparison that needs a number has something else."""
     return PlaceError(
-        message("{name} is not a number", name=short(selector.attribute)),
+        message(
+            "{name} cannot be above or below '{value}'",
+            name=short(selector.attribute),
+            value=short(value_text(selector.value)),
+        ),
+        advice=message("compare with a number, or ask whether it is equal"),
+    )
+
+
+def not_a_number(attribute: str) -> PlaceError:
+    """No tree has a number as this attribute, where one is needed."""
+    return PlaceError(
+        message("{name} is not a number", name=short(attribute)),
         advice=message("it can be equal to a value, not above, below or highest"),
     )
 
 
 def nothing(site: Site, selector: Selector, of: str = "") -> PlaceError:
     """This part of the selector leaves nothing."""
-    from fieldhand.places.words import say_selector
-
     what = message("nothing on this site matches {trees}", trees=_shortened(say_selector(selector)))
     return PlaceError(
         message("{what} ({why})", what=what, why=of) if of else what,
@@ -170,8 +173,6 @@ def nothing(site: Site, selector: Selector, of: str = "") -> PlaceError:
 
 def too_few(site: Site, selector: Selector, wanted: int, there_are: int) -> PlaceError:
     """Fewer than were asked for."""
-    from fieldhand.places.words import say_selector
-
     if there_are:
         only = counted("there is only {count}", "there are only {count}", there_are)
     else:

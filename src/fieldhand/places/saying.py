@@ -1,61 +1,64 @@
-"""What is being said of places: what labels are called, the phrases so far, and what all phrases share."""
+"""Selectors in words that a grower would sign: the one wording of places, for messages, read-back and the map.
+
+A selector is said from the inside out. What only keeps trees (an attribute, a zone, a half of the site, a row) gathers
+around one noun: "the yellow trees of row 3 in the northern half". What picks (the northernmost, the 3 nearest) closes
+the phrase: "the 3 northernmost of the yellow trees"; whatever keeps among those then starts a new one. The words of
+each selector stand in its file (:meth:`~fieldhand.places.selector.Selector.phrase`).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
 
-from fieldhand.language import message
-from fieldhand.language.words import say_zone
-from fieldhand.places import selectors as s
-from fieldhand.places.nesting import bare_ground
-from fieldhand.places.noun import Phrase
+from fieldhand.language import joined, message
+from fieldhand.language.words import listed
+from fieldhand.places.phrase import Phrase
+
+if TYPE_CHECKING:
+    from fieldhand.places.selector import Selector
 
 Names = Mapping[str, str]
 
 
 class Saying:
-    """What is being said: what labels are called, and the phrases so far, since a group is often said again.
+    """The phrases so far, since a group is often said again, and what labels are called.
 
     Args:
         names: What a label is called.
-        say: Makes the phrase of a selector.
     """
 
-    def __init__(self, names: Names, say: Callable[[s.Selector, Saying], Phrase]) -> None:
+    def __init__(self, names: Names) -> None:
         self.names = names
-        self._say = say
         self._known: dict[str, Phrase] = {}
 
-    def phrase(self, selector: s.Selector) -> Phrase:
-        """The phrase of a selector."""
+    def phrase(self, selector: Selector) -> Phrase:
+        """Return the phrase of a selector."""
         key = repr(selector)
         if key not in self._known:
-            self._known[key] = self._say(selector, self)
+            self._known[key] = selector.phrase(self)
         return self._known[key]
 
 
-def one(text: str) -> Phrase:
-    """The phrase of one place."""
-    return Phrase(closed=text, single=True)
+def say_selector(selector: Selector, names: Names | None = None, count: int | None = None) -> str:
+    """Return a selector in words.
+
+    Args:
+        selector: What to say.
+        names: What a label is called ("the tree of step 3"); else it is quoted.
+        count: How many places it gives, said where the phrase does not say it itself.
+    """
+    return Saying(names or {}).phrase(selector).say(count)
 
 
-def many(text: str) -> Phrase:
-    """The phrase of several places."""
-    return Phrase(closed=text)
+def say_selectors(selectors: Iterable[Selector]) -> tuple[str, ...]:
+    """Return several selectors in words, as :func:`say_selector`; what they have in common is phrased once."""
+    saying = Saying({})
+    return tuple(saying.phrase(selector).say() for selector in selectors)
 
 
-def it(selector: s.Selector, saying: Saying) -> str:
-    """A place where "there" would be no English ("next to there")."""
-    return message("that place") if isinstance(selector, s.Here) else saying.phrase(selector).say()
-
-
-def origin(selector: s.Selector, saying: Saying) -> str:
-    """Return the place that something is near to or far from in words: a zone itself, not the trees in it."""
-    zone = s.zone_itself(selector)
-    return say_zone(zone) if zone else it(selector, saying)
-
-
-def of_ground(of: s.Selector, saying: Saying) -> str:
-    """Of what a half or an edge is one, where it is not the whole site (:mod:`fieldhand.places` gives the rule)."""
-    ground = bare_ground(of)
-    return "" if ground == s.Trees() else message("of {trees}", trees=saying.phrase(ground).group())
+def say_places(ids: tuple[str, ...], few: int = 8) -> str:
+    """Places by id: all of them when few, else the first ones and how many more."""
+    if len(ids) <= few:
+        return listed(ids)
+    return message("{places} and {count} more", places=joined(", ", ids[:few]), count=len(ids) - few)

@@ -15,6 +15,7 @@ from fieldhand.language import message
 from fieldhand.language.words import COMPASS
 from fieldhand.site.kinds import phrase
 from fieldhand.site.model import Site
+from fieldhand.site.names import say_block
 from fieldhand.site.planting import Block, Planting, Row
 from fieldhand.terms import CountedFrom, Side
 
@@ -123,6 +124,17 @@ def trees_from(site: Site, block: Block, side: CountedFrom) -> tuple[int, str]:
     return -way, side
 
 
+def find_block(site: Site, said: str) -> Block | None:
+    """The block of that name, else of that number from 1; None where there is none."""
+    blocks = site.planting.blocks
+    exact = [b for b in blocks if b.name == said]
+    alike = exact or [b for b in blocks if bare_name(b.name) == bare_name(said)]
+    if alike:
+        return alike[0]
+    number = bare_name(said)
+    return blocks[int(number) - 1] if number.isdecimal() and 0 < int(number[:9]) <= len(blocks) else None
+
+
 def find_row(rows: Sequence[Row], said: str, *, by_number: bool = False) -> int | None:
     """The position of the row that is called so; None where there is none.
 
@@ -169,16 +181,6 @@ def row_words(site: Site, row: Row) -> str:
 def block_words(block: Block) -> str:
     """A block as people say it: "block B"."""
     return say_block(block.name)
-
-
-def say_block(block: str) -> str:
-    """A block: "block B"."""
-    return block if is_named_block(block) else message("block {name}", name=block)
-
-
-def is_named_block(block: str) -> bool:
-    """Whether its name says already that it is a block."""
-    return phrase(block).startswith("block ")
 
 
 def _not_counted(what: str, site: Site, block: Block) -> str:

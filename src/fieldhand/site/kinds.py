@@ -10,10 +10,12 @@ import math
 import re
 from collections.abc import Mapping
 from functools import lru_cache
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
-from fieldhand.site.model import ZoneKind
 from fieldhand.terms import Value
+
+if TYPE_CHECKING:
+    from fieldhand.site.model import ZoneKind
 
 PointKind = Literal["tree", "start", "end", "charger", "gate", "landmark"]
 

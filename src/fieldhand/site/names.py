@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from fieldhand.language import joined, message
+from fieldhand.site.kinds import phrase
 from fieldhand.visible import visible
 
 _MOST = 8
@@ -23,3 +24,13 @@ def short(text: str, longest: int = _LONGEST) -> str:
     """Text on one line and not too long."""
     text = visible(text)
     return text if len(text) <= longest else text[: longest - 3] + "..."
+
+
+def say_block(block: str) -> str:
+    """A block: "block B"."""
+    return block if is_named_block(block) else message("block {name}", name=block)
+
+
+def is_named_block(block: str) -> bool:
+    """Whether its name says already that it is a block."""
+    return phrase(block).startswith("block ")

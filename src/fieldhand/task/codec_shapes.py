@@ -17,7 +17,8 @@ from functools import cache
 from types import NoneType, UnionType
 from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
-from fieldhand.places.selectors import Selector
+from fieldhand.places.selector import Selector
+from fieldhand.places.selectors import SELECTORS
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Command, Composition, FaultedExit, Task, Then
 from fieldhand.task.plan import Act, Node, Span
@@ -137,7 +138,7 @@ SURROGATES: dict[type, tuple[type, Callable[[Any], Any], Callable[[Any], Any]]] 
 
 #: The families of which any member may stand in a place, by name.
 FAMILIES: dict[tuple[type, ...], str] = {
-    get_args(Selector): "selector",
+    SELECTORS: "selector",
     get_args(Condition): "condition",
     get_args(Node): "node",
 }
@@ -216,9 +217,12 @@ def _child(field: str, name: str, hint: Any, default: Any) -> Child:
     hint = _without_none(hint)
     many = get_origin(hint) is tuple
     inner = get_args(hint)[0] if many else hint
-    union = get_origin(inner) in (Union, UnionType)
-    options: tuple[type, ...] = get_args(inner) if union else (inner,)
-    kind: ChildKind = "many" if many else "one" if union else "inline"
+    options: tuple[type, ...] = (inner,)
+    if inner is Selector:
+        options = SELECTORS
+    elif get_origin(inner) in (Union, UnionType):
+        options = get_args(inner)
+    kind: ChildKind = "many" if many else "one" if options != (inner,) else "inline"
     return Child(field=field, name=name, kind=kind, options=options, default=default)
 
 

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from fieldhand.places.selectors import Selector
+from fieldhand.places.selector import Selector
 from fieldhand.task.conditions import Condition
 from fieldhand.task.nodes.act import Act
 from fieldhand.task.nodes.any_order import AnyOrder

@@ -6,7 +6,6 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from fieldhand.places import selectors
 from fieldhand.places.selectors import Bound
 from fieldhand.task import conditions
 from fieldhand.task.capabilities import Capabilities
@@ -153,7 +152,7 @@ _NOTHING_BINDS, _NOTHING_TAKES = "nothing before it binds", "nothing before it t
 
 def _check_places(node: Node, known: _Known, found: _Found) -> None:
     selector = node.selector
-    for part in selectors.walk(selector) if selector is not None else ():
+    for part in selector.walk() if selector is not None else ():
         if isinstance(part, Bound) and part.label not in known.labels:
             by = "only an optional step binds: name it inside that" if part.label in found.shed else _NOTHING_BINDS
             found.add(f"node {node.id!r} names the place {part.label!r}, which {by}")

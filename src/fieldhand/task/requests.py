@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
-    from fieldhand.places.selectors import Selector
+    from fieldhand.places.selector import Selector
     from fieldhand.task.conditions import Condition
     from fieldhand.task.nodes.act import Act
     from fieldhand.task.nodes.any_order import AnyOrder

@@ -18,8 +18,7 @@ import pytest
 from fieldhand.approval.account import unaccounted
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
-from fieldhand.places.selectors import Random, is_relative
-from fieldhand.places.selectors import walk as parts_of
+from fieldhand.places.selectors import Random
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Outcome, Planned, Refused
 from fieldhand.robot.loader import load_robot
@@ -39,7 +38,7 @@ def visited(outcome: Planned) -> list[Vine]:
     found: list[str] = []
     for node in walk(outcome.task.composition.plan):
         selector = selector_of(node)
-        if selector is not None and not is_relative(selector):
+        if selector is not None and not selector.relative:
             found += [p.id for p in resolve(selector, vineyard(), Context(here=vineyard().start))]
     return [BY_ID[one] for one in found]
 
@@ -136,7 +135,7 @@ def test_a_draw_is_of_the_vines_that_are_meant_and_not_of_the_nearest(
     assert len({v.id for v in drawn}) == count
     assert all(is_meant(v) for v in drawn)
     selectors = [selector_of(node) for node in walk(outcome.task.composition.plan)]
-    assert any(isinstance(part, Random) for s in selectors if s is not None for part in parts_of(s))
+    assert any(isinstance(part, Random) for s in selectors if s is not None for part in s.walk())
     assert outcome == outcome_of(request_)
     if count >= 10:
         assert max(v.y for v in drawn) - min(v.y for v in drawn) > 20.0

@@ -11,7 +11,7 @@ import pytest
 from lxml import etree
 
 from fieldhand.errors import ModelError
-from fieldhand.places.selectors import Selector
+from fieldhand.places.selectors import SELECTORS
 from fieldhand.planning.llm import language
 from fieldhand.planning.llm.language import DERIVED, describe_language
 from fieldhand.planning.llm.prompt import instructions
@@ -31,7 +31,7 @@ HUSKY, AMIGA = capabilities_of(load_robot("husky")), capabilities_of(load_robot(
 #: Parts of a draft that the program writes.
 UNSHOWN = {"resources", "resource", "state", "variable", "goals", "goal", "warnings", "warning", "read-as", "request"}
 UNWRITTEN = DERIVED | {"expected", "node", "conditional", "value-as", "sha256", "action"}
-EVERY = [*get_args(Node), *get_args(Condition), *get_args(Selector)]
+EVERY = [*get_args(Node), *get_args(Condition), *SELECTORS]
 
 
 @pytest.mark.parametrize("cls", EVERY, ids=lambda cls: cls.__name__)
@@ -113,7 +113,7 @@ def test_every_form_that_is_shown_is_valid_with_all_that_may_be_left_out_and_wit
         .replace('unit="name"', 'unit="ppm"')
         .replace('level="name"', 'level="low"')
     )
-    if cls in get_args(Selector):
+    if cls in SELECTORS:
         element = f"<go-to>{element}</go-to>"
     elif cls in get_args(Condition):
         element = f"<if><condition>{element}</condition><then><stop/></then></if>"

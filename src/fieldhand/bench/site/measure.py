@@ -15,10 +15,11 @@ import numpy as np
 
 from fieldhand.bench.site.memory import peak_bytes
 from fieldhand.bench.site.orchard import benchmark_orchard
-from fieldhand.bench.site.samples import LABEL, samples
+from fieldhand.bench.site.samples import samples
 from fieldhand.errors import DriveFault, PlaceError
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
+from fieldhand.places.sources.bound import EXAMPLE_LABEL
 from fieldhand.site.drives import Drives
 from fieldhand.site.geojson import parse_site
 from fieldhand.site.model import Place, Site
@@ -168,7 +169,7 @@ def _steps(data: bytes, repeats: int, clearance_m: float, standoff_m: float, clo
 def _selectors(site: Site, repeats: int, clock: Clock) -> tuple[Timing, ...]:
     middle = site.trees[len(site.trees) // 3].place
     visited = tuple(t.place.id for t in site.trees[:_VISITED])
-    context = Context(here=middle, visited=visited, bound={LABEL: (middle,)})
+    context = Context(here=middle, visited=visited, bound={EXAMPLE_LABEL: (middle,)})
     timings = []
     for name, selector in samples(site).items():
         taken, found = [], 0

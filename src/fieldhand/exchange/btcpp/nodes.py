@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, Any
 
 from fieldhand.exchange.btcpp.elements import Elements, Tag
 from fieldhand.exchange.btcpp.vocabulary import ALLOWS, CONDITIONS, GO_TO, IF_UNKNOWN, ORDER, RESOLVE
 from fieldhand.exchange.btcpp.writing import EXIT_ENTRY
-from fieldhand.places.selectors import Selector
+from fieldhand.places.selectors import SELECTORS
 from fieldhand.task import plan as p
 from fieldhand.task.capabilities import ChoiceParameter
 from fieldhand.task.codec_shapes import shape_of
@@ -68,7 +68,7 @@ class NodeReader:
             case "SubTree":
                 return self._subtree(tag)
             case str() if tag.kind == GO_TO:
-                place = self.elements.parts(tag, "place", get_args(Selector))
+                place = self.elements.parts(tag, "place", SELECTORS)
                 return p.GoTo(**beside, place=place, **self.elements.fields(tag, p.GoTo))
             case str() if tag.kind in self.elements.capabilities.actions:
                 return self._act(tag, beside | {"at_said": self.elements.spans(tag, "_at_said")})
@@ -87,7 +87,7 @@ class NodeReader:
             return self._stop(inside[0], beside)
         acts = self.elements.capabilities.actions
         if len(kinds) == 2 and kinds[0] == GO_TO and kinds[1] in acts and not (inside[0].name or inside[1].name):
-            at = self.elements.parts(inside[0], "place", get_args(Selector))
+            at = self.elements.parts(inside[0], "place", SELECTORS)
             self.elements.ports(inside[0], ("place", "label"))
             self.elements.ports(inside[1], self.elements.known[kinds[1]])
             said = self.elements.spans(tag, "_at_said")
@@ -135,7 +135,7 @@ class NodeReader:
         go = self.elements.tag(steps[0])
         return p.ForEach(
             **beside,
-            select=self.elements.parts(resolve, "select", get_args(Selector)),
+            select=self.elements.parts(resolve, "select", SELECTORS),
             label=go.ports.get("label", ""),
             body=self.node(steps[1]),
             until=self._test(steps[2]) if len(steps) == 3 else None,

@@ -28,7 +28,8 @@ from fieldhand.exchange.btcpp.vocabulary import (
     plain_attributes,
     port_name,
 )
-from fieldhand.places.selectors import Here, Selector
+from fieldhand.places.selector import Selector
+from fieldhand.places.selectors import Here
 from fieldhand.task import plan as p
 from fieldhand.task.capabilities import Capabilities
 from fieldhand.task.codec import encode_parts

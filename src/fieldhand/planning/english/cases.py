@@ -130,7 +130,7 @@ class Cases(Hand):
             ):
                 break
             run.insert(0, step)
-        if len(run) < 2 or any(step.at is not None and s.is_relative(step.at) for step in run):
+        if len(run) < 2 or any(step.at is not None and step.at.relative for step in run):
             return
         body = d.Block(
             steps=[d.Capture(action=run[0].action, count=run[0].count, said=_spans(step.said for step in run))]

@@ -259,7 +259,7 @@ class Discourse(Elliptic):
         if found is not None and part.relation is not None and part.relation.kind == "SPREAD":
             return points_over(found, part, wanted)
         said = part.places is not None and is_open(part.places)
-        whole = found is not None and found.many and not s.is_relative(found.selector)
+        whole = found is not None and found.many and not found.selector.relative
         place = self._rows_gone_to or (self._area_gone_to if whole else "")
         if place and said and found is not None and not found.here:
             raise Question(

@@ -196,8 +196,8 @@ class Hand:
         if isinstance(loop.select, s.Ordered):
             raise unclear([term], message("two orders cannot be kept"), message("say one"))
         side: Side = "south" if str(by).startswith("south") else "east" if str(by).startswith("east") else "north"
-        if side in ("south", "east") and any(_counts(part, side) for part in s.walk(loop.select)):
-            if not any(isinstance(part, s.Rows) and part.every > 1 for part in s.walk(loop.select)):
+        if side in ("south", "east") and any(_counts(part, side) for part in loop.select.walk()):
+            if not any(isinstance(part, s.Rows) and part.every > 1 for part in loop.select.walk()):
                 loop.select = counted_from(loop.select, side)
                 counts = message("'{said}': they are counted from there, too.", context="assumption", said=term.text)
                 self.told.assumptions.append(counts)
@@ -308,7 +308,7 @@ class Hand:
         for step, _ in d.walk(self.told.root):
             place = step.place if isinstance(step, d.Go) else step.at if isinstance(step, d.Capture) else None
             known = place is None or isinstance(place, s.Marker) or place in spoken
-            if place is not None and not known and s.is_single(place) and not s.is_relative(place):
+            if place is not None and not known and place.single and not place.relative:
                 spoken.append(place)
         if len(spoken) < 2:
             return None
@@ -335,7 +335,7 @@ class Hand:
                 ),
                 terms=(step,),
             )
-        if not any(starts_here(part_) for part_ in s.walk(found.selector)):
+        if not any(starts_here(part_) for part_ in found.selector.walk()):
             return
         if not any(isinstance(step, d.Go | d.Capture | d.Loop) for step, _ in d.walk(self.told.root)):
             said = text_of(part.terms)

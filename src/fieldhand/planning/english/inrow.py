@@ -87,7 +87,7 @@ def excepted_in_rows(bag: Bag, group: Group, site: Site) -> s.Selector:
     trees = s.Union(parts=tuple(s.TreeIs(tree=name) for name in bag.ids))
     by_id = trees.parts[0] if len(bag.ids) == 1 else trees
     whole = trees_named(group.area, site)
-    known = not s.is_relative(group.area)
+    known = not group.area.relative
     if _only_ids(bag):
         if known and not set(bag.ids) <= whole:
             raise bag.fault(
@@ -162,7 +162,7 @@ def several_rows(of: s.Selector, group: Group, site: Site) -> bool:
     """Whether a selection may hold trees of several rows."""
     if group.one_by_one:
         return True
-    if s.is_relative(of):
+    if of.relative:
         return False
     index = [site.by_id[name].index for name in trees_named(of, site) if name in site.by_id]
     return len(set(site.planting.row_of[index].tolist())) > 1

@@ -19,7 +19,7 @@ _RANKS = ("MOST", "SUPER", "ORD", "LAST", "BACKORD")
 def check_of_row(places: Places, found: list[Found]) -> None:
     """ "The first tree and the last tree of row 6": is the first that of the row too?"""
     bare = [c for c in places.chains if len(c.phrases) == 1 and bag_of(c.phrases[0]).has("ORD", "LAST")]
-    if bare and any(isinstance(part, s.InRow) for f in found for part in s.walk(f.selector)):
+    if bare and any(isinstance(part, s.InRow) for f in found for part in f.selector.walk()):
         text = text_of(bare[0].terms)
         asked = message("'{said}': of the row, or of the whole site?", context="question", said=text)
         words = (f"{text} of the row", f"{text} of the site")

@@ -8,7 +8,6 @@ from fieldhand.errors import DriveFault, PlaceError, TaskError
 from fieldhand.forecast.walk import walk as walk_through
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
-from fieldhand.places.selectors import is_relative
 from fieldhand.planning.english.faults import Question, Unclear
 from fieldhand.planning.english.rewording import Worded
 from fieldhand.planning.planner import Answer, Outcome, Planned
@@ -71,7 +70,7 @@ def _words_of(node: Node) -> tuple[Span, ...]:
 def _resolved(nodes: list[Node], site: Site) -> list[Place]:
     """The places of selectors that mean the same wherever the robot is; none if one of them does not."""
     selectors = [s for n in nodes if (s := selector_of(n)) is not None]
-    if any(is_relative(s) for s in selectors):
+    if any(s.relative for s in selectors):
         return []
     return [place for s in selectors for place in resolve(s, site, Context(here=site.start))]
 

@@ -169,7 +169,7 @@ def _follow(block: d.Block, unsure: bool) -> bool:
     for step in block.steps:
         match step:
             case d.Go(place=place) | d.Capture(at=place) | d.Loop(select=place):
-                if unsure and (place is None or any(isinstance(part, s.Here) for part in s.walk(place))):
+                if unsure and (place is None or any(isinstance(part, s.Here) for part in place.walk())):
                     raise _Unsure(step)
                 unsure = False
                 if isinstance(step, d.Loop):

@@ -88,7 +88,7 @@ def stops_of(found: Found | None, part: Part, wanted: Wanted, site: Site) -> Fou
         return _found(s.Spaced(apart_m=apart, count=count, zone=selector.zone), count)
     if found.rows:
         return _in_rows(found, part, s.Spaced(apart_m=apart, count=count, of=selector), site)
-    if s.is_single(selector) and not found.many and count:
+    if selector.single and not found.many and count:
         return _found(s.Spaced(apart_m=apart, count=count, near=selector), count)
     if found.region:
         raise unclear(part.terms, message("stops at a distance need a line"), _LINE)
@@ -106,7 +106,7 @@ def stops_of(found: Found | None, part: Part, wanted: Wanted, site: Site) -> Fou
 def _in_rows(found: Found, part: Part, stops: s.Spaced, site: Site) -> Found:
     """Stops along one row, or along each of several."""
     area = found.selector
-    relative = s.is_relative(area)
+    relative = area.relative
     rows = found.one_by_one or (() if relative else one_by_one(area, site))
     if relative or len(rows) <= 1:
         return _found(stops, stops.count)

@@ -120,7 +120,7 @@ class Motion(Until):
     def _marker_spoken_of(self) -> str:
         """The marker that the request named last; empty if it named none."""
         names = [part.name for step, _ in d.walk(self.told.root) for at in (repeating.selects(step),) if at is not None
-                 for part in s.walk(at) if isinstance(part, s.Marker)]  # fmt: skip
+                 for part in at.walk() if isinstance(part, s.Marker)]  # fmt: skip
         return names[-1] if names else ""
 
     def _home(self, part: Part) -> tuple[Then, s.Selector | None]:

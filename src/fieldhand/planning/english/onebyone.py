@@ -44,7 +44,7 @@ def one_by_one(selector: s.Selector, site: Site) -> tuple[s.Selector, ...]:
     for k in numbers:
         row = planting.rows[k]
         block = planting.blocks[row.block]
-        named = len(planting.blocks) > 1 and not any(isinstance(part, s.InBlock) for part in s.walk(of))
+        named = len(planting.blocks) > 1 and not any(isinstance(part, s.InBlock) for part in of.walk())
         inner = s.InBlock(block=block.name, of=of) if named else of
         made.append(s.Rows(first=row.name, last=row.name, of=inner))
     return tuple(made)
@@ -91,7 +91,7 @@ def spread_over(selector: s.Selector, area: s.Selector, ones: Iterable[s.Selecto
 
 def counted_from(selector: s.Selector, side: Side) -> s.Selector:
     """A selection whose every so many-th tree is counted from a side."""
-    for part in s.walk(selector):
+    for part in selector.walk():
         if isinstance(part, s.EveryNth):
             return swapped(selector, part, replace(part, counted_from=side))
     return selector
@@ -100,7 +100,7 @@ def counted_from(selector: s.Selector, side: Side) -> s.Selector:
 def _picks_from(selector: s.Selector, area: s.Selector) -> bool:
     if selector == area:
         return False
-    inner = [part for part in s.parts(selector) if any(p == area for p in s.walk(part))]
+    inner = [part for part in selector.inner if any(p == area for p in part.walk())]
     return bool(inner) and (isinstance(selector, _PICKS) or any(_picks_from(part, area) for part in inner))
 
 

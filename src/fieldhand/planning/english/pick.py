@@ -53,7 +53,7 @@ def picked(bag: Bag, group: Group, site: Site) -> Found:
     else:
         found = _trees(bag, group, site)
     bag.finish()
-    if group.anchor is not None and not any(part == group.anchor for part in s.walk(found.selector)):
+    if group.anchor is not None and not any(part == group.anchor for part in found.selector.walk()):
         raise bag.fault(message("what is near to what is not clear"), message("say it in two steps"))
     found = distributed(found, group, bag)
     return replace(found, assumed=(*found.assumed, *group.assumed)) if group.assumed else found
@@ -61,7 +61,7 @@ def picked(bag: Bag, group: Group, site: Site) -> Found:
 
 def _whole_rows(bag: Bag, group: Group) -> None:
     """Halves and edges are those of the orchard or of a block, never of a row."""
-    rows = group.rows is not None and any(isinstance(part, s.Rows | s.RowOf) for part in s.walk(group.rows))
+    rows = group.rows is not None and any(isinstance(part, s.Rows | s.RowOf) for part in group.rows.walk())
     if rows and group.rows_of and bag.has("EDGE", "HALF", "QUARTER", "SIDE"):
         advice = message("say 'trees 1 to 9 of row 3', or 'the trees of row 3 in the northern half of the orchard'")
         raise bag.fault(message("a row has no halves or edges"), advice)
@@ -231,7 +231,7 @@ def _following(bag: Bag, group: Group) -> Found | None:
 
 def is_spot(place: s.Selector) -> bool:
     """Whether a place is a spot of the ground: the tree nearest to a corner or a middle is the one there."""
-    return s.is_single(place) and isinstance(place, s.Corners | s.Middle | s.EdgeMiddle)
+    return place.single and isinstance(place, s.Corners | s.Middle | s.EdgeMiddle)
 
 
 def _ranked(bag: Bag, of: s.Selector, plural: bool, pick: Callable[[int, s.Selector], s.Selector]) -> Found:
@@ -365,7 +365,7 @@ def _every(bag: Bag, of: s.Selector, plural: bool, site: Site) -> Found:
 
 def _size(of: s.Selector, site: Site) -> int | None:
     """How many trees a selector names; None if only the robot can tell."""
-    if s.is_relative(of):
+    if of.relative:
         return None
     try:
         return len(resolve(of, site, Context(here=site.start)))

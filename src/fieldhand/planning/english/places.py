@@ -143,11 +143,11 @@ def _after(found: Found, before: Found | None, places: Places) -> Found:
     Raises:
         Unclear: Several places were named before.
     """
-    far_or_near = [part for part in s.walk(found.selector) if isinstance(part, s.Nearest | s.Farthest)]
-    of_it = [part for part in far_or_near if s.Here() in s.parts(part)]
+    far_or_near = [part for part in found.selector.walk() if isinstance(part, s.Nearest | s.Farthest)]
+    of_it = [part for part in far_or_near if s.Here() in part.inner]
     if before is None or not of_it:
         return found
-    if before.many or before.here or s.is_relative(before.selector):
+    if before.many or before.here or before.selector.relative:
         raise unclear(places.terms, message("it is not clear next to what"), message("say it in a sentence of its own"))
     return replace(found, selector=swapped(found.selector, s.Here(), before.selector))
 
@@ -379,7 +379,7 @@ def _describe(
             _among(bag, group, relation, behind, inner)
         case "NEXTTO" | "NEAR":
             group.anchor, group.beside = _single(behind, inner), kind == "NEXTTO"
-        case "WITHIN" | "BEYOND" if zone := s.zone_itself(behind.selector):
+        case "WITHIN" | "BEYOND" if zone := behind.selector.whole_zone:
             group.add(_near_zone(zone, relation), inner.phrase)
         case "WITHIN":
             group.within(relation.value, _single(behind, inner))
@@ -446,7 +446,7 @@ def _near_zone(zone: str, relation: Term) -> Found:
 
 
 def _single(found: Found, inner: _Part) -> s.Selector:
-    if found.many and not s.zone_itself(found.selector):
+    if found.many and not found.selector.whole_zone:
         advice = message("name one tree, corner, marker or zone")
         raise unclear(inner.phrase.terms, message("one place is needed to measure from"), advice)
     return found.selector

@@ -26,7 +26,7 @@ def as_many_as(steps: list[d.Step], found: Found) -> Found:
         return found
     last = next((s_ for s_ in reversed(steps) if selects(s_) is not None), None)
     before = None if last is None else selects(last)
-    if isinstance(before, s.Union) and any(isinstance(part, s.Here) for part in s.parts(before)):
+    if isinstance(before, s.Union) and any(isinstance(part, s.Here) for part in before.inner):
         # "Photograph it and the one beside it": the place was come to before.
         before = next((at for step in reversed(steps) if isinstance(at := selects(step), s.Take)), before)
     if not isinstance(before, s.Take):
@@ -61,7 +61,7 @@ def passage_in_area(steps: list[d.Step], area: s.Selector) -> d.Block:
         at = selects(steps[k])
         if at is None:
             continue
-        inside = {part for part in s.walk(at) if isinstance(part, kind)}
+        inside = {part for part in at.walk() if isinstance(part, kind)}
         if len(inside) != 1 or (known is not None and inside != known):
             break
         begin, known = k, inside
@@ -78,7 +78,7 @@ def in_area(passage: d.Block, area: s.Selector) -> bool:
         return False
     held = [step for step, _ in d.walk(passage) if isinstance(step, d.Go | d.Capture | d.Loop)]
     inside = {
-        part for step in held if (at := selects(step)) is not None for part in s.walk(at) if isinstance(part, kind)
+        part for step in held if (at := selects(step)) is not None for part in at.walk() if isinstance(part, kind)
     }
     if len(inside) != 1 or getattr(old := next(iter(inside)), "of", None) != s.Trees():
         return False
@@ -107,7 +107,7 @@ def without_place(passage: d.Block, part: Part) -> None:
             first.select = replace(select, near=s.Here())
         case d.Loop(select=s.Nearest() as select):
             first.select = replace(select, to=s.Here())
-        case d.Loop(select=s.Union() as select) if any(isinstance(part, s.Here) for part in s.parts(select)):
+        case d.Loop(select=s.Union() as select) if any(isinstance(part, s.Here) for part in select.inner):
             pass  # "it and the one beside it": of the new place now
         case d.Loop(body=body):
             passage.steps = [*body.steps, *passage.steps[1:]]

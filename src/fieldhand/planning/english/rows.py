@@ -64,7 +64,7 @@ def rows_meant(bag: Bag, group: Group, size: int | None, site: Site) -> Found:
     tested = filtered(bag, found.selector, site)
     bag.compared = [terms for terms in compared if terms[0].start < head.start]
     bag.finish()
-    if group.row_of is not None and not any(isinstance(part, s.RowOf) for part in s.walk(found.selector)):
+    if group.row_of is not None and not any(isinstance(part, s.RowOf) for part in found.selector.walk()):
         raise bag.fault(message("which row is meant is said in two ways"), _WHICH)
     found = replace(found, assumed=(*found.assumed, *group.assumed))
     kept = group.kept(tested)
@@ -349,7 +349,7 @@ def _in_one_block(bag: Bag, called: str, name: str, of: s.Selector, site: Site) 
     Raises:
         Question: It does not say.
     """
-    if any(isinstance(part, s.InBlock) for part in s.walk(of)):
+    if any(isinstance(part, s.InBlock) for part in of.walk()):
         return
     blocks = [
         block

@@ -101,7 +101,7 @@ def _is_elsewhere(step: d.Step | None) -> bool:
 
 
 def _is_near(place: s.Selector) -> bool:
-    return any(isinstance(part, s.Here | s.Take | s.Other | s.RowOf | s.Nearest) for part in s.walk(place))
+    return any(isinstance(part, s.Here | s.Take | s.Other | s.RowOf | s.Nearest) for part in place.walk())
 
 
 def _is_of_all(step: d.Step, after: d.Step | None) -> bool:

@@ -8,6 +8,7 @@ from typing import Any
 from fieldhand.language import message
 from fieldhand.language.words import SIDES
 from fieldhand.places import selectors as s
+from fieldhand.places.selector import FromGroup
 from fieldhand.planning.english.faults import unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.syntax import NounPhrase
@@ -131,12 +132,7 @@ def inside(outer: s.Selector, inner: s.Selector) -> s.Selector:
         return inner
     if isinstance(outer, s.Union):
         return s.Union(parts=tuple(inside(part, inner) for part in outer.parts))
-    of = getattr(outer, "of", None)
-    if of is None:
-        return outer
-    deeper: Any = inside(of, inner)
-    changed: s.Selector = replace(outer, of=deeper)
-    return changed
+    return outer.around(inside(outer.of, inner)) if isinstance(outer, FromGroup) else outer
 
 
 def both(first: s.Selector, second: s.Selector, phrase: NounPhrase) -> s.Selector:

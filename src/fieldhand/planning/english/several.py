@@ -144,14 +144,14 @@ def _places_of(loop: d.Loop, site: Site) -> list[s.Selector] | None:
     if loop.optional or loop.at_most is not None or loop.until is not None:
         return None
     match select:
-        case s.Union(parts=parts) if all(s.is_single(part) for part in parts):
+        case s.Union(parts=parts) if all(part.single for part in parts):
             return list(parts)
         case s.Corners(which=which) if len(which) > 1:
             return [replace(select, which=(corner,)) for corner in which]
         case s.Take(count=count, of=of):
             fresh = s.Other(of=of)
-            return [s.Take(count=1, of=of if k == 0 and s.is_relative(of) else fresh) for k in range(count)]
-    if s.is_relative(select):
+            return [s.Take(count=1, of=of if k == 0 and of.relative else fresh) for k in range(count)]
+    if select.relative:
         return None
     try:
         number = len(resolve(select, site, Context(here=site.start)))

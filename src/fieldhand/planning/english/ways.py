@@ -18,7 +18,7 @@ _UP_DOWN, _ACROSS = ("north", "south"), ("west", "east")
 
 def trees_named(selector: s.Selector, site: Site) -> set[str]:
     """The ids of what a phrase names; empty where only the robot can tell, or there is nothing."""
-    if s.is_relative(selector):
+    if selector.relative:
         return set()
     try:
         return {place.id for place in resolve(selector, site, Context(here=site.start))}

@@ -59,7 +59,7 @@ def _parts(node: Node) -> Iterator[Any]:
     """The node itself, and every part of its selector and its condition."""
     yield node
     selector, condition = plan.selector_of(node), plan.condition_of(node)
-    yield from selectors.walk(selector) if selector is not None else ()
+    yield from selector.walk() if selector is not None else ()
     yield from conditions.walk(condition) if condition is not None else ()
 
 

@@ -14,7 +14,8 @@ from functools import cache
 from typing import get_args
 
 from fieldhand.errors import ModelError
-from fieldhand.places.selectors import Selector
+from fieldhand.places.selector import Selector
+from fieldhand.places.selectors import SELECTORS
 from fieldhand.task import plan
 from fieldhand.task.codec_shapes import FAMILIES, Attribute, Child, Shape, all_shapes, element_name, shape_of
 from fieldhand.task.conditions import Condition
@@ -45,7 +46,7 @@ def describe_language() -> str:
     sections = (
         ("Nodes (N), what is done", get_args(Node)),
         ("Conditions (C), what an if or an until tests", get_args(Condition)),
-        ("Selectors (S), how places are named", get_args(Selector)),
+        ("Selectors (S), how places are named", SELECTORS),
         ("Constraints", (Constraints, Budget, FaultedExit)),
     )
     rendered = [
@@ -102,7 +103,7 @@ def _child(child: Child) -> str:
 
 def _unless_given(child: Child) -> str:
     """Return what stands for a selector that is left out, where that is not every tree, and which one it is."""
-    if child.name == "of" or child.default is MISSING or not isinstance(child.default, get_args(Selector)):
+    if child.name == "of" or child.default is MISSING or not isinstance(child.default, Selector):
         return ""
     name = f" = {child.name}" if child.direct else ""
     return f"{name} (<{element_name(type(child.default))}/>)"

@@ -14,7 +14,7 @@ from importlib import resources
 from typing import get_args
 from xml.sax.saxutils import escape
 
-from fieldhand.places.selectors import Selector
+from fieldhand.places.selectors import SELECTORS
 from fieldhand.planning.llm.chat import Message
 from fieldhand.planning.llm.examples import EXAMPLES
 from fieldhand.planning.llm.examples import ROBOT as EXAMPLE_ROBOT
@@ -103,7 +103,7 @@ def _elements_kept(escaped: str) -> str:
 
 @cache
 def _parts() -> frozenset[str]:
-    return frozenset(element_name(cls) for cls in (*get_args(Node), *get_args(Selector), *get_args(Condition)))
+    return frozenset(element_name(cls) for cls in (*get_args(Node), *SELECTORS, *get_args(Condition)))
 
 
 def fenced(name: str, lines: Iterable[str], most: int = MOST_DATA) -> str:

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, get_args
 
 from fieldhand.errors import PlaceError, TaskError
-from fieldhand.places import selectors
 from fieldhand.places.context import Context
-from fieldhand.places.selectors import Bound, InRow, RowOf, Selector
+from fieldhand.places.selector import Selector
+from fieldhand.places.selectors import Bound, InRow, RowOf
 from fieldhand.planning.foreseen import foreseeable
 from fieldhand.planning.llm.quotes import place_quotes
 from fieldhand.site.kinds import phrase
@@ -140,9 +140,9 @@ def _unresolved(selector: Selector, site: Site, where: str) -> Iterator[Problem]
 
 def _more_than_one(selector: Selector, site: Site, where: str) -> Iterator[Problem]:
     """An act or a drive goes to one place; several need a for-each, or a choice of one."""
-    if selectors.is_single(selector) or isinstance(selector, Bound) or _one_of_a_row(selector):
+    if selector.single or isinstance(selector, Bound) or _one_of_a_row(selector):
         return
-    if not selectors.is_relative(selector):
+    if not selector.relative:
         try:
             if len(_resolve(selector, site)) == 1:
                 return
@@ -156,7 +156,7 @@ def _more_than_one(selector: Selector, site: Site, where: str) -> Iterator[Probl
 def _one_of_a_row(selector: Selector) -> bool:
     """One tree by its number, of the row of one place."""
     of = selector.of if isinstance(selector, InRow) and selector.first == selector.last else None
-    return isinstance(of, RowOf) and selectors.is_single(of.origin)
+    return isinstance(of, RowOf) and of.origin.single
 
 
 def _resolve(selector: Selector, site: Site) -> tuple[Place, ...]:

@@ -10,7 +10,7 @@ from fieldhand.task.nodes.base import Meaning, PlanNode, SayPlace, Span
 from fieldhand.task.requests import Bind, Capture, Drive, Forget, Locate, Permit, Read
 
 if TYPE_CHECKING:
-    from fieldhand.places.selectors import Selector
+    from fieldhand.places.selector import Selector
     from fieldhand.task.requests import Place, Reading
     from fieldhand.task.run import Run
 

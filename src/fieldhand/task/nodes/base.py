@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol, Self, TypeAlias, TypeVar
 
 if TYPE_CHECKING:
-    from fieldhand.places.selectors import Selector
+    from fieldhand.places.selector import Selector
     from fieldhand.task.conditions import Condition
     from fieldhand.task.nodes.act import Act
     from fieldhand.task.nodes.stop import Stop

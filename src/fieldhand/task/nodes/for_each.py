@@ -6,12 +6,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
-from fieldhand.places.selectors import is_single
 from fieldhand.task.nodes.base import GivenUp, K, Meaning, Part, PlanNode, SayPlace, Span
 from fieldhand.task.requests import Begin, Bind, Decide, Drive, Next
 
 if TYPE_CHECKING:
-    from fieldhand.places.selectors import Selector
+    from fieldhand.places.selector import Selector
     from fieldhand.task.conditions import Condition
     from fieldhand.task.plan import Node
     from fieldhand.task.requests import Place
@@ -74,7 +73,7 @@ class ForEach(PlanNode):
 
     @property
     def parts(self) -> tuple[Part, ...]:
-        return (Part(node=self.body, times=1 if is_single(self.select) else None),)
+        return (Part(node=self.body, times=1 if self.select.single else None),)
 
     def with_children(self, children: Sequence[Node]) -> ForEach:
         (body,) = children

@@ -9,7 +9,7 @@ from fieldhand.task.nodes.base import Meaning, PlanNode, SayPlace, Span
 from fieldhand.task.requests import Bind, Drive, Locate, Permit
 
 if TYPE_CHECKING:
-    from fieldhand.places.selectors import Selector
+    from fieldhand.places.selector import Selector
     from fieldhand.task.requests import Place
     from fieldhand.task.run import Run
 

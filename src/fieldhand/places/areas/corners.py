@@ -1,0 +1,66 @@
+"""Corners of a group."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.language import message
+from fieldhand.language.words import CORNERS, listed
+from fieldhand.places.areas.area_words import sides_of_corners
+from fieldhand.places.faults import nothing
+from fieldhand.places.phrase import Phrase, many, one
+from fieldhand.places.selector import FromGroup, Selector
+from fieldhand.places.size import Range, exactly
+from fieldhand.places.sources.trees import Trees
+from fieldhand.terms import CornerName, Side
+
+if TYPE_CHECKING:
+    from fieldhand.places.resolution import Resolution
+    from fieldhand.places.saying import Saying
+    from fieldhand.places.spots import Spots
+    from fieldhand.places.tell import Tell
+    from fieldhand.site.model import Site
+
+
+@dataclass(frozen=True, kw_only=True)
+class Corners(FromGroup):
+    """The tree nearest to each named corner of the smallest-area enclosing rectangle of ``of``; all four by default."""
+
+    which: tuple[CornerName, ...] = ("nw", "ne", "se", "sw")
+    of: Selector = Trees()
+
+    @classmethod
+    def example(cls, site: Site) -> Corners:
+        return cls()
+
+    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+        from fieldhand.places.areas.extent import corners
+
+        if not self.which:
+            raise nothing(resolution.site, self, "it names no corner")
+        tell.rule = "corners are those of the smallest rectangle around the trees"
+        return corners(of, self.which, resolution.ground(self.of, of, picks_too=False))
+
+    def phrase(self, saying: Saying) -> Phrase:
+        group = saying.phrase(self.of)
+        of = "" if group.plain else message("of {trees}", trees=group.group())
+        if len(self.which) == 1:
+            corner = CORNERS[self.which[0]]
+            return one(message("the {north_west} corner tree {of_trees}", north_west=corner, of_trees=of))
+        if not self.which or set(self.which) == set(CORNERS):
+            return many(message("the 4 corner trees {of_trees}", of_trees=of))
+        named_corners = listed([CORNERS[name] for name in self.which])
+        return many(message("the {north_west} corner trees {of_trees}", north_west=named_corners, of_trees=of))
+
+    @property
+    def single(self) -> bool:
+        return len(self.which) == 1
+
+    @property
+    def size(self) -> Range:
+        return exactly(len(self.which)) if self.of == Trees() else super().size
+
+    @property
+    def sides(self) -> tuple[Side, ...]:
+        return sides_of_corners(self.which) if len(self.which) < 4 else ()

@@ -1,0 +1,51 @@
+"""The outermost line of a group's ground."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.language import message
+from fieldhand.language.words import SIDES
+from fieldhand.places.areas.area_words import in_area, of_ground
+from fieldhand.places.phrase import Phrase
+from fieldhand.places.selector import FromGroup, Selector
+from fieldhand.places.sources.trees import Trees
+from fieldhand.terms import Side
+
+if TYPE_CHECKING:
+    from fieldhand.places.resolution import Resolution
+    from fieldhand.places.saying import Saying
+    from fieldhand.places.spots import Spots
+    from fieldhand.places.tell import Tell
+    from fieldhand.site.model import Site
+
+
+@dataclass(frozen=True, kw_only=True)
+class Edge(FromGroup):
+    """Trees of ``of`` on the outermost line of one side of its ground: no tree stands right beyond them."""
+
+    side: Side
+    of: Selector = Trees()
+
+    ground_rule = "region"
+
+    @classmethod
+    def example(cls, site: Site) -> Edge:
+        return cls(side="west")
+
+    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+        from fieldhand.places.areas.extent import edge
+
+        tell.rule = "no tree beside them stands farther out"
+        return edge(of, self.side, resolution.ground(self.of, of))
+
+    def phrase(self, saying: Saying) -> Phrase:
+        of = of_ground(self.of, saying)
+        return in_area(
+            self.of, message("along the {northern} edge {of_trees}", northern=SIDES[self.side], of_trees=of), saying
+        )
+
+    @property
+    def sides(self) -> tuple[Side, ...]:
+        return (self.side,)

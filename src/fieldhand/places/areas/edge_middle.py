@@ -1,0 +1,59 @@
+"""The middle of an edge of a group."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.language import message
+from fieldhand.language.words import SIDES
+from fieldhand.places.areas.area_words import of_ground
+from fieldhand.places.phrase import Phrase
+from fieldhand.places.picked import picked
+from fieldhand.places.selector import Counted, Selector
+from fieldhand.places.sources.trees import Trees
+from fieldhand.terms import Side
+
+if TYPE_CHECKING:
+    from fieldhand.places.resolution import Resolution
+    from fieldhand.places.saying import Saying
+    from fieldhand.places.spots import Spots
+    from fieldhand.places.tell import Tell
+    from fieldhand.site.model import Site
+
+
+@dataclass(frozen=True, kw_only=True)
+class EdgeMiddle(Counted):
+    """The ``count`` trees on one edge of ``of`` that are nearest to the middle of that edge."""
+
+    side: Side
+    count: int = 1
+    of: Selector = Trees()
+
+    @classmethod
+    def example(cls, site: Site) -> EdgeMiddle:
+        return cls(side="east")
+
+    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+        from fieldhand.places.areas.extent import edge, from_edge_middle
+        from fieldhand.places.ranks import rank
+
+        ground = resolution.ground(self.of, of)
+        candidates = edge(of, self.side, ground)
+        tell.candidates = len(candidates)
+        self.need(candidates, resolution)
+        away = from_edge_middle(candidates, self.side, ground)
+        middle = message("the nearest to the middle of the {northern} edge", northern=SIDES[self.side])
+        return rank(candidates, away, self.count, tell, middle)
+
+    def phrase(self, saying: Saying) -> Phrase:
+        near = message(
+            "nearest to the middle of the {northern} edge {of_trees}",
+            northern=SIDES[self.side],
+            of_trees=of_ground(self.of, saying),
+        )
+        return picked(saying.phrase(self.of), self.count, near)
+
+    @property
+    def sides(self) -> tuple[Side, ...]:
+        return (self.side,)

@@ -1,0 +1,137 @@
+"""Halves, quarters, edges, extremes, corners and middles of a group of trees. North is true north."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.places.spots import Spots
+from fieldhand.places.tell import Tell
+from fieldhand.site.counting import OUTWARD
+from fieldhand.site.rectangle import named_corners, smallest_rectangle
+from fieldhand.terms import CornerName, Side
+
+if TYPE_CHECKING:
+    pass
+
+
+#: The rule of halves and quarters.
+EXTENT_RULE = "halves and quarters go by the middle lines of the extent along true north"
+
+_SIDE: dict[str, Side] = {"n": "north", "e": "east", "s": "south", "w": "west"}
+
+#: A tree that stands on a middle line to within a centimetre belongs to both sides.
+_ON_THE_LINE_M = 0.01
+
+#: Trees hide each other from an edge if they stand less than this part of a spacing apart along it: more than half, so
+#: that staggered rows hide each other, and less than the 0.71 at which neighbours along an edge at 45 degrees stand.
+_CORRIDOR = 0.7
+
+
+@dataclass(frozen=True)
+class Extent:
+    """Bounding box along true north, in metres."""
+
+    west: float
+    south: float
+    east: float
+    north: float
+
+    @staticmethod
+    def around(ground: Spots) -> Extent:
+        """Of these places."""
+        west, south = ground.xy.min(axis=0).tolist()
+        east, north = ground.xy.max(axis=0).tolist()
+        return Extent(west, south, east, north)
+
+    @property
+    def centre(self) -> NDArray[np.float64]:
+        """Its middle."""
+        return np.array([(self.west + self.east) / 2, (self.south + self.north) / 2])
+
+
+def outward(xy: NDArray[np.float64], side: Side) -> NDArray[np.float64]:
+    """How far each point lies towards a side, in metres; only differences mean something."""
+    return np.asarray(xy @ np.array(OUTWARD[side]))
+
+
+def half(spots: Spots, side: Side, ground: Spots) -> Spots:
+    """On that side of the middle line of the ground's extent, or on the line."""
+    middle = outward(Extent.around(ground).centre[None, :], side)[0]
+    return spots.keep(outward(spots.xy, side) >= middle - _ON_THE_LINE_M)
+
+
+def quarter(spots: Spots, name: CornerName, ground: Spots) -> Spots:
+    """In both of the halves that name the quarter."""
+    return half(half(spots, _SIDE[name[0]], ground), _SIDE[name[1]], ground)
+
+
+def among_extreme(spots: Spots, side: Side, tell: Tell) -> Spots:
+    """Less than one row spacing from the farthest to that side. (A row exactly one spacing behind is the next row.)"""
+    reach = outward(spots.xy, side)
+    if len(spots) < 2:
+        return spots
+    spacing = _row_spacing_m(spots, int(reach.argmax()))
+    tell.rule = f"less than {spacing:.1f} m, one row spacing, from the {side}ernmost"
+    return spots.keep(reach > reach.max() - spacing + _ON_THE_LINE_M)
+
+
+def edge(spots: Spots, side: Side, ground: Spots) -> Spots:
+    """Those that no tree of the ground hides from that side: none stands farther out within 0.7 spacings to the left
+    or right. It follows the outline of a farm that is turned against the compass."""
+    along = outward(ground.xy, "east" if side in ("north", "south") else "north")
+    reach = outward(ground.xy, side)
+    order = np.argsort(along, kind="stable")
+    corridor = _CORRIDOR * spots.site.spacing_m
+    mine = outward(spots.xy, "east" if side in ("north", "south") else "north")
+    low = np.searchsorted(along[order], mine - corridor, side="left")
+    high = np.searchsorted(along[order], mine + corridor, side="right")
+    farthest = _range_maximum(reach[order], low, high)
+    return spots.keep(outward(spots.xy, side) >= farthest - _ON_THE_LINE_M)
+
+
+def from_edge_middle(spots: Spots, side: Side, ground: Spots) -> NDArray[np.float64]:
+    """Metres from the middle of that side of the smallest-area rectangle around the ground."""
+    at = named_corners(smallest_rectangle(ground.xy))
+    ends = [point for name, point in at.items() if _SIDE[name[0]] == side or _SIDE[name[1]] == side]
+    return np.asarray(np.hypot(*(spots.xy - (ends[0] + ends[1]) / 2).T))
+
+
+def from_centre(spots: Spots, ground: Spots) -> NDArray[np.float64]:
+    """Metres from the centre of the ground's extent."""
+    return np.asarray(np.hypot(*(spots.xy - Extent.around(ground).centre).T))
+
+
+def corners(spots: Spots, which: Iterable[CornerName], ground: Spots) -> Spots:
+    """For each name the place nearest to that corner of the smallest-area rectangle around the ground."""
+    at = named_corners(smallest_rectangle(ground.xy))
+    found = [int(spots.ranked(np.hypot(*(spots.xy - at[name]).T), 1).index[0]) for name in which]
+    return Spots(site=spots.site, index=np.array(list(dict.fromkeys(found)), dtype=np.intp), others=spots.others)
+
+
+def _row_spacing_m(spots: Spots, at: int) -> float:
+    """From row to row where that place stands; the spacing of the trees where it stands in no row or in a lone one."""
+    row = int(spots.row[at])
+    planting = spots.site.planting
+    spacing = planting.blocks[planting.rows[row].block].row_spacing_m if row >= 0 else float("nan")
+    return spacing if np.isfinite(spacing) else spots.site.spacing_m
+
+
+def _range_maximum(values: NDArray[np.float64], low: NDArray[np.intp], high: NDArray[np.intp]) -> NDArray[np.float64]:
+    """Maximum of ``values[low:high]`` for each pair, -inf for an empty one, by a sparse table."""
+    table = [values]
+    width = 1
+    while 2 * width <= len(values):
+        previous = table[-1]
+        table.append(np.maximum(previous[:-width], previous[width:]))
+        width *= 2
+    out = np.full(len(low), -np.inf)
+    length = high - low
+    for level, row in enumerate(table):
+        here = (length >= 1 << level) & (length < 2 << level)
+        out[here] = np.maximum(row[low[here]], row[high[here] - (1 << level)])
+    return out

@@ -1,0 +1,167 @@
+"""Trees by what the file says of them. A tree that lacks an attribute passes no test of it and has no rank in it."""
+
+from __future__ import annotations
+
+import math
+import operator
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.language import counted
+from fieldhand.places.faults import no_such_attribute, no_such_value, no_such_value_here, not_a_number, not_comparable
+from fieldhand.places.spots import Spots
+from fieldhand.places.tell import Tell
+from fieldhand.site.kinds import phrase
+from fieldhand.site.model import Site
+from fieldhand.terms import Test, Value
+
+if TYPE_CHECKING:
+    from fieldhand.places.filters.where import Where
+
+
+_COMPARE: Mapping[Test, Callable[[Any, Any], Any]] = {
+    "lt": operator.lt,
+    "le": operator.le,
+    "gt": operator.gt,
+    "ge": operator.ge,
+    "eq": operator.eq,
+    "ne": operator.ne,
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Column:
+    """One attribute of every tree.
+
+    Attributes:
+        numbers: Its value where it is a number (or text that is one), else NaN.
+        codes: Position of its value's text in ``texts``, -1 where the tree lacks the attribute.
+        texts: The distinct values as text, lower case; one that stands for all where every value is a number.
+    """
+
+    numbers: NDArray[np.float64]
+    codes: NDArray[np.intp]
+    texts: tuple[str, ...]
+
+
+def where(spots: Spots, selector: Where, tell: Tell) -> Spots:
+    """Those whose attribute passes the test: as numbers if both sides are numbers, else as text without case."""
+    column = column_of(spots.site, selector.attribute)
+    mine = column_rows(column, spots)
+    wanted = _number(selector.value)
+    numeric = ~np.isnan(mine.numbers)
+    passed = np.zeros(len(spots), dtype=bool)
+    if not math.isnan(wanted):
+        passed |= numeric & _COMPARE[selector.test](mine.numbers, wanted)
+    if selector.test in ("eq", "ne"):
+        text = _text(selector.value)
+        same = [k for k, known in enumerate(column.texts) if known == text]
+        equal = np.isin(mine.codes, same)
+        as_text = (mine.codes >= 0) & (~numeric | math.isnan(wanted))
+        passed |= as_text & (equal if selector.test == "eq" else ~equal)
+        if selector.test == "eq" and not same and not (column.numbers == wanted).any():
+            raise no_such_value(spots.site, selector)
+    elif math.isnan(wanted):
+        raise not_comparable(selector)
+    elif np.isnan(column.numbers).all():
+        raise not_a_number(selector.attribute)
+    if not passed.any() and selector.test == "eq":
+        raise no_such_value_here(spots.site, selector, _values(spots, selector.attribute))
+    tell_lacking(int((mine.codes < 0).sum()), selector.attribute, tell)
+    return spots.keep(passed)
+
+
+def _values(spots: Spots, attribute: str) -> tuple[Value, ...]:
+    """Return the values that an attribute has among these places, each once."""
+    trees = [spots.site.trees[k] for k in spots.index[spots.is_tree].tolist()]
+    kept = (tree.properties[name] for tree in trees for name in tree.properties if phrase(name) == phrase(attribute))
+    return tuple(dict.fromkeys(kept))
+
+
+def tell_lacking(count: int, attribute: str, tell: Tell) -> None:
+    """Say how many could not be judged since the file says nothing of them."""
+    if count:
+        tell.note(
+            counted(
+                "{count} has no {attribute} and is left out",
+                "{count} have no {attribute} and are left out",
+                count,
+                attribute=attribute,
+            )
+        )
+
+
+def with_number(spots: Spots, attribute: str) -> tuple[Spots, NDArray[np.float64]]:
+    """Return all that have a number as an attribute, and their numbers."""
+    column = column_of(spots.site, attribute)
+    if np.isnan(column.numbers).all():
+        raise not_a_number(attribute)
+    numbers = column_rows(column, spots).numbers
+    known = ~np.isnan(numbers)
+    return spots.keep(known), numbers[known]
+
+
+def column_rows(column: Column, spots: Spots) -> Column:
+    """The column for these places; what is no tree lacks every attribute."""
+    tree = spots.is_tree
+    return Column(
+        numbers=np.where(tree, column.numbers[spots.index * tree], np.nan),
+        codes=np.where(tree, column.codes[spots.index * tree], -1),
+        texts=column.texts,
+    )
+
+
+def column_of(site: Site, attribute: str) -> Column:
+    """The attribute of this name, else the only one whose name differs in case, hyphens and underscores alone.
+
+    It is read from the trees when it is first asked for, and kept with the site.
+    """
+    name = attribute
+    if not any(name in tree.properties for tree in site.trees):
+        alike = [known for known in site.attributes if phrase(known) == phrase(attribute)]
+        if len(alike) != 1:
+            raise no_such_attribute(site, attribute)
+        name = alike[0]
+    key = ("attribute", name)
+    if key not in site.memory:
+        site.memory[key] = _column(site, name)
+    return cast(Column, site.memory[key])
+
+
+def _column(site: Site, name: str) -> Column:
+    values = [tree.properties.get(name) for tree in site.trees]
+    if all(type(value) is float for value in values):  # the usual case, and the quick one
+        numbers = np.array(values, dtype=np.float64)
+        return Column(np.where(np.isfinite(numbers), numbers, np.nan), np.zeros(len(values), dtype=np.intp), ("\0",))
+    kinds = [(type(value), value) for value in values]  # 1.0 and True are one key, and two values
+    distinct = list(dict.fromkeys(kinds))
+    texts: dict[str, int] = {}
+    code = {kind: -1 if kind[1] is None else texts.setdefault(_text(kind[1]), len(texts)) for kind in distinct}
+    number = {kind: math.nan if kind[1] is None else _number(kind[1]) for kind in distinct}
+    return Column(
+        np.fromiter(map(number.__getitem__, kinds), dtype=np.float64, count=len(kinds)),
+        np.fromiter(map(code.__getitem__, kinds), dtype=np.intp, count=len(kinds)),
+        tuple(texts),
+    )
+
+
+def _number(value: Value) -> float:
+    """The number that a value is or that its text spells; NaN for anything else."""
+    if isinstance(value, bool):
+        return math.nan
+    try:
+        number = float(value)
+    except ValueError:
+        return math.nan
+    return number if math.isfinite(number) else math.nan
+
+
+def _text(value: Value) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    text = str(value).strip().casefold()
+    return {"true": "yes", "false": "no"}.get(text, text)

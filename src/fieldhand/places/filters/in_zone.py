@@ -1,0 +1,83 @@
+"""Trees inside or outside a zone."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.errors import PlaceError
+from fieldhand.language import Number, message
+from fieldhand.language.words import say_number, say_zone
+from fieldhand.places.faults import no_such_zone
+from fieldhand.places.phrase import Phrase
+from fieldhand.places.selector import FromGroup, Selector
+from fieldhand.places.size import Range, at_most
+from fieldhand.places.sources.trees import Trees
+from fieldhand.site.names import short
+
+if TYPE_CHECKING:
+    from fieldhand.places.resolution import Resolution
+    from fieldhand.places.saying import Saying
+    from fieldhand.places.spots import Spots
+    from fieldhand.places.tell import Tell
+    from fieldhand.site.model import Site
+
+
+@dataclass(frozen=True, kw_only=True)
+class InZone(FromGroup):
+    """Trees inside a named zone of the site or at most ``margin_m`` metres from it, or all others (``outside``)."""
+
+    zone: str
+    outside: bool = False
+    margin_m: float = 0.0
+    of: Selector = Trees()
+
+    ground_rule = "region"
+
+    @classmethod
+    def example(cls, site: Site) -> InZone:
+        return cls(zone=next((zone.name for zone in site.zones if zone.kind == "zone"), ""))
+
+    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+        """Return the trees by the zones of that name; where there are none, by the block of that name."""
+        from fieldhand.places.filters.zones import in_block, in_zones
+
+        site, zone = resolution.site, self.zone
+        if not (math.isfinite(self.margin_m) and self.margin_m >= 0):
+            raise PlaceError(
+                message("no tree is {metres} m from a zone", metres=Number(f"{self.margin_m:g}")),
+                advice=message("give a margin of 0 m or more"),
+            )
+        inside = in_zones(of, zone, self.margin_m)
+        if inside is None:
+            inside = in_block(of, zone)
+            if inside is None:
+                raise no_such_zone(site, zone)
+            if self.margin_m:
+                raise PlaceError(
+                    message("distances are not measured from the block '{zone}'", zone=short(zone)),
+                    where=site.name,
+                    advice=message("name a zone, a tree or a marker to measure from"),
+                )
+            tell.rule = "that is a block of the site"
+        return of.without(inside) if self.outside else inside
+
+    def phrase(self, saying: Saying) -> Phrase:
+        base, zone = saying.phrase(self.of), say_zone(self.zone)
+        if self.margin_m:
+            near = {"distance": say_number(self.margin_m), "place": zone}
+            if self.outside:
+                return base.keeping(after=message("more than {distance} m from {place}", **near))
+            return base.keeping(after=message("within {distance} m of {place}", **near))
+        if self.outside:
+            return base.keeping(after=message("outside {zone}", zone=zone))
+        return base.keeping(after=message("inside {zone}", zone=zone))
+
+    @property
+    def size(self) -> Range:
+        return at_most(self.of.size)
+
+    @property
+    def whole_zone(self) -> str:
+        return self.zone if self == InZone(zone=self.zone) else ""

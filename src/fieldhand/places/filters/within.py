@@ -1,0 +1,62 @@
+"""Trees at most so far from places."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.errors import PlaceError
+from fieldhand.language import Number, message
+from fieldhand.language.words import say_number
+from fieldhand.places.phrase import Phrase
+from fieldhand.places.selector import FromGroup, Selector
+from fieldhand.places.size import Range, at_most
+from fieldhand.places.sources.here import Here
+from fieldhand.places.sources.trees import Trees
+
+if TYPE_CHECKING:
+    from fieldhand.places.resolution import Resolution
+    from fieldhand.places.saying import Saying
+    from fieldhand.places.spots import Spots
+    from fieldhand.places.tell import Tell
+    from fieldhand.site.model import Site
+
+
+@dataclass(frozen=True, kw_only=True)
+class Within(FromGroup):
+    """Trees at most ``distance_m`` metres from ``to``, which itself does not count."""
+
+    distance_m: float
+    to: Selector
+    of: Selector = Trees()
+
+    ground_rule = "region"
+
+    @classmethod
+    def example(cls, site: Site) -> Within:
+        return cls(distance_m=20.0, to=Here())
+
+    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+        from fieldhand.places.neighbours.distances import apart_from, within
+
+        if not (math.isfinite(self.distance_m) and self.distance_m > 0):
+            raise PlaceError(
+                message("a distance of {distance} m holds no tree", distance=Number(f"{self.distance_m:g}")),
+                advice=message("ask for more than 0 m"),
+            )
+        to = resolution.origin(self.to)
+        return within(apart_from(of, to), to, self.distance_m)
+
+    def phrase(self, saying: Saying) -> Phrase:
+        distance, place = say_number(self.distance_m), self.to.as_origin(saying)
+        near = message("within {distance} m of {place}", distance=distance, place=place)
+        return saying.phrase(self.of).keeping(after=near)
+
+    @property
+    def size(self) -> Range:
+        return at_most(self.of.size)
+
+    @property
+    def measured_from(self) -> Selector:
+        return self.to

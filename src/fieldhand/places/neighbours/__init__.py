@@ -1,0 +1,1 @@
+"""Selectors by distance from places."""

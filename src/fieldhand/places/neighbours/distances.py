@@ -1,0 +1,218 @@
+"""Near and far: nearest, next to, farthest, within, neighbour after neighbour, and the few that make a short drive."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+from shapely.geometry.base import BaseGeometry
+
+from fieldhand.places.spots import Spots
+from fieldhand.site.model import Site
+from fieldhand.terms import Side
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Ground:
+    """The ground of a zone, from whose outline distances are measured; no tree inside is near to it or far from it."""
+
+    site: Site
+    area: BaseGeometry
+
+
+#: Distances are measured from the nearest of some places, or from the ground of a zone.
+Origin = Spots | Ground
+
+#: "Next to" prefers the same row among those at most this much farther than the nearest one.
+_BAND = 1.5
+
+#: Two trees closer than this are one tree that the file holds twice.
+_SAME_SPOT_M = 0.01
+
+#: Neighbour after neighbour is looked for among this many around the first, before all others are looked at.
+_AROUND = 1_000
+
+#: Distances nearer to each other than this are a tie.
+_TIE_M = 2e-4
+
+#: Straight on is within this angle of the line so far (30 degrees).
+_STRAIGHT_COS = 0.87
+
+
+def distance_to(spots: Spots, origin: Origin) -> Floats:
+    """Metres from each place to the nearest of ``origin``, straight; 0 inside a zone."""
+    if isinstance(origin, Ground):
+        return np.asarray(shapely.distance(origin.area, shapely.points(spots.xy)))
+    if len(origin) == 1:
+        return np.asarray(np.hypot(*(spots.xy - origin.xy[0]).T))
+    return np.asarray(_index(origin).query(spots.xy)[0])
+
+
+def nearest_of(origin: Origin, spots: Spots) -> Floats:
+    """Return for each place the point of ``origin`` that is nearest to it, in metres east and north, shape (n, 2)."""
+    if isinstance(origin, Ground):
+        lines = shapely.shortest_line(origin.area, shapely.points(spots.xy))
+        return np.asarray(shapely.get_coordinates(lines)[::2])
+    return np.asarray(origin.xy[np.atleast_1d(_index(origin).query(spots.xy)[1])])
+
+
+def apart_from(spots: Spots, origin: Origin) -> Spots:
+    """Those neither among nor inside ``origin``, nor the same tree entered twice in the file (within a centimetre)."""
+    if isinstance(origin, Ground):
+        return spots.keep(distance_to(spots, origin) > 0)
+    left = spots.without(origin)
+    if not len(left):
+        return left
+    if len(origin) == 1:
+        return left.keep(distance_to(left, origin) > _SAME_SPOT_M)
+    return left.keep(_index(origin).query(left.xy, distance_upper_bound=_SAME_SPOT_M)[0] > _SAME_SPOT_M)
+
+
+def next_to(spots: Spots, to: Origin, count: int) -> Spots:
+    """The nearest, but of those at most half as far again as the nearest one the same row comes first."""
+    away = distance_to(spots, to)
+    rows = to.row[to.row >= 0] if isinstance(to, Spots) else ()
+    other_row = ~np.isin(spots.row, rows) if len(rows) else np.zeros(len(spots), dtype=bool)
+    tier = np.where(away <= _BAND * away.min() + 1e-9, other_row, 2)
+    order = np.lexsort((spots.file_order, np.round(away, 4), tier))
+    return spots.keep(order[:count])
+
+
+def on_side(spots: Spots, to: Origin, side: Side, *, next_to: bool) -> Spots:
+    """Return those in the quarter of the compass around a side, seen from ``to``; the nearest of several counts.
+
+    Args:
+        next_to: Also keep only neighbours: those no farther away than half as far again as the rows or the trees along
+            them stand apart there.
+    """
+    if not len(spots):
+        return spots
+    step = spots.xy - nearest_of(to, spots)
+    outward = {"north": step[:, 1], "east": step[:, 0], "south": -step[:, 1], "west": -step[:, 0]}[side]
+    sideways = np.abs(step[:, 0] if side in ("north", "south") else step[:, 1])
+    kept = (outward > 0) & (sideways <= outward)
+    if next_to and isinstance(to, Ground):
+        kept &= np.hypot(*step.T) <= _BAND * to.site.spacing_m + 1e-9
+    elif next_to and isinstance(to, Spots):
+        reach = np.array([_BAND * _apart_at(to, k) for k in range(len(to))])
+        kept &= np.hypot(*step.T) <= reach[np.atleast_1d(_index(to).query(spots.xy)[1])] + 1e-9
+    return spots.keep(kept)
+
+
+def _apart_at(to: Spots, k: int) -> float:
+    """Return how far apart neighbours stand at a place: rows and the trees along them, whichever is more."""
+    site = to.site
+    planting = site.planting
+    tree = int(to.index[k])
+    row = int(planting.row_of[tree]) if tree >= 0 and planting.blocks else -1
+    if row < 0:
+        return float(site.spacing_m)
+    block = planting.blocks[planting.rows[row].block]
+    return max(block.tree_spacing_m, 0.0 if np.isnan(block.row_spacing_m) else block.row_spacing_m)
+
+
+def within(spots: Spots, to: Origin, distance_m: float) -> Spots:
+    """At most that far, straight."""
+    if not len(spots) or isinstance(to, Ground) or len(to) == 1:
+        return spots.keep(distance_to(spots, to) <= distance_m) if len(spots) else spots
+    reach = distance_m + 1e-9  # the bound itself is left out
+    return spots.keep(_index(to).query(spots.xy, distance_upper_bound=reach)[0] <= distance_m)
+
+
+def side_by_side(spots: Spots, near: Origin, count: int) -> Spots:
+    """``count`` next to each other (fewer if there are not as many), beginning with the nearest to ``near``.
+
+    Each next one is a neighbour of the last: of those at most half as far again as its nearest the same row comes
+    first, then what lies straight on, then the nearest. Where the last one has no neighbour left, the line goes on
+    from whichever taken one has the nearest.
+    """
+    itself = np.isin(spots.index, near.index) if isinstance(near, Spots) else np.zeros(len(spots), dtype=bool)
+    seed = spots.ranked(np.where(itself, -1.0, distance_to(spots, near)), 1).index[0]
+    from_seed = np.hypot(*(spots.xy - spots.xy[np.flatnonzero(spots.index == seed)[0]]).T)
+    around = max(_AROUND, 4 * count**2)
+    if around < len(spots):  # look at those around first, and at all only where these do not decide it
+        radius = float(np.partition(from_seed, around)[around])
+        inside = np.flatnonzero(from_seed <= radius)
+        taken = _chain(spots.keep(inside), int(seed), count, radius)
+        if taken is not None:
+            return spots.keep(inside[taken])
+    taken = _chain(spots, int(seed), count, np.inf)
+    return spots.keep(taken if taken is not None else [])
+
+
+def _chain(spots: Spots, seed: int, count: int, radius: float) -> list[int] | None:
+    """Positions of neighbour after neighbour; None where one beyond the radius from the seed might come before them."""
+    taken = [int(np.flatnonzero(spots.index == seed)[0])]
+    to_any = from_seed = np.hypot(*(spots.xy - spots.xy[taken[0]]).T)
+    free = to_any > _SAME_SPOT_M
+    row = spots.row
+    while len(taken) < count and free.any():
+        to_last = np.hypot(*(spots.xy - spots.xy[taken[-1]]).T)
+        to_any = np.minimum(to_any, to_last)
+        closest_any, closest_last = to_any[free].min(), to_last[free].min()
+        away = to_last if closest_last <= _BAND * max(closest_any, spots.site.spacing_m) else to_any
+        reach = _BAND * away[free].min() + 1e-9
+        if from_seed[taken].max() + max(reach, closest_last) > radius:
+            return None
+        band = np.flatnonzero(free & (away <= reach))
+        other_row = row[band] != row[taken[0]]
+        order = np.lexsort((band, np.round(away[band], 4), ~_straight_on(spots.xy, taken, band), other_row))
+        taken.append(int(band[order[0]]))
+        free &= np.hypot(*(spots.xy - spots.xy[taken[-1]]).T) > _SAME_SPOT_M
+    return taken if len(taken) == count or np.isinf(radius) else None
+
+
+def short_drive(spots: Spots, here: tuple[float, float], count: int) -> Spots:
+    """``count`` of them, one after another the nearest to the last, from here on."""
+    xy, order = spots.xy, spots.file_order
+    left = np.arange(len(spots))
+    index = _index(spots)
+    gone = np.zeros(len(spots), dtype=bool)
+    taken: list[int] = []
+    at = np.array(here)
+    while len(taken) < count:
+        if gone[left].sum() > max(32, len(left) // 2):  # else searches wade through those that are gone
+            left = left[~gone[left]]
+            index = cKDTree(xy[left], balanced_tree=False, compact_nodes=False)
+        found = _nearest_left(index, left, gone, at)
+        away = np.round(np.hypot(*(xy[found] - at).T), 4)
+        best = int(found[np.lexsort((order[found], away))[0]])
+        taken.append(best)
+        gone[best] = True
+        at = xy[best]
+    return spots.keep(taken)
+
+
+def _nearest_left(
+    index: cKDTree, left: NDArray[np.intp], gone: NDArray[np.bool_], at: NDArray[np.float64]
+) -> NDArray[np.intp]:
+    """Those not gone that are nearest to a point: at least the nearest and all that tie with it."""
+    k = 8
+    while True:
+        k = min(k, len(left))
+        away, which = (np.atleast_1d(a) for a in index.query(at, k=k))
+        found = ~gone[left[which]]
+        if found.any() and (k == len(left) or away[found][0] < away[-1] - _TIE_M):
+            return np.asarray(left[which[found]])
+        k *= 4
+
+
+def _straight_on(xy: NDArray[np.float64], taken: list[int], band: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Which candidates continue the line of the trees taken so far; all of them while there is no line yet."""
+    if len(taken) < 2:
+        return np.ones(len(band), dtype=bool)
+    line = xy[taken[-1]] - xy[taken[0]]
+    step = xy[band] - xy[taken[-1]]
+    lengths = np.hypot(*line) * np.hypot(*step.T)
+    return np.asarray(step @ line >= _STRAIGHT_COS * lengths)
+
+
+def _index(spots: Spots) -> Any:
+    """The places, to ask for the nearest; quickly made, since it is asked once."""
+    return cKDTree(spots.xy, balanced_tree=False, compact_nodes=False)

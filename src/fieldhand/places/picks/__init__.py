@@ -1,0 +1,1 @@
+"""Selectors that order, count and draw."""

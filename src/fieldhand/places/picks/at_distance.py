@@ -1,0 +1,100 @@
+"""Trees at a distance from each other. They stand where they stand: those that fit best are looked for."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import dist
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from fieldhand.errors import PlaceError
+from fieldhand.language import Number, message
+from fieldhand.language.words import say_number, say_rounded
+from fieldhand.places.spots import Spots
+from fieldhand.places.tell import Tell
+from fieldhand.site.counting import row_words
+
+if TYPE_CHECKING:
+    from fieldhand.places.picks.apart import Apart
+
+
+#: A tree whose distance differs by more than this share of what was asked for is not "so far apart".
+TOLERANCE = 0.25
+#: So many trees are tried as the first.
+_MOST_TRIES = 200
+
+
+def at_distance(of: Spots, selector: Apart, tell: Tell) -> Spots:
+    """The first trees that fit, each tried in turn to begin with; from there each time the one that fits best.
+
+    Raises:
+        PlaceError: There are no such trees.
+    """
+    metres, count = selector.apart_m, selector.count
+    if not (np.isfinite(metres) and metres > 0):
+        raise PlaceError(
+            message("trees {metres} m apart are no trees", metres=Number(f"{metres:g}")),
+            advice=message("ask for more than 0 m"),
+        )
+    chosen = _chosen(of, count, metres, selector.least) if count >= 1 else []
+    if not chosen:
+        wanted: dict[str, str | int] = {"count": count, "metres": say_number(metres)}
+        none = (
+            message("there are no {count} trees at least {metres} m from each other", context="", **wanted)
+            if selector.least
+            else message("there are no {count} trees about {metres} m from each other", context="", **wanted)
+        )
+        raise PlaceError(
+            _none_among(none, of),
+            where=of.site.name,
+            advice=message("ask for fewer, or for a smaller distance"),
+        )
+    found = of.keep(chosen)
+    if count > 1:
+        legs = [dist(a.xy, b.xy) for a, b in pairwise(found.places)]
+        near, far = say_rounded(min(legs), 1), say_rounded(max(legs), 1)
+        alike = message("trees stand where they stand: these are {metres} m apart", metres=near)
+        differ = message("trees stand where they stand: these are {near} to {far} m apart", near=near, far=far)
+        tell.note(alike if near == far else differ)
+    return found
+
+
+def _none_among(none: str, of: Spots) -> str:
+    """Say in which row they were looked for and how long it is, or over how much ground."""
+    rows = np.unique(of.row).tolist()
+    if len(rows) == 1 and rows[0] >= 0:
+        row = row_words(of.site, of.site.planting.rows[rows[0]])
+        if len(of) == 1:
+            return message("{what} in {row}: it has 1 tree", what=none, row=row)
+        length = say_rounded(float(np.hypot(*np.ptp(of.xy, axis=0))))
+        return message(
+            "{what} in {row}: it has {count} trees over {metres} m", what=none, row=row, count=len(of), metres=length
+        )
+    east, north = (say_rounded(float(metres)) for metres in np.ptp(of.xy, axis=0))
+    return message(
+        "{what} among {count} trees over {east} m east-west and {north} m north-south",
+        what=none,
+        count=len(of),
+        east=east,
+        north=north,
+    )
+
+
+def _chosen(of: Spots, count: int, metres: float, least: bool) -> list[int]:
+    xy = of.xy
+    nearest = metres if least else metres * (1 - TOLERANCE)
+    for first in range(0, len(xy), max(1, len(xy) // _MOST_TRIES)):
+        chosen = [first]
+        free = np.ones(len(xy), dtype=bool)
+        while len(chosen) < count:
+            away = np.hypot(*(xy - xy[chosen[-1]]).T)
+            free &= away >= nearest
+            off = np.where(free, np.abs(away - metres), np.inf)
+            best = int(off.argmin())
+            if not free[best] or (not least and off[best] > metres * TOLERANCE):
+                break
+            chosen.append(best)
+        if len(chosen) == count:
+            return chosen
+    return []

@@ -1,0 +1,45 @@
+"""The tree at the end."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.language import message
+from fieldhand.places.phrase import Phrase, one
+from fieldhand.places.selector import FromGroup, Selector
+from fieldhand.places.sources.trees import Trees
+
+if TYPE_CHECKING:
+    from fieldhand.places.resolution import Resolution
+    from fieldhand.places.saying import Saying
+    from fieldhand.places.spots import Spots
+    from fieldhand.places.tell import Tell
+    from fieldhand.site.model import Site
+
+
+@dataclass(frozen=True, kw_only=True)
+class Last(FromGroup):
+    """The tree nearest to the end marker; the last of the file without one."""
+
+    of: Selector = Trees()
+
+    @classmethod
+    def example(cls, site: Site) -> Last:
+        return cls()
+
+    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+        from fieldhand.places.ranks import nearest_to_marker
+
+        found = nearest_to_marker(of, "end", tell)
+        return of.keep([int(of.file_order.argmax())]) if found is None else found
+
+    def phrase(self, saying: Saying) -> Phrase:
+        group = saying.phrase(self.of)
+        if group.plain:
+            return one(message("the last tree"))
+        return one(message("the last of {trees}", trees=group.group()))
+
+    @property
+    def single(self) -> bool:
+        return True

@@ -1,0 +1,137 @@
+"""Places in an order that is to be kept."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal
+
+from fieldhand.language import joined, message
+from fieldhand.places.filters.attribute_words import say_attribute
+from fieldhand.places.ordinals import say_ordinal
+from fieldhand.places.phrase import Phrase, one
+from fieldhand.places.picked import foremost, superlative
+from fieldhand.places.selector import DependsOn, FromGroup, Selector
+from fieldhand.places.size import Range
+from fieldhand.places.sources.trees import Trees
+
+if TYPE_CHECKING:
+    from fieldhand.places.resolution import Resolution
+    from fieldhand.places.saying import Saying
+    from fieldhand.places.spots import Spots
+    from fieldhand.places.tell import Tell
+    from fieldhand.site.model import Site
+
+Order = Literal[
+    "west_to_east",
+    "east_to_west",
+    "north_to_south",
+    "south_to_north",
+    "nearest_first",
+    "farthest_first",
+    "rows",
+    "attribute",
+]
+#: What the first is called in an order.
+_FOREMOST: Mapping[Order, str] = {
+    "west_to_east": "westernmost",
+    "east_to_west": "easternmost",
+    "north_to_south": "northernmost",
+    "south_to_north": "southernmost",
+    "nearest_first": "nearest",
+    "farthest_first": "farthest",
+}
+_ORDERS: Mapping[Order, str] = {
+    "west_to_east": message("from west to east"),
+    "east_to_west": message("from east to west"),
+    "north_to_south": message("from north to south"),
+    "south_to_north": message("from south to north"),
+    "nearest_first": message("the nearest first"),
+    "farthest_first": message("the farthest first"),
+    "rows": message("row by row"),
+}
+_BACKWARDS: Mapping[Order, str] = {
+    "west_to_east": message("from east to west"),
+    "east_to_west": message("from west to east"),
+    "north_to_south": message("from south to north"),
+    "south_to_north": message("from north to south"),
+    "nearest_first": message("the farthest first"),
+    "farthest_first": message("the nearest first"),
+    "rows": message("row by row from the last"),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ordered(FromGroup):
+    """``of`` in an order that is to be kept: by the compass, by distance from the place in hand, row by row
+    (``rows``), or by an ``attribute``, from its lowest value or ``descending``."""
+
+    by: Order
+    attribute: str = ""
+    descending: bool = False
+    of: Selector = Trees()
+
+    ground_rule = "of"
+
+    @classmethod
+    def example(cls, site: Site) -> Ordered:
+        return cls(by="rows")
+
+    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+        from fieldhand.places.picks.ordering import ordered
+
+        return ordered(of, self, resolution.context.here.xy, tell)
+
+    def phrase(self, saying: Saying) -> Phrase:
+        return replace(saying.phrase(self.of), order=self._order())
+
+    @property
+    def size(self) -> Range:
+        return self.of.size
+
+    @property
+    def depends_on(self) -> DependsOn:
+        return "nearness" if self.by in ("nearest_first", "farthest_first") else "site"
+
+    def nth_phrase(self, number: int, saying: Saying) -> Phrase:
+        """Return the second northernmost, the tree with the third highest yield."""
+        if number > 0 and self.by == "attribute":
+            return one(self._nth_most(number, saying.phrase(self.of)))
+        if number > 0 and self.by in _FOREMOST and not self.descending:
+            return _nth_foremost(_FOREMOST[self.by], number, saying.phrase(self.of))
+        return super().nth_phrase(number, saying)
+
+    def _order(self) -> str:
+        """Return the order: "from west to east", "by yield, the highest first"."""
+        if self.by == "attribute":
+            name = say_attribute(self.attribute)[0]
+            if self.descending:
+                return message("by {name}, the highest first", name=name)
+            return message("by {name}, the lowest first", name=name)
+        return (_BACKWARDS if self.descending else _ORDERS)[self.by]
+
+    def _nth_most(self, number: int, group: Phrase) -> str:
+        base = message("the tree") if group.plain else message("the one of {trees}", trees=group.group())
+        name = say_attribute(self.attribute)[0]
+        if number == 1:
+            most = message("with the highest {name}", name=name), message("with the lowest {name}", name=name)
+        else:
+            rank = say_ordinal(number, "one")
+            most = (
+                message("with the {ordinal} highest {name}", ordinal=rank, name=name),
+                message("with the {ordinal} lowest {name}", ordinal=rank, name=name),
+            )
+        return joined(" ", (base, most[0] if self.descending else most[1]))
+
+
+def _nth_foremost(word: str, number: int, group: Phrase) -> Phrase:
+    """Return the second northernmost tree."""
+    if number == 1:
+        return foremost(word, 1, group)
+    rank, which = say_ordinal(number, "tree"), superlative(word, 1)
+    if group.plain:
+        return one(message("the {ordinal} {northernmost} tree", ordinal=rank, northernmost=which))
+    rank = say_ordinal(number, "one")
+    return one(
+        message("the {ordinal} {northernmost} of {trees}", ordinal=rank, northernmost=which, trees=group.group())
+    )

@@ -1,0 +1,93 @@
+"""Places in an order that is to be kept, and the one of a number in it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.language import counted
+from fieldhand.places.filters.attributes import column_of, column_rows
+from fieldhand.places.spots import Spots
+from fieldhand.places.tell import Tell
+from fieldhand.site.counting import need_rows, rows_from
+from fieldhand.site.model import Site
+from fieldhand.site.planting import Indices
+
+if TYPE_CHECKING:
+    from fieldhand.places.picks.ordered import Order, Ordered
+
+
+_COMPASS: dict[Order, tuple[float, float]] = {
+    "west_to_east": (1, 0),
+    "east_to_west": (-1, 0),
+    "south_to_north": (0, 1),
+    "north_to_south": (0, -1),
+}
+
+
+def ordered(spots: Spots, selector: Ordered, here: tuple[float, float], tell: Tell) -> Spots:
+    """All of them in that order; ties by file order; last what has no row, or lacks the attribute."""
+    key, lacking = _key(spots, selector, here, tell)
+    if lacking.any():
+        count = int(lacking.sum())
+        if selector.by == "attribute":
+            tell.note(
+                counted(
+                    "{count} place lacks {attribute} and comes last",
+                    "{count} places lack {attribute} and come last",
+                    count,
+                    attribute=selector.attribute,
+                )
+            )
+        else:
+            tell.note(
+                counted(
+                    "{count} place stands in no row and comes last",
+                    "{count} places stand in no row and come last",
+                    count,
+                )
+            )
+    rounded = np.round(-key if selector.descending else key, 4)
+    return spots.keep(np.lexsort((spots.file_order, rounded, lacking)))
+
+
+def _key(
+    spots: Spots, selector: Ordered, here: tuple[float, float], tell: Tell
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """What they are ordered by, and which of them have none."""
+    none = np.zeros(len(spots), dtype=bool)
+    match selector.by:
+        case "nearest_first" | "farthest_first":
+            away = np.asarray(np.hypot(*(spots.xy - np.array(here)).T), dtype=np.float64)
+            return (away if selector.by == "nearest_first" else -away), none
+        case "rows":
+            place, side = _row_places(spots.site)
+            row = spots.row
+            tell.rule = f"rows count from {side}, the trees of each from its usual end"
+            return np.asarray(place[row] * (len(spots.site.trees) + 1.0) + spots.rank_in_row), row < 0
+        case "attribute":
+            column = column_rows(column_of(spots.site, selector.attribute), spots)
+            if np.isnan(column.numbers).all() and (column.codes >= 0).any():
+                alphabetical = np.argsort(np.argsort(np.array(column.texts)))
+                return np.where(column.codes >= 0, alphabetical[column.codes], 0).astype(np.float64), column.codes < 0
+            return np.nan_to_num(column.numbers), np.isnan(column.numbers)
+        case by:
+            return np.asarray(spots.xy @ np.array(_COMPASS[by], dtype=np.float64)), none
+
+
+def _row_places(site: Site) -> tuple[Indices, str]:
+    """For each row of the site its place in the count, block after block."""
+    planting = need_rows(site)
+    position = {id(row): k for k, row in enumerate(planting.rows)}
+    place = np.zeros(len(planting.rows), dtype=np.intp)
+    sides: dict[str, None] = {}
+    counted = 0
+    for block in planting.blocks:
+        rows, side = rows_from(site, block, "usual")
+        sides[side] = None
+        for row in rows:
+            place[position[id(row)]] = counted
+            counted += 1
+    return place, " or ".join(sides)

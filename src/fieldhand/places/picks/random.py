@@ -1,0 +1,65 @@
+"""Trees drawn at random, so that preview, approval, robot and replay draw the same."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.language import message
+from fieldhand.places.filters.where import Where
+from fieldhand.places.phrase import Phrase, many, one
+from fieldhand.places.selector import Counted, Selector
+from fieldhand.places.sources.trees import Trees
+
+if TYPE_CHECKING:
+    from fieldhand.places.resolution import Resolution
+    from fieldhand.places.saying import Saying
+    from fieldhand.places.spots import Spots
+    from fieldhand.places.tell import Tell
+    from fieldhand.site.model import Site
+
+
+@dataclass(frozen=True, kw_only=True)
+class Random(Counted):
+    """``count`` of ``of``, drawn at random.
+
+    Attributes:
+        seed: The same seed draws the same trees whenever it is drawn.
+    """
+
+    count: int
+    seed: int = 0
+    of: Selector = Trees()
+
+    ground_rule = "of"
+
+    @classmethod
+    def example(cls, site: Site) -> Random:
+        return cls(count=10, of=Where(attribute="age_years", test="gt", value=10.0))
+
+    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+        from fieldhand.places.filters.zones import outside_keep_outs
+
+        free = outside_keep_outs(of, tell).once(self.count)
+        self.need(free, resolution)
+        tell.rule = message("drawn by seed {seed}", seed=self.seed)
+        return _drawn(free, self.count, self.seed)
+
+    def phrase(self, saying: Saying) -> Phrase:
+        group, seed = saying.phrase(self.of).group(), self.seed
+        if self.count == 1:
+            return one(message("one of {trees}, drawn at random (seed {seed})", trees=group, seed=seed))
+        said = message("{count} of {trees}, drawn at random (seed {seed})", count=self.count, trees=group, seed=seed)
+        return many(said)
+
+
+def _drawn(spots: Spots, count: int, seed: int) -> Spots:
+    """Return ``count`` of the places, each as likely as any other, in the order of the file.
+
+    Each place gets a number from the SHA-256 of the seed and its id, and the lowest are drawn (bottom-k sampling, Cohen
+    and Kelley 2007). So the draw depends on no program's generator and not on the order of the file.
+    """
+    lots = [hashlib.sha256(f"{seed}\n{place.id}".encode()).digest() for place in spots.places]
+    taken = sorted(range(len(lots)), key=lambda k: lots[k])[:count]
+    return spots.keep(sorted(taken, key=lambda k: int(spots.file_order[k])))

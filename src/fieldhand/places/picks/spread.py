@@ -1,0 +1,47 @@
+"""Trees spread over an area: far from each other, so that together they speak for all of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.language import message
+from fieldhand.places.filters.where import Where
+from fieldhand.places.phrase import Phrase, many, one
+from fieldhand.places.selector import Counted, Selector
+from fieldhand.places.sources.trees import Trees
+
+if TYPE_CHECKING:
+    from fieldhand.places.resolution import Resolution
+    from fieldhand.places.saying import Saying
+    from fieldhand.places.spots import Spots
+    from fieldhand.places.tell import Tell
+    from fieldhand.site.model import Site
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spread(Counted):
+    """``count`` of ``of``, spread over where they stand: far from each other."""
+
+    count: int
+    of: Selector = Trees()
+
+    ground_rule = "of"
+
+    @classmethod
+    def example(cls, site: Site) -> Spread:
+        return cls(count=10, of=Where(attribute="age_years", test="gt", value=10.0))
+
+    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+        from fieldhand.places.filters.zones import outside_keep_outs
+        from fieldhand.places.picks.far_apart import far_apart
+
+        free = outside_keep_outs(of, tell).once(self.count)
+        self.need(free, resolution)
+        return far_apart(free, self.count, tell)
+
+    def phrase(self, saying: Saying) -> Phrase:
+        group = saying.phrase(self.of).group()
+        if self.count == 1:
+            return one(message("of {trees} the one nearest to their middle", trees=group))
+        return many(message("{count} of {trees}, spread far from each other", count=self.count, trees=group))

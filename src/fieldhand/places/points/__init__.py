@@ -1,0 +1,1 @@
+"""Selectors of free points, tied to no tree."""

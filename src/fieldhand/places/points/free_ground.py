@@ -1,0 +1,118 @@
+"""Where free points may lie: inside the boundary, clear of keep-outs, off the trees."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+from shapely.geometry import LineString, MultiPoint, Polygon
+from shapely.geometry.base import BaseGeometry
+from shapely.ops import unary_union
+
+from fieldhand.errors import PlaceError
+from fieldhand.language import message
+from fieldhand.places.faults import no_such_zone
+from fieldhand.places.spots import Spots
+from fieldhand.site.counting import find_block
+from fieldhand.site.kinds import phrase
+from fieldhand.site.model import Place, Site
+from fieldhand.site.names import short
+
+#: Free points keep this far from keep-outs and the boundary where they can.
+MARGIN_M = 1.0
+
+#: Free points keep this far from trees where they can: a robot stands beside a tree, not on it.
+OFF_TREES_M = 1.0
+
+#: No robot stops more often than this on one line, or in one zone.
+MOST_POINTS = 10_000
+
+Floats = NDArray[np.float64]
+
+
+def free_points(site: Site, xy: Floats, ids: Sequence[str]) -> Spots:
+    """Return a group of free points of these names."""
+    degrees = site.projection.degrees(xy).tolist()
+    return Spots.of(
+        site,
+        [
+            Place(kind="point", id=name, x=float(x), y=float(y), lat=lat, lon=lon)
+            for name, (x, y), (lat, lon) in zip(ids, xy.tolist(), degrees, strict=True)
+        ],
+    )
+
+
+def area_called(site: Site, name: str) -> BaseGeometry:
+    """The zones of that name as one area, else the ground of the block of that name.
+
+    Raises:
+        PlaceError: There is neither, or a robot may not go there.
+    """
+    zones = [z for z in site.zones if phrase(z.name) == phrase(name)]
+    zones = [z for z in zones if z.name == name] or zones
+    if zones and all(z.kind == "keep_out" for z in zones):
+        raise PlaceError(
+            message("{name} is a keep-out zone", name=short(zones[0].name)),
+            where=site.name,
+            advice=message("ask for points in another zone"),
+        )
+    if zones:
+        return unary_union([z.polygon for z in zones if z.kind != "keep_out"])
+    block = find_block(site, name)
+    if block is None:
+        raise no_such_zone(site, name)
+    return ground_of(site.xy[np.concatenate([row.trees for row in block.rows])], site.spacing_m / 2)
+
+
+def ground_of(xy: Floats, around_m: float) -> BaseGeometry:
+    """The ground of some trees: their convex hull and a little around it."""
+    return MultiPoint(xy).convex_hull.buffer(around_m)
+
+
+def free_part(site: Site, area: BaseGeometry) -> BaseGeometry:
+    """The part of an area or a line where points may lie: with the margin, or without it where that leaves nothing."""
+    if not site.zones:
+        return area
+    for margin in (MARGIN_M, 0.0):
+        free: BaseGeometry = area.intersection(_open_ground(site, margin))
+        if free.length > 0:
+            return free
+    return Polygon()
+
+
+def segments(geometry: BaseGeometry) -> list[LineString]:
+    """The straight pieces of a line that was cut."""
+    pieces = getattr(geometry, "geoms", [geometry])
+    return [p for p in pieces if isinstance(p, LineString) and p.length > 0]
+
+
+def tree_index(site: Site) -> Any:
+    """The trees, to ask how far the nearest is; kept with the site."""
+    if "tree index" not in site.memory:
+        site.memory["tree index"] = cKDTree(site.xy, balanced_tree=False, compact_nodes=False)
+    return site.memory["tree index"]
+
+
+def off_trees(site: Site, xy: Floats) -> Floats:
+    """For each point how far the nearest tree is, up to the distance that is enough."""
+    return np.asarray(np.minimum(tree_index(site).query(xy)[0], OFF_TREES_M))
+
+
+def _open_ground(site: Site, margin_m: float) -> Any:
+    """The whole plane, or the boundary's inside, without the keep-outs; a margin away from both."""
+    key = ("open ground", margin_m)
+    if key not in site.memory:
+        bounds = [z.polygon for z in site.zones_of("boundary")]
+        if bounds:
+            ground = unary_union(bounds).buffer(-margin_m)
+        else:
+            west, south = site.xy.min(axis=0) - 10_000.0
+            east, north = site.xy.max(axis=0) + 10_000.0
+            ground = shapely.box(west, south, east, north)
+        outs = [z.polygon.buffer(margin_m) for z in site.zones_of("keep_out")]
+        site.memory[key] = ground.difference(unary_union(outs)) if outs else ground
+    return site.memory[key]

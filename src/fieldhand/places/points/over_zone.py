@@ -1,0 +1,123 @@
+"""Points spread evenly over a zone."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+from shapely.geometry.base import BaseGeometry
+
+from fieldhand import language
+from fieldhand.errors import PlaceError
+from fieldhand.language import message
+from fieldhand.places.points.free_ground import (
+    MOST_POINTS,
+    OFF_TREES_M,
+    area_called,
+    free_part,
+    free_points,
+    off_trees,
+)
+from fieldhand.places.spots import Spots
+from fieldhand.places.tell import Tell
+from fieldhand.site.model import Site
+from fieldhand.site.names import short
+
+if TYPE_CHECKING:
+    from fieldhand.places.points.points_in import PointsIn
+
+
+Floats = NDArray[np.float64]
+
+#: Points that are tried for each that is wanted.
+_RASTER = 40
+
+#: Rounds in which points settle in the middle of their share.
+_ROUNDS = 8
+
+
+def over_zone(site: Site, selector: PointsIn, tell: Tell) -> Spots:
+    """Points spread evenly over a zone, or its middle; off the trees by a metre where there is room.
+
+    Raises:
+        PlaceError: There is no such zone, or no room in it.
+    """
+    count = selector.count
+    if not 1 <= count <= MOST_POINTS:
+        raise PlaceError(
+            message("{count} points in a zone are asked for", count=count),
+            advice=message("ask for 1 to {count}", count=MOST_POINTS),
+        )
+    area = area_called(site, selector.zone)
+    free = free_part(site, area)
+    raster = _raster(site, free, count) if not free.is_empty else np.empty((0, 2))
+    if len(raster) < count:
+        raise PlaceError(
+            language.counted(
+                "there is no room for {count} point in {zone}",
+                "there is no room for {count} points in {zone}",
+                count,
+                zone=short(selector.zone),
+            ),
+            where=site.name,
+            advice=message("ask for at most {count}", count=len(raster))
+            if len(raster)
+            else message("all of it is kept out or outside the boundary"),
+        )
+    if count == 1:
+        tell.rule = "the free place nearest to the middle of its area"
+        middle = np.array(area.centroid.coords[0])
+        if shapely.intersects_xy(free, *middle) and off_trees(site, middle[None, :])[0] >= OFF_TREES_M:
+            return free_points(
+                site, middle[None, :], [message("the middle of {zone}", context="name", zone=selector.zone)]
+            )
+        return free_points(
+            site,
+            raster[_nearest(raster, middle)][None, :],
+            [message("the middle of {zone}", context="name", zone=selector.zone)],
+        )
+    tell.rule = "each has a like share of the area"
+    xy = _spread(raster, count)
+    xy = xy[np.lexsort((-xy[:, 1], np.round(xy[:, 0], 3)))]
+    names = [
+        message("point {number} of {count} in {zone}", number=k, count=count, zone=selector.zone)
+        for k in range(1, count + 1)
+    ]
+    return free_points(site, xy, names)
+
+
+def _raster(site: Site, free: BaseGeometry, count: int) -> Floats:
+    """Points on a square raster over an area, off the trees where enough of them are."""
+    wanted = int(np.clip(_RASTER * count, 400, max(6_000, 2 * count)))
+    step = float(np.sqrt(free.area / wanted))
+    west, south, east, north = free.bounds
+    x = (west + east) / 2 + step * np.arange(-np.ceil((east - west) / step / 2), np.ceil((east - west) / step / 2) + 1)
+    y = (south + north) / 2 + step * np.arange(
+        -np.ceil((north - south) / step / 2), np.ceil((north - south) / step / 2) + 1
+    )
+    columns = np.meshgrid(x, y, indexing="ij")
+    columns[1][1::2] = columns[1][1::2, ::-1]  # down one column and up the next, so that neighbours are near
+    xy = np.column_stack([c.ravel() for c in columns])
+    shapely.prepare(free)
+    xy = xy[shapely.intersects_xy(free, *xy.T)]
+    clear = xy[off_trees(site, xy) >= OFF_TREES_M] if len(xy) else xy
+    return clear if len(clear) >= count else xy
+
+
+def _spread(raster: Floats, count: int) -> Floats:
+    """Points of the raster, each in the middle of those that are nearest to it (Lloyd 1982), evenly to begin with."""
+    centres = raster[((np.arange(count) + 0.5) * len(raster) / count).astype(np.intp)]
+    for _ in range(_ROUNDS):
+        nearest = np.asarray(cKDTree(centres).query(raster)[1])
+        shares = np.bincount(nearest, minlength=count)
+        middles = np.column_stack([np.bincount(nearest, raster[:, k], count) for k in (0, 1)]) / shares[:, None]
+        order = np.lexsort((np.round(np.hypot(*(raster - middles[nearest]).T), 6), nearest))
+        centres = raster[order[np.searchsorted(nearest[order], np.arange(count))]]
+    return centres
+
+
+def _nearest(xy: Floats, to: Floats) -> int:
+    return int(np.argmin(np.round(np.hypot(*(xy - to).T), 4)))

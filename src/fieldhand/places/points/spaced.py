@@ -1,0 +1,84 @@
+"""Free points at a spacing along a line."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from fieldhand.language import message
+from fieldhand.language.words import say_number, say_zone
+from fieldhand.places.phrase import Phrase, many, one
+from fieldhand.places.selector import FromGroup, Selector
+from fieldhand.places.size import ANY, Range, exactly
+from fieldhand.places.sources.here import Here
+from fieldhand.places.sources.marker import Marker
+from fieldhand.places.sources.trees import Trees
+
+if TYPE_CHECKING:
+    from fieldhand.places.resolution import Resolution
+    from fieldhand.places.saying import Saying
+    from fieldhand.places.spots import Spots
+    from fieldhand.places.tell import Tell
+    from fieldhand.site.model import Site
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spaced(FromGroup):
+    """``count`` free points ``apart_m`` metres apart, else as many as fit, on a line beside the row of ``of`` nearest
+    to ``near``, from its end nearer to that; without rows, or inside a ``zone``, on a straight line. Points are no
+    trees."""
+
+    apart_m: float
+    count: int = 0
+    near: Selector = Here()
+    zone: str = ""
+    of: Selector = Trees()
+
+    @classmethod
+    def example(cls, site: Site) -> Spaced:
+        return cls(apart_m=15.0)
+
+    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+        from fieldhand.places.points.on_line import on_line
+
+        return on_line(of, resolution.origin(self.near), self, tell)
+
+    def phrase(self, saying: Saying) -> Phrase:
+        apart, count = say_number(self.apart_m), self.count
+        where, near = self._line(saying), self.near.as_origin(saying)
+        if count == 1:
+            return one(message("a point {where}, beginning at the end nearer to {place}", where=where, place=near))
+        if count:
+            points = message("{count} points {distance} m apart", count=count, distance=apart)
+        else:
+            points = message("as many points {distance} m apart as fit", distance=apart)
+        return many(
+            message("{points} {where}, beginning at the end nearer to {place}", points=points, where=where, place=near)
+        )
+
+    @property
+    def single(self) -> bool:
+        return self.count == 1
+
+    @property
+    def size(self) -> Range:
+        return exactly(self.count) if self.count else ANY
+
+    @property
+    def measured_from(self) -> Selector:
+        return self.near
+
+    @property
+    def from_start(self) -> Selector:
+        return replace(self, near=Marker(name="start")) if self.near == Here() else self
+
+    def _line(self, saying: Saying) -> str:
+        """Return on which line the points lie."""
+        group = saying.phrase(self.of)
+        if self.zone:
+            return message("on a line inside {zone}", zone=say_zone(self.zone))
+        if group.bare and group.one_row:
+            return message("beside {row}", row=group.whose)
+        if group.plain:
+            return message("beside the nearest row")
+        return message("beside the nearest row of {trees}", trees=group.group())

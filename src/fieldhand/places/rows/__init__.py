@@ -1,0 +1,1 @@
+"""Selectors along and across rows."""

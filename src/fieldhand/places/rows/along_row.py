@@ -1,0 +1,69 @@
+"""The tree some trees along the row."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.language import message
+from fieldhand.language.words import COMPASS
+from fieldhand.places.phrase import Phrase, one
+from fieldhand.places.selector import Selector
+from fieldhand.places.sources.here import Here
+from fieldhand.terms import Side, Towards
+
+if TYPE_CHECKING:
+    from fieldhand.places.resolution import Resolution
+    from fieldhand.places.saying import Saying
+    from fieldhand.places.spots import Spots
+    from fieldhand.places.tell import Tell
+    from fieldhand.site.model import Site
+
+
+@dataclass(frozen=True, kw_only=True)
+class AlongRow(Selector):
+    """The tree that many ``trees`` along the row from ``origin``: down is away from the start marker, up towards it.
+
+    Where the row ends before, its last tree.
+    """
+
+    trees: int
+    towards: Towards = "down"
+    origin: Selector = Here()
+
+    counts_from_a_side = True
+
+    @classmethod
+    def example(cls, site: Site) -> AlongRow:
+        return cls(trees=3)
+
+    def resolve(self, resolution: Resolution, tell: Tell) -> Spots:
+        from fieldhand.places.rows.in_hand import along_row
+
+        return along_row(resolution.one(self.origin), self, tell)
+
+    def phrase(self, saying: Saying) -> Phrase:
+        start, way = self.origin.from_it(saying), _say_way(self.towards)
+        if self.trees == 1:
+            said = message("the next tree {down_the_row}", down_the_row=way)
+        else:
+            said = message("the tree {count} trees further {down_the_row}", count=self.trees, down_the_row=way)
+        return one(message("{tree} from {place}", tree=said, place=start) if start else said)
+
+    @property
+    def single(self) -> bool:
+        return True
+
+    @property
+    def sides(self) -> tuple[Side, ...]:
+        return () if self.towards == "down" or self.towards == "up" else (self.towards,)
+
+
+def _say_way(towards: Towards) -> str:
+    """Return which way along a row: "down the row", "along the row to the north"."""
+    match towards:
+        case "down":
+            return message("down the row")
+        case "up":
+            return message("up the row")
+    return message("along the row to the {side}", side=COMPASS[towards])

@@ -1,0 +1,171 @@
+"""Trees by their numbers in their row."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.errors import PlaceError
+from fieldhand.language import counted, message
+from fieldhand.places.rows.standing import blocks_of, standing
+from fieldhand.places.spots import Spots
+from fieldhand.places.tell import Tell
+from fieldhand.site.counting import (
+    need_rows,
+    numbered_by_file,
+    row_words,
+    trees_from,
+)
+from fieldhand.site.names import listed
+from fieldhand.site.planting import Indices
+from fieldhand.terms import CountedFrom
+
+if TYPE_CHECKING:
+    from fieldhand.places.rows.every_nth import EveryNth
+    from fieldhand.places.rows.in_row import InRow
+
+
+Mask = NDArray[np.bool_]
+
+
+def in_row(spots: Spots, selector: InRow, tell: Tell) -> Spots:
+    """Those with such numbers in their row.
+
+    Whole rows whose trees the file numbers go by the file's numbers, unless a side is named to count from; else the
+    trees of the group that stand are counted.
+    """
+    first, last = selector.first, selector.last
+    if 0 in (first, last):
+        raise PlaceError(
+            message("trees in a row count from 1"),
+            advice=message("ask for tree 1, or for tree -1 from the row's other end"),
+        )
+    if first * last > 0 and first > last:
+        first, last = last, first
+    way, side = _ways(spots, selector.counted_from)
+    number, count = standing(spots, way)
+    low, high = (np.where(n < 0, count + 1 + n, n) for n in (first, last))
+    kept = (number >= low) & (number <= high) & (number > 0)
+    tell.rule = f"trees in a row count from {side}"
+    if selector.counted_from == "usual":
+        kept = _by_own_numbers(spots, kept, (first, last), tell)
+    if not kept.any():
+        raise _no_such_tree_in_row(spots, selector, count)
+    _tell_short_rows(spots, max(first, last), count, tell)
+    return spots.keep(kept)
+
+
+def every_nth(spots: Spots, selector: EveryNth, tell: Tell) -> Spots:
+    """Those whose number among the group in their row is ``start``, ``start + nth``, and so on.
+
+    Where no row has as many trees, the count goes on from row to row: "every 50th tree" is not the first of every row.
+    """
+    if selector.nth < 1 or selector.start < 1:
+        raise PlaceError(
+            message("every {nth}th tree from the {start}th on is no tree", nth=selector.nth, start=selector.start),
+            advice=message("ask for every tree, every second tree, ...; the first tree of a row is tree 1"),
+        )
+    way, side = _ways(spots, selector.counted_from)
+    number, _ = standing(spots, way)
+    tell.rule = f"the trees that stand are counted, in each row from {side}"
+    outside = int((number == 0).sum())
+    if outside:
+        tell.note(
+            counted(
+                "{count} tree stands in no row and cannot be counted",
+                "{count} trees stand in no row and cannot be counted",
+                outside,
+            )
+        )
+    if 0 < number.max(initial=0) < selector.nth:
+        number = _row_by_row(spots, number)
+        tell.rule = f"the trees that stand are counted row by row, in each row from {side}"
+        tell.note(message("no row has {count} of them, so the count goes on from row to row", count=selector.nth))
+    return spots.keep((number >= selector.start) & ((number - selector.start) % selector.nth == 0))
+
+
+def _row_by_row(spots: Spots, number: Indices) -> Indices:
+    """The numbers in their rows counted on from one row to the next; 0 stays what is in no row."""
+    counted = np.flatnonzero(number)
+    row = spots.site.planting.row_of[spots.index[counted]]
+    on = np.zeros_like(number)
+    on[counted[np.lexsort((number[counted], row))]] = np.arange(1, len(counted) + 1)
+    return on
+
+
+def _ways(spots: Spots, side: CountedFrom) -> tuple[Indices, str]:
+    """For each row of the site the way in which its trees count, and from where, of the blocks of the group."""
+    site = spots.site
+    planting = need_rows(site)
+    way = np.ones(len(planting.rows), dtype=np.intp)
+    of_row = np.array([row.block for row in planting.rows])
+    blocks = blocks_of(site, spots)
+    sides: dict[str, None] = {}
+    for block in blocks:
+        sign, name = trees_from(site, block, side)
+        sides[name] = None
+        way[of_row == block.rows[0].block] = sign
+    if side == "usual":  # the file's own numbers say where its count begins
+        rows = spots.row
+        for k in np.unique(rows[rows >= 0]).tolist():
+            slots = planting.rows[k].slots
+            if len(slots) > 1 and slots[0] > slots[-1]:
+                way[k] = -1
+    if not blocks:
+        raise PlaceError(
+            message("none of these trees stands in a row"), where=site.name, advice=message("ask for other trees")
+        )
+    return way, " or ".join(sides)
+
+
+def _by_own_numbers(spots: Spots, kept: Mask, ends: tuple[int, int], tell: Tell) -> Mask:
+    """The same choice by the file's numbers, in rows that it numbers and of which the group has every tree."""
+    site = spots.site
+    rows = spots.row
+    there = np.bincount(rows[rows >= 0], minlength=len(site.planting.rows))
+    for k in np.flatnonzero(there).tolist():
+        row = site.planting.rows[k]
+        counted = np.arange(1, len(row.trees) + 1)
+        if there[k] != len(row.trees) or np.array_equal(np.sort(row.slots), counted) or not numbered_by_file(site, row):
+            continue
+        mine = np.flatnonzero(rows == k)
+        slots = np.sort(row.slots)
+        low, high = (n if n > 0 else int(slots[len(slots) + n]) if -n <= len(slots) else 0 for n in ends)
+        number = row.slots[site.planting.rank[spots.index[mine]]]
+        kept[mine] = (number >= low) & (number <= high)
+        tell.rule = "trees in a row go by their numbers in the file"
+    return kept
+
+
+def _no_such_tree_in_row(spots: Spots, selector: InRow, count: Indices) -> PlaceError:
+    site = spots.site
+    rows = np.unique(spots.row[spots.row >= 0]).tolist()
+    said = message("trees {first} to {last}", first=selector.first, last=selector.last)
+    if selector.first == selector.last:
+        said = message("tree {id}", id=str(selector.first))
+    if len(rows) == 1:
+        return PlaceError(
+            message("{row} has no {trees}", row=row_words(site, site.planting.rows[rows[0]]), trees=said),
+            where=site.name,
+            advice=counted(
+                "{count} tree is to choose from there", "{count} trees are to choose from there", int(count.max())
+            ),
+        )
+    return PlaceError(
+        message("none of the {count} rows has {trees}", count=len(rows), trees=said),
+        where=site.name,
+        advice=message("the longest has {count} to choose from", count=int(count.max())),
+    )
+
+
+def _tell_short_rows(spots: Spots, last: int, count: Indices, tell: Tell) -> None:
+    short_rows = np.unique(spots.row[(count > 0) & (count < last)]).tolist()
+    if short_rows and tell.rule.startswith("trees in a row count"):
+        names = [row_words(spots.site, spots.site.planting.rows[k]) for k in short_rows]
+        trees = counted("{count} tree", "{count} trees", last)
+        if len(names) == 1:
+            tell.note(message("{row} has fewer than {trees} to choose from", row=names[0], trees=trees))
+        else:
+            tell.note(message("{rows} have fewer than {trees} to choose from", rows=listed(names), trees=trees))

@@ -1,0 +1,69 @@
+"""Every n-th tree along each row."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.language import joined, message
+from fieldhand.places.ordinals import say_ordinal
+from fieldhand.places.phrase import Phrase
+from fieldhand.places.rows.counted_from import many_from
+from fieldhand.places.selector import FromGroup, Selector
+from fieldhand.places.sources.trees import Trees
+from fieldhand.terms import CountedFrom
+
+if TYPE_CHECKING:
+    from fieldhand.places.resolution import Resolution
+    from fieldhand.places.saying import Saying
+    from fieldhand.places.spots import Spots
+    from fieldhand.places.tell import Tell
+    from fieldhand.site.model import Site
+
+
+@dataclass(frozen=True, kw_only=True)
+class EveryNth(FromGroup):
+    """Every ``nth`` tree along each row of ``of``, from tree ``start`` on (1, 4, 7 for 3); they count as for
+    :class:`InRow`, on from row to row where no row has ``nth``."""
+
+    nth: int
+    start: int = 1
+    counted_from: CountedFrom = "usual"
+    of: Selector = Trees()
+
+    ground_rule = "group"
+    counts_from_a_side = True
+
+    @classmethod
+    def example(cls, site: Site) -> EveryNth:
+        return cls(nth=3)
+
+    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+        from fieldhand.places.rows.by_number import every_nth
+
+        return every_nth(of, self, tell)
+
+    def phrase(self, saying: Saying) -> Phrase:
+        group = saying.phrase(self.of)
+        said = self._of_rows(group) if group.bare else self._of_trees(group.group())
+        if self.start != 1:
+            said = message("{trees}, from the {ordinal} on", trees=said, ordinal=say_ordinal(self.start, "one"))
+        return many_from(said, self.counted_from)
+
+    def _of_rows(self, group: Phrase) -> str:
+        each = "" if group.row else message("of each row")
+        of = joined(" ", [part for part in (each, group.of_what) if part])
+        match self.nth:
+            case 1:
+                return message("every tree {of_rows}", of_rows=of)
+            case 2:
+                return message("every other tree {of_rows}", of_rows=of)
+        return message("every {ordinal} tree {of_rows}", ordinal=say_ordinal(self.nth), of_rows=of)
+
+    def _of_trees(self, trees: str) -> str:
+        match self.nth:
+            case 1:
+                return message("every one of {trees}", trees=trees)
+            case 2:
+                return message("every other one of {trees}", context="trees", trees=trees)
+        return message("every {ordinal} one of {trees}", ordinal=say_ordinal(self.nth), trees=trees)

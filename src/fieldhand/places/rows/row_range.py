@@ -1,0 +1,138 @@
+"""Trees by their rows: a range of rows, every so many of them, and rows beside a place's own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from fieldhand.errors import PlaceError
+from fieldhand.language import counted, message, words
+from fieldhand.language.words import COMPASS
+from fieldhand.places.faults import no_such_row, row_in_several_blocks
+from fieldhand.places.rows.in_hand import tree_in_hand
+from fieldhand.places.rows.standing import blocks_of, in_those_rows
+from fieldhand.places.spots import Spots
+from fieldhand.places.tell import Tell
+from fieldhand.site.counting import (
+    block_words,
+    find_row,
+    need_rows,
+    row_words,
+    rows_from,
+)
+from fieldhand.site.model import Site
+from fieldhand.site.names import listed, short
+from fieldhand.site.planting import Block, Row
+
+if TYPE_CHECKING:
+    from fieldhand.places.rows.rows import Rows
+
+
+def in_rows(spots: Spots, selector: Rows, ground: Spots, tell: Tell) -> Spots:
+    """Those in a range of rows, or in every so many of them.
+
+    A row that is called by name or number is looked for in the blocks of the ground; without one, each block counts.
+    """
+    site = spots.site
+    need_rows(site)
+    if selector.every < 1:
+        raise PlaceError(
+            message("every {every}th row is no row", every=selector.every),
+            advice=message("ask for every row, every second row, ..."),
+        )
+    blocks = blocks_of(site, ground)
+    if not blocks:
+        raise PlaceError(
+            message("none of these trees stands in a row"), where=site.name, advice=message("ask for other trees")
+        )
+    chosen: list[Row] = []
+    if selector.first or selector.last:
+        chosen = list(_range(site, blocks, selector, tell))
+    else:
+        for block in blocks:
+            rows, side = rows_from(site, block, selector.counted_from)
+            chosen += rows[:: selector.every]
+            tell.rule = f"rows count from {side}" + (", in each block" if len(blocks) > 1 else "")
+    return in_those_rows(spots, chosen)
+
+
+def row_of(spots: Spots, origin: Spots, over: int, tell: Tell) -> Spots:
+    """Those in the rows of the origin, or so many rows over."""
+    site = spots.site
+    planting = need_rows(site)
+    rows = np.unique(origin.row)
+    own = {int(planting.row_of[tree_in_hand(origin.keep([k]), tell)]) for k in np.flatnonzero(origin.row < 0).tolist()}
+    chosen: list[Row] = []
+    for row in sorted(own | set(rows[rows >= 0].tolist())):
+        mine = planting.rows[row]
+        in_order, side = rows_from(site, planting.blocks[mine.block], "usual")
+        at = next(k for k, r in enumerate(in_order) if r is mine) + over
+        if not 0 <= at < len(in_order):
+            its = row_words(site, mine)
+            raise PlaceError(
+                counted(
+                    "there is no row {count} row after {row}",
+                    "there is no row {count} rows after {row}",
+                    over,
+                    row=its,
+                )
+                if over > 0
+                else counted(
+                    "there is no row {count} row before {row}",
+                    "there is no row {count} rows before {row}",
+                    -over,
+                    row=its,
+                ),
+                where=site.name,
+                advice=message(
+                    "the rows count from {side}: {rows}", side=COMPASS[side], rows=listed([r.name for r in in_order])
+                ),
+            )
+        chosen.append(in_order[at])
+    tell.rule = f"that is {listed([row_words(site, row) for row in chosen])}"
+    return in_those_rows(spots, chosen)
+
+
+def _range(site: Site, blocks: Sequence[Block], selector: Rows, tell: Tell) -> Sequence[Row]:
+    """The rows from first to last; they are of one block, and no other block has both."""
+    found: list[tuple[Block, Sequence[Row]]] = []
+    by_number = selector.counted_from != "usual"
+    for block in blocks:
+        rows, side = rows_from(site, block, selector.counted_from)
+        first = find_row(rows, selector.first, by_number=by_number) if selector.first else 0
+        last = find_row(rows, selector.last, by_number=by_number) if selector.last else len(rows) - 1
+        if first is not None and last is not None:
+            step = selector.every if last >= first else -selector.every
+            found.append((block, rows[first : last + 1 : step] if step > 0 else _backwards(rows, first, last, step)))
+            tell.rule = f"rows count from {side}"
+    if not found:
+        raise _no_such_range(site, blocks, selector)
+    if len(found) > 1:
+        raise row_in_several_blocks(site, selector, [block_words(b) for b, _ in found])
+    return found[0][1]
+
+
+def _backwards(rows: Sequence[Row], first: int, last: int, step: int) -> Sequence[Row]:
+    return [rows[k] for k in range(first, last - 1, step)]
+
+
+def _no_such_range(site: Site, blocks: Sequence[Block], selector: Rows) -> PlaceError:
+    """One of the two is nowhere, or they are in different blocks."""
+    by_number = selector.counted_from != "usual"
+    where: dict[str, list[str]] = {}
+    for said in dict.fromkeys(s for s in (selector.first, selector.last) if s):
+        has = [b for b in blocks if find_row(rows_from(site, b, selector.counted_from)[0], said, by_number=by_number)
+               is not None]  # fmt: skip
+        if not has:
+            return no_such_row(site, blocks, said)
+        where[said] = [block_words(b) for b in has]
+    told = words.listed(
+        [message("row {name} is in {blocks}", name=short(said), blocks=listed(names)) for said, names in where.items()]
+    )
+    return PlaceError(
+        message("{told}, so they are no range", told=told),
+        where=site.name,
+        advice=message("ask for rows of one block at a time"),
+    )

@@ -1,0 +1,49 @@
+"""Where the trees of a group stand in their rows and blocks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from fieldhand.places.spots import Spots
+from fieldhand.site.counting import need_rows
+from fieldhand.site.model import Site
+from fieldhand.site.planting import Block, Indices, Row
+
+
+def standing(spots: Spots, way: Indices) -> tuple[Indices, Indices]:
+    """For each place its number among those of the group in its row, and how many of the group its row has.
+
+    Args:
+        spots: The group.
+        way: For each row of the site 1 or -1: whether its trees count from its usual end.
+
+    Returns:
+        Numbers from 1 and counts, shape (n,) each; 0 for what stands in no row.
+    """
+    row = spots.row
+    key = spots.rank_in_row * np.where(row >= 0, way[row], 1)
+    order = np.lexsort((key, row))
+    first = np.searchsorted(row[order], row[order], side="left")
+    number = np.zeros(len(spots), dtype=np.intp)
+    number[order] = np.arange(1, len(spots) + 1) - first
+    sizes = np.bincount(row + 1, minlength=len(way) + 1)
+    sizes[0] = 0
+    return np.where(row >= 0, number, 0), sizes[row + 1]
+
+
+def blocks_of(site: Site, spots: Spots) -> tuple[Block, ...]:
+    """The blocks in which these places stand, in the site's order."""
+    planting = need_rows(site)
+    rows = spots.row
+    of_row = np.array([row.block for row in planting.rows], dtype=np.intp)
+    return tuple(planting.blocks[k] for k in np.unique(of_row[np.unique(rows[rows >= 0])]).tolist())
+
+
+def in_those_rows(spots: Spots, rows: Sequence[Row]) -> Spots:
+    """Return those that stand in some rows."""
+    chosen = np.zeros(len(spots.site.trees) + 1, dtype=bool)
+    for row in rows:
+        chosen[row.trees] = True
+    return spots.keep(chosen[np.where(spots.is_tree, spots.index, -1)])

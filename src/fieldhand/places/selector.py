@@ -1,0 +1,221 @@
+"""What every selector says of itself.
+
+A selector is an expression. The innermost part is a source (every tree, a marker, the place in hand); each part around
+it keeps, orders or picks from what its ``of`` selects. "Yellow trees in the northern half" is
+``Where(attribute="leaf_color", test="eq", value="yellow", of=Half(side="north", of=Trees()))``.
+
+Each selector has a file of its own with its data, the places it resolves to, its words and its size. Its fields are its
+XML (:mod:`fieldhand.task.codec_shapes`), its docstring is its definition for language models.
+:mod:`fieldhand.places.selectors` registers it.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, ClassVar, Literal, Self
+
+from fieldhand.language import message
+from fieldhand.language.words import say_zone
+from fieldhand.places.faults import too_few
+from fieldhand.places.ordinals import say_ordinal, say_ranked_tree
+from fieldhand.places.phrase import Phrase, one
+from fieldhand.places.size import ANY, ONE, Range, exactly
+
+if TYPE_CHECKING:
+    from fieldhand.places.resolution import Resolution
+    from fieldhand.places.saying import Saying
+    from fieldhand.places.spots import Spots
+    from fieldhand.places.tell import Tell
+    from fieldhand.site.model import Site
+    from fieldhand.terms import Side
+
+#: What decides which places a selector comes to: the site alone; how near they are to the robot, which does not decide
+#: whether there are any; or the mission so far.
+DependsOn = Literal["site", "nearness", "mission"]
+
+#: What a region is taken of when a selector stands inside it (:mod:`fieldhand.places` says why). The selector itself
+#: (``own``); the selector around what a region would be taken of (``region``); or its ``of``, since it leaves the
+#: geometry as it is: always (``of``), or for halves and edges but not for corners and middles (``pick``, which else is
+#: ``own``, and ``group``, which else is ``region``).
+GroundRule = Literal["own", "region", "of", "pick", "group"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Selector(ABC):
+    """A part of a Task that names places without coordinates."""
+
+    #: A side of the compass that a request names may be meant by it, though no field names it: it counts from one.
+    counts_from_a_side: ClassVar[bool] = False
+
+    @classmethod
+    @abstractmethod
+    def example(cls, site: Site) -> Selector:
+        """Return one as a planner would write it, for a context in which a tree is in hand and bound."""
+
+    @abstractmethod
+    def resolve(self, resolution: Resolution, tell: Tell) -> Spots:
+        """Return the places that are meant.
+
+        Args:
+            resolution: Resolves the selectors inside this one.
+            tell: Takes the rule that is applied and what a person may not expect.
+        """
+
+    @abstractmethod
+    def phrase(self, saying: Saying) -> Phrase:
+        """Return the selector in words.
+
+        Args:
+            saying: Says the selectors inside this one.
+        """
+
+    @property
+    def single(self) -> bool:
+        """True if the form promises at most one place ("the northernmost tree", not "trees in the north")."""
+        return False
+
+    @property
+    def size(self) -> Range:
+        """The number of distinct places, by the form alone."""
+        return ONE if self.single else ANY
+
+    @property
+    def sides(self) -> tuple[Side, ...]:
+        """The sides of the compass that it goes to: not where it counts from, nor all four corners together."""
+        return ()
+
+    @property
+    def depends_on(self) -> DependsOn:
+        """What decides to which places this part comes, beside the parts inside it."""
+        return "site"
+
+    @property
+    def measured_from(self) -> Selector | None:
+        """The selector inside from which distances are measured."""
+        return None
+
+    @property
+    def whole_zone(self) -> str:
+        """The zone whose trees it selects, all of them: distances are measured from the zone itself. Else empty."""
+        return ""
+
+    @property
+    def named_tree(self) -> str:
+        """The id of the one tree that it names, else empty."""
+        return ""
+
+    @property
+    def from_start(self) -> Selector:
+        """The selector with the start in place of a place in hand that only decides which places are the nearest."""
+        return self
+
+    @property
+    def inner(self) -> Iterator[Selector]:
+        """The selectors directly inside this one."""
+        for field in fields(self):
+            value = getattr(self, field.name)
+            for item in value if isinstance(value, tuple) else (value,):
+                if isinstance(item, Selector):
+                    yield item
+
+    def walk(self) -> Iterator[Selector]:
+        """Yield this selector and every one inside it, outermost first."""
+        yield self
+        for part in self.inner:
+            yield from part.walk()
+
+    @property
+    def relative(self) -> bool:
+        """True if the places depend on where the robot is or has been, so that they resolve when they are reached."""
+        return any(part.depends_on != "site" for part in self.walk())
+
+    def ground(self, *, picks_too: bool = True) -> Selector:
+        """Return the selector without the parts that leave the geometry as it is.
+
+        Args:
+            picks_too: Also without what picks trees by an attribute or by their row; else only without what depends on
+                the mission so far.
+        """
+        del picks_too
+        return self
+
+    def it(self, saying: Saying) -> str:
+        """Return the selector in words that may follow "next to"."""
+        return saying.phrase(self).say()
+
+    def from_it(self, saying: Saying) -> str:
+        """Return in words from where something is counted, empty where that goes without saying."""
+        return self.it(saying)
+
+    def as_origin(self, saying: Saying) -> str:
+        """Return in words what something is near to or far from: a zone itself, not the trees in it."""
+        return say_zone(self.whole_zone) if self.whole_zone else self.it(saying)
+
+    def nth_phrase(self, number: int, saying: Saying) -> Phrase:
+        """Return the place of a number among those of this selector in words; -1 is the last."""
+        group = saying.phrase(self)
+        if group.plain:
+            said = say_ranked_tree(number)
+        else:
+            said = message("the {ordinal} of {trees}", ordinal=say_ordinal(number, "one"), trees=group.group())
+        return one(message("{trees}, {order}", trees=said, order=group.order) if group.order else said)
+
+
+class FromGroup(Selector):
+    """A selector that keeps, orders or picks from what its ``of`` selects."""
+
+    of: Selector
+
+    ground_rule: ClassVar[GroundRule] = "own"
+
+    @abstractmethod
+    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+        """Return which of some places are meant, and in which order.
+
+        Args:
+            of: The places of ``of``, at least one.
+            resolution: Resolves the other selectors inside this one.
+            tell: Takes the rule that is applied and what a person may not expect.
+        """
+
+    def resolve(self, resolution: Resolution, tell: Tell) -> Spots:
+        of = resolution.spots(self.of)
+        tell.candidates = len(of)
+        return self.choose(of, resolution, tell)
+
+    def ground(self, *, picks_too: bool = True) -> Selector:
+        rule = self.ground_rule
+        if rule == "of" or (picks_too and rule in ("pick", "group")):
+            return self.of.ground(picks_too=picks_too)
+        if rule in ("own", "pick"):
+            return self
+        return self.around(self.of.ground(picks_too=picks_too))
+
+    def around(self, of: Selector) -> Self:
+        """Return the same selector of another group."""
+        return replace(self, of=of)  # type: ignore[call-arg]  # each subclass is a dataclass with that field
+
+
+class Counted(FromGroup):
+    """A selector that picks a ``count`` from what its ``of`` selects."""
+
+    count: int
+
+    @property
+    def single(self) -> bool:
+        return self.count == 1
+
+    @property
+    def size(self) -> Range:
+        return exactly(self.count)
+
+    def need(self, candidates: Spots, resolution: Resolution) -> None:
+        """Check that there are enough to choose from.
+
+        Raises:
+            PlaceError: There are fewer than the count.
+        """
+        if self.count < 1 or len(candidates) < self.count:
+            raise too_few(resolution.site, self, self.count, len(candidates))

@@ -1,0 +1,1 @@
+"""Selectors that name places outright."""

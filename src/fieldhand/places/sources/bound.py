@@ -1,0 +1,51 @@
+"""Places that a node of the Task has bound to a label."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.errors import PlaceError
+from fieldhand.language import message
+from fieldhand.places.phrase import Phrase, one
+from fieldhand.places.selector import DependsOn, Selector
+from fieldhand.site.names import listed, short
+
+if TYPE_CHECKING:
+    from fieldhand.places.resolution import Resolution
+    from fieldhand.places.saying import Saying
+    from fieldhand.places.spots import Spots
+    from fieldhand.places.tell import Tell
+    from fieldhand.site.model import Site
+
+#: The label that an example uses.
+EXAMPLE_LABEL = "seen"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bound(Selector):
+    """The place or places that a node of this Task bound to ``label``."""
+
+    label: str
+
+    @classmethod
+    def example(cls, site: Site) -> Bound:
+        return cls(label=EXAMPLE_LABEL)
+
+    def resolve(self, resolution: Resolution, tell: Tell) -> Spots:
+        bound = resolution.context.bound
+        places = bound.get(self.label, ())
+        if not places:
+            known = listed(list(bound)) or message("nothing yet")
+            raise PlaceError(
+                message("nothing is called '{label}' at this point", label=short(self.label)),
+                advice=message("named so far: {known}", known=known),
+            )
+        return resolution.group(*places)
+
+    def phrase(self, saying: Saying) -> Phrase:
+        return one(saying.names.get(self.label) or message("the place called “{label}”", label=self.label))
+
+    @property
+    def depends_on(self) -> DependsOn:
+        return "mission"

@@ -1,0 +1,47 @@
+"""The place in hand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.language import message
+from fieldhand.places.phrase import Phrase, one
+from fieldhand.places.selector import DependsOn, Selector
+
+if TYPE_CHECKING:
+    from fieldhand.places.resolution import Resolution
+    from fieldhand.places.saying import Saying
+    from fieldhand.places.spots import Spots
+    from fieldhand.places.tell import Tell
+    from fieldhand.site.model import Site
+
+
+@dataclass(frozen=True, kw_only=True)
+class Here(Selector):
+    """The place in hand."""
+
+    @classmethod
+    def example(cls, site: Site) -> Here:
+        return cls()
+
+    def resolve(self, resolution: Resolution, tell: Tell) -> Spots:
+        return resolution.group(resolution.context.here)
+
+    def phrase(self, saying: Saying) -> Phrase:
+        return one(message("the place reached before"))
+
+    @property
+    def single(self) -> bool:
+        return True
+
+    @property
+    def depends_on(self) -> DependsOn:
+        return "mission"
+
+    def it(self, saying: Saying) -> str:
+        """Return "that place": "there" would be no English ("next to there")."""
+        return message("that place")
+
+    def from_it(self, saying: Saying) -> str:
+        return ""

@@ -1,0 +1,54 @@
+"""The start, the end and the charger of a site."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.errors import PlaceError
+from fieldhand.language import message
+from fieldhand.language.words import say_marker
+from fieldhand.places.phrase import Phrase, one
+from fieldhand.places.selector import Selector
+from fieldhand.terms import MarkerName
+
+if TYPE_CHECKING:
+    from fieldhand.places.resolution import Resolution
+    from fieldhand.places.saying import Saying
+    from fieldhand.places.spots import Spots
+    from fieldhand.places.tell import Tell
+    from fieldhand.site.model import Place, Site
+
+
+@dataclass(frozen=True, kw_only=True)
+class Marker(Selector):
+    """A marker of the site: where the robot starts, ends or charges."""
+
+    name: MarkerName
+
+    @classmethod
+    def example(cls, site: Site) -> Marker:
+        return cls(name="start")
+
+    def resolve(self, resolution: Resolution, tell: Tell) -> Spots:
+        return resolution.group(self._place(resolution))
+
+    def phrase(self, saying: Saying) -> Phrase:
+        return one(say_marker(self.name))
+
+    @property
+    def single(self) -> bool:
+        return True
+
+    def _place(self, resolution: Resolution) -> Place:
+        """A missing start is the first tree of the file, a missing end is the start; a charger has no stand-in."""
+        site = resolution.site
+        if self.name in site.markers:
+            return site.markers[self.name]
+        if self.name == "charger":
+            raise PlaceError(
+                message("the site has no charger"),
+                where=site.name,
+                advice=message('add a point of "kind": "charger" to its file'),
+            )
+        return site.start if self.name == "start" else site.home("return_to_end", resolution.context.here)
