@@ -14,6 +14,7 @@ from typing import Any, Literal, Union, get_args, get_origin
 
 from hypothesis import strategies as st
 
+from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import SELECTORS
 from fieldhand.task.build import make_task
 from fieldhand.task.capabilities import (
@@ -132,6 +133,8 @@ class Parts:
             return st.lists(self.of_hint("", inner, depth), min_size=least, max_size=3).map(tuple)
         if get_origin(hint) is Literal:
             return st.sampled_from(get_args(hint))
+        if hint is Selector:
+            return self.one_of(SELECTORS, depth - 1)
         if get_origin(hint) in (Union, UnionType):
             return self.one_of(get_args(hint), depth - 1)
         if isinstance(hint, type) and hasattr(hint, "__dataclass_fields__"):

@@ -15,7 +15,7 @@ from fieldhand.places.context import Context
 from fieldhand.places.explanation import explain, notes
 from fieldhand.places.picks.ordered import Order
 from fieldhand.places.resolution import resolve
-from fieldhand.places.words import say_selector
+from fieldhand.places.saying import say_selector
 from fieldhand.terms import AnySide, CountedFrom, Side, Towards
 from sites import at_start, orchard, place_at, planted, site_of, without_rows
 

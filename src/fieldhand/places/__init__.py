@@ -1,16 +1,18 @@
-"""Selectors to places: what the words of a Task mean on this site, in local metres.
+"""Selectors: how a Task names places without coordinates, and the places that they come to on a site, in local metres.
 
-The definitions (docs/site.md says the same for readers; one module an idea):
+Each selector is a file with its data, places, words and size, in a folder by its question (docs/site.md gives the
+definitions to readers):
 
-- ``extent``: halves, quarters, edges, extremes, corners, middles; north is true north.
-- ``neighbours``: nearest, next to, farthest, within, neighbour after neighbour, the shortest few.
-- ``attributes``: tests and ranks by what the file says of the trees.
-- ``counted``, ``byrow``: blocks, rows by name and number, trees by their number in the row.
-- ``hand``: along the row of the tree in hand, across to the next row, several of one row.
-- ``ordering``: an order that is to be kept, and the n-th in it.
-- ``points``, ``room``: free points at a spacing or spread over a zone, and where they may lie.
-- ``resolve``: the sources, inside and outside zones, and how the parts nest; ``explain``: how it came to its places.
-- ``words``: selectors in words, for messages and read-back.
+- ``sources``: what names places outright: every tree, a tree by its id, a marker, a gate, the place in hand.
+- ``areas``: halves, quarters, edges, extremes, corners, middles; north is true north.
+- ``filters``: by attributes, zones and blocks, distance, and what was visited.
+- ``neighbours``: nearest, farthest, neighbour after neighbour.
+- ``rows``: rows by name and number, trees by their number in the row, along and across rows.
+- ``picks``: an order that is to be kept and the n-th in it, the first few, some drawn or spread.
+- ``points``: free points at a spacing or spread over a zone.
+
+``selector`` says what every selector gives, ``selectors`` registers them; ``resolution`` resolves one, ``explanation``
+gives the way to its places, ``saying`` says it.
 
 Three sorts of parts need to be told apart when they nest. *Regions and edges* (half, quarter, edge, middle of an edge)
 are those of the farm, or of the block or zone that is named: "yellow trees in the northern half" are in the northern
