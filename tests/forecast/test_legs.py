@@ -1,4 +1,4 @@
-"""How far it is between optional visits, from a table and from the drivable graph."""
+"""Distances between optional visits, from drives and along the sparse graph."""
 
 import numpy as np
 import pytest
@@ -34,10 +34,10 @@ def planted():
 def test_many_places_are_as_far_from_each_other_in_the_graph_as_in_the_table(planted):
     drives, here, visits, rest = planted
     table = legs_between(here, visits, rest, drives).distances
-    labels = legs_between(here, visits, rest, drives, table=10).labels
+    along = legs_between(here, visits, rest, drives, table=10).table
     pairs = np.random.default_rng(0).integers(0, len(table), (400, 2))
     straight = np.array([table[i, j] for i, j in pairs])
-    looked_up = np.array([labels.length(int(i), int(j)) for i, j in pairs])
+    looked_up = np.array([along.distances[i, j] for i, j in pairs])
     assert (looked_up >= straight * (1 - 1e-6) - 1e-6).all()
     assert np.median(looked_up - straight) < 0.5
     assert (looked_up <= 1.1 * straight + 3.0).all()
@@ -77,7 +77,7 @@ def test_where_drives_are_straight_lines_coordinates_do():
         between = np.hypot(*(legs.plane[:, None] - legs.plane[None]).transpose(2, 0, 1))
         assert between == pytest.approx(lengths, abs=1e-6)
     else:
-        assert legs.labels is not None
+        assert legs.table is not None
 
 
 def test_an_open_end_and_visits_that_end_elsewhere_have_a_table(planted):

@@ -4,7 +4,7 @@ import numba
 import numpy as np
 
 from fieldhand.orienteering.costs import Gamma
-from fieldhand.orienteering.kernels import anneal, grow, labels, legs, rank, value
+from fieldhand.orienteering.kernels import anneal, grow, legs, value
 from fieldhand.orienteering.kernels.compiled import compiled
 from fieldhand.orienteering.kernels.legs import sort_by, uniform
 from fieldhand.orienteering.policy import Policy, State, Stop, compile_ahead, solve
@@ -54,7 +54,7 @@ def test_sorting_is_that_of_numpy():
 
 def entered():
     """How often each loop that Python calls has been compiled or loaded in this process."""
-    loops = [loop for module in (anneal, grow, labels, legs, rank, value) for loop in vars(module).values()]
+    loops = [loop for module in (anneal, grow, legs, value) for loop in vars(module).values()]
     return {loop.__name__: len(loop.signatures) for loop in loops if hasattr(loop, "signatures")}
 
 

@@ -1,4 +1,4 @@
-"""How far it is between optional visits: a table where they are few, the drivable graph itself where they are many."""
+"""Distances between optional visits: in double precision for few, along a sparse graph in single precision for many."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fieldhand.forecast.rest import Rest
 from fieldhand.forecast.state import Visit
-from fieldhand.orienteering.labels import Labels
+from fieldhand.orienteering.table import Table
 from fieldhand.site.model import Place
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-#: So many places have a table of all distances (100 MB with its copies); more are looked up in the drivable graph.
+#: The most places with distances in double precision (100 MB with copies); those of more are single (1.6 GB at most).
 TABLE = 2000
 
 
@@ -30,7 +30,7 @@ class Legs:
 
     distances: Floats = field(default_factory=lambda: np.zeros((0, 0)))
     plane: Floats | None = None
-    labels: Labels | None = None
+    table: Table | None = None
 
 
 def legs_between(
@@ -96,4 +96,4 @@ def _along_roads(places: Sequence[Place], drives: Drives) -> Legs:
     if roads.straight:
         return Legs(plane=np.ascontiguousarray(roads.at[: len(places)]))
     network = Network(nodes=len(roads.at), ways=roads.ways, lengths=roads.lengths)
-    return Legs(labels=network.labels(range(len(places))))
+    return Legs(table=network.table(range(len(places))))

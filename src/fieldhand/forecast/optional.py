@@ -62,7 +62,7 @@ def visits_problem(
     return under_way(
         distances=legs.distances,
         plane=legs.plane,
-        labels=legs.labels,
+        table=legs.table,
         rewards=np.array([0.0, *rewards, 0.0]),
         start=0,
         end=len(rewards) + 1,

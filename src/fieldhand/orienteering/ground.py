@@ -8,10 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.orienteering.costs import slices
-from fieldhand.orienteering.kernels.labels import distances_from
 from fieldhand.orienteering.kernels.legs import Ways
-from fieldhand.orienteering.labels import NEAREST
 from fieldhand.orienteering.problem import Problem
+from fieldhand.orienteering.table import NEAREST
 from fieldhand.orienteering.tail import quantile_table
 
 Floats = NDArray[np.float64]
@@ -22,11 +21,8 @@ _ALL = 400
 NOWHERE = Ways(
     matrix=np.zeros((0, 0)),
     xy=np.zeros((0, 2)),
-    spans=np.zeros((0, 2), dtype=np.int64),
-    hubs=np.zeros(0, dtype=np.int32),
-    gaps=np.zeros(0),
-    close=np.zeros((0, 0), dtype=np.int32),
-    close_gaps=np.zeros((0, 0)),
+    table=np.zeros((0, 0), dtype=np.float32),
+    end=0,
 )
 
 
@@ -68,9 +64,7 @@ class Ground:
             return np.asarray(ways.matrix[u, :-1])
         if len(ways.xy):
             return np.asarray(np.hypot(*(ways.xy[:-1] - ways.xy[u]).T))
-        away = np.empty(self.size)
-        distances_from(u, ways.spans, ways.hubs, ways.gaps, away)
-        return away
+        return np.asarray(ways.table[ways.end if u == self.size else u], dtype=np.float64)
 
 
 def ground_of(problem: Problem) -> Ground:
@@ -101,13 +95,8 @@ def ground_of(problem: Problem) -> Ground:
 
 def _ways(problem: Problem) -> Ways:
     nodes = np.append(np.arange(problem.size), problem.end)
-    if problem.labels is not None:
-        labels = problem.labels
-        spans = np.stack([labels.starts[nodes], labels.starts[nodes + 1]], axis=1)
-        return NOWHERE._replace(
-            spans=spans, hubs=labels.hubs, gaps=labels.gaps, close=labels.close[nodes],
-            close_gaps=labels.close_gaps[nodes],
-        )  # fmt: skip
+    if problem.table is not None:
+        return NOWHERE._replace(table=problem.table.distances, end=problem.end)
     if problem.plane is not None:
         return NOWHERE._replace(xy=np.ascontiguousarray(problem.plane[nodes], dtype=np.float64))
     return NOWHERE._replace(matrix=np.ascontiguousarray(problem.distances[np.ix_(nodes, nodes)], dtype=np.float64))
@@ -115,8 +104,8 @@ def _ways(problem: Problem) -> Ways:
 
 def _nearest(ways: Ways, problem: Problem) -> Ints:
     """The nearest vertices of each node; the end's node is nobody's neighbour, nor is a vertex its own."""
-    if problem.labels is not None:
-        near = problem.labels.near
+    if problem.table is not None:
+        near = problem.table.near
         return np.vstack([near, near[problem.end]])
     matrix, xy = ways.matrix, ways.xy
     size = max(len(matrix), len(xy))

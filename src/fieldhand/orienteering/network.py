@@ -5,20 +5,23 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.errors import ProblemError
 from fieldhand.orienteering.costs import CostModel
-from fieldhand.orienteering.labels import Labels, labels_of
 from fieldhand.orienteering.problem import Limit, Problem
+from fieldhand.orienteering.table import Table, table_of
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
 
 Floats = NDArray[np.float64]
 
-#: Vertices up to which a table of their distances is kept; labels take less memory and less time to make from there on.
-TABLE = 1_000
+#: The most vertices whose distances are kept in double precision.
+DOUBLE = 1_000
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -53,27 +56,29 @@ class Network:
             raise ProblemError(f"its length is {self.lengths[way]:g}", where=f"way {way}")
 
     def distances(self, nodes: Sequence[int]) -> Floats:
-        """Shortest distances between some nodes, shape (k, k); ``inf`` where there is no way."""
-        from scipy.sparse import csr_array
+        """Return the shortest distances between some nodes, shape (k, k); ``inf`` where there is no way."""
         from scipy.sparse.csgraph import dijkstra
 
-        starts, heads, lengths = self._leaving
-        # An entry of 0 would mean no way.
-        graph = csr_array((np.maximum(lengths, 1e-300), heads, starts), shape=(self.nodes, self.nodes))
         chosen = np.array(nodes, dtype=np.int64)
         found = np.empty((len(chosen), len(chosen)))
         for first in range(0, len(chosen), 256):
             part = chosen[first : first + 256]
-            found[first : first + 256] = dijkstra(graph, indices=part)[:, chosen]
+            found[first : first + 256] = dijkstra(self._graph, indices=part)[:, chosen]
         return np.minimum(found, found.T)
 
-    def labels(self, nodes: Sequence[int]) -> Labels:
-        """What gives the shortest distances between some nodes, each named once, without a table of them."""
-        return labels_of(*self._leaving, np.array(nodes, dtype=np.int64))
+    def table(self, nodes: Sequence[int]) -> Table:
+        """Return the shortest distances between some nodes, each named once, in single precision.
+
+        Raises:
+            ProblemError: The nodes are too many.
+        """
+        return table_of(self._graph, np.array(nodes, dtype=np.int64))
 
     @cached_property
-    def _leaving(self) -> tuple[NDArray[np.int64], NDArray[np.int32], Floats]:
-        """The ways that leave each node, in both directions: where its entries begin, where they lead, how long."""
+    def _graph(self) -> csr_array:
+        """The lengths of the ways, in both directions, as a sparse array."""
+        from scipy.sparse import csr_array
+
         tails, heads = (np.concatenate([self.ways[:, i], self.ways[:, 1 - i]]) for i in range(2))
         lengths = np.concatenate([self.lengths, self.lengths])
         order = np.lexsort((lengths, heads, tails))
@@ -84,7 +89,9 @@ class Network:
         other[1:] = (np.diff(tails) != 0) | (np.diff(heads) != 0)
         starts = np.zeros(self.nodes + 1, dtype=np.int64)
         np.cumsum(np.bincount(tails[other], minlength=self.nodes), out=starts[1:])
-        return starts, heads[other].astype(np.int32), lengths[order][other].astype(np.float64)
+        # An entry of 0 would mean no way.
+        kept = np.maximum(lengths[order][other].astype(np.float64), 1e-300)
+        return csr_array((kept, heads[other].astype(np.int32), starts), shape=(self.nodes, self.nodes))
 
     def problem(
         self,
@@ -93,16 +100,16 @@ class Network:
         end: int,
         limits: tuple[Limit, ...],
         costs: CostModel | None = None,
-        lengths: Literal["table", "labels"] | None = None,
+        precision: Literal["double", "single"] | None = None,
     ) -> tuple[Problem, tuple[int, ...]]:
-        """The problem over the nodes that are worth a visit, with the node of each of its vertices.
+        """Return the problem over the nodes that are worth a visit, with the node of each of its vertices.
 
         Args:
             rewards: Of every node, 0 for a mere junction.
             start, end: Nodes.
             limits: With service for every node, where there is any.
             costs: How legs cost.
-            lengths: How the distances are kept; None: in a table up to ``TABLE`` vertices, in labels beyond.
+            precision: Of the distances; None for double up to ``DOUBLE`` vertices, and single beyond.
 
         Raises:
             ProblemError: As :class:`Problem`.
@@ -115,12 +122,12 @@ class Network:
         wanted = ~(rewards == 0.0)
         wanted[[start, end]] = True
         kept = np.flatnonzero(wanted)
-        table = len(kept) <= TABLE if lengths is None else lengths == "table"
+        double = len(kept) <= DOUBLE if precision is None else precision == "double"
         at = {int(node): vertex for vertex, node in enumerate(kept)}
         services = [None if x.service is None else x.service[kept] for x in limits]
         made = Problem(
-            distances=self.distances(kept.tolist()) if table else np.zeros((0, 0)),
-            labels=None if table else self.labels(kept.tolist()),
+            distances=self.distances(kept.tolist()) if double else np.zeros((0, 0)),
+            table=None if double else self.table(kept.tolist()),
             rewards=rewards[kept],
             start=at[start],
             end=at[end],

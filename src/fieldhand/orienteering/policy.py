@@ -333,7 +333,7 @@ class Policy:
 def compile_ahead() -> None:
     """Compile the inner loops now and keep them on disk, so that no later process waits for it (some ten seconds).
 
-    Covers fixed routes, policies and their chances, over tables, coordinates and labels, for the loops take all three,
+    Covers fixed routes, policies and their chances, over distances of any kind, for the loops take all,
     and orders of many visits.
     """
     from fieldhand.orienteering.network import Network
@@ -341,7 +341,7 @@ def compile_ahead() -> None:
 
     ways = np.array([[i, i + 1] for i in range(11)], dtype=np.int64)
     chain = Network(nodes=12, ways=ways, lengths=np.full(11, 0.1))
-    problem, _ = chain.problem(np.ones(12), 0, 11, (Limit(budget=2.0),), lengths="labels")
+    problem, _ = chain.problem(np.ones(12), 0, 11, (Limit(budget=2.0),), precision="single")
     problem = replace(problem, after=(0.1,))
     solve(problem, 0, Stop(rounds=1))
     policy = Policy(problem, 0)

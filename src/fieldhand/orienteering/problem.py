@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from fieldhand.errors import ProblemError
 from fieldhand.orienteering.costs import CostModel, Deterministic, ShiftedExponential
-from fieldhand.orienteering.labels import Labels
+from fieldhand.orienteering.table import Table
 
 Floats = NDArray[np.float64]
 
@@ -41,15 +41,15 @@ class Problem:
     cost model says otherwise that is ``d * (alpha + X)``, X exponential with mean ``1 - alpha``.
 
     Attributes:
-        distances: Symmetric, shape (n, n), in any unit; ``inf`` where there is no way. Not where a plane or labels
-            give them.
+        distances: Symmetric, shape (n, n), in any unit; ``inf`` where there is no way. Not where a plane or a table
+            gives them.
         rewards: What visiting each vertex is worth, shape (n,); the start's and the end's do not count.
         limits: At least one.
         alpha: The certain part of a leg's cost, 0 to 1; 1 is a deterministic problem.
         costs: Another cost model; ``alpha`` is not used then.
         plane: Coordinates, shape (n, 2), in place of distances: the legs are straight, and thousands of vertices need
             no table of distances.
-        labels: Of a sparse network, in place of distances (:meth:`fieldhand.orienteering.network.Network.problem`).
+        table: Of a sparse network, in place of distances (:meth:`fieldhand.orienteering.network.Network.problem`).
         most: Vertices with a reward that may be visited at most, start and end not counted; None for as many as fit.
         after: Lengths of legs that will be driven from the end on, whatever the route is; they count for every limit.
 
@@ -67,7 +67,7 @@ class Problem:
     after: tuple[float, ...] = field(default=())
     costs: CostModel | None = None
     plane: Floats | None = None
-    labels: Labels | None = None
+    table: Table | None = None
     most: int | None = None
 
     def __post_init__(self) -> None:
@@ -90,8 +90,8 @@ class Problem:
 
     def length(self, u: int, v: int) -> float:
         """Of the leg between two vertices."""
-        if self.labels is not None:
-            return self.labels.length(u, v)
+        if self.table is not None:
+            return float(self.table.distances[u, v])
         if self.plane is not None:
             return float(np.hypot(*(self.plane[u] - self.plane[v])))
         return float(self.distances[u, v])
@@ -108,7 +108,7 @@ def under_way(
     after: tuple[float, ...] = (),
     costs: CostModel | None = None,
     plane: Floats | None = None,
-    labels: Labels | None = None,
+    table: Table | None = None,
     most: int | None = None,
 ) -> Problem:
     """A problem whose mission has begun: nothing is checked, since what is left may be too small for the way home."""
@@ -123,7 +123,7 @@ def under_way(
         "after": after,
         "costs": costs,
         "plane": plane,
-        "labels": labels,
+        "table": table,
         "most": most,
     }.items():
         object.__setattr__(problem, name, value)
@@ -151,7 +151,7 @@ def left_of(problem: Problem, vertex: int, left: tuple[float, ...], collected: t
         after=problem.after,
         costs=problem.costs,
         plane=problem.plane,
-        labels=problem.labels,
+        table=problem.table,
         most=most,
     )
 
@@ -161,13 +161,13 @@ def _check_graph(problem: Problem) -> None:
     n = len(rewards)
     if n < 2:
         raise ProblemError(f"{n} vertices are no problem", advice="give a start and an end at least")
-    if (len(d) > 0) + (problem.plane is not None) + (problem.labels is not None) > 1:
-        raise ProblemError("lengths are given in more than one way", advice="give distances, coordinates or labels")
+    if (len(d) > 0) + (problem.plane is not None) + (problem.table is not None) > 1:
+        raise ProblemError("lengths are given in more than one way", advice="give distances, coordinates or a table")
     if problem.plane is not None:
         _check_plane(problem.plane, n)
-    elif problem.labels is not None:
-        if problem.labels.size != n:
-            raise ProblemError(f"labels of {problem.labels.size} vertices do not fit {n} rewards")
+    elif problem.table is not None:
+        if problem.table.size != n:
+            raise ProblemError(f"a table of {problem.table.size} vertices does not fit {n} rewards")
     elif d.shape != (n, n):
         raise ProblemError(f"distances of shape {d.shape} do not fit {n} rewards", advice=f"give {n} by {n} distances")
     if np.isnan(d).any() or (d < 0).any():

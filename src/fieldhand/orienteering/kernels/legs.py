@@ -12,7 +12,6 @@ from fieldhand.orienteering.kernels.compiled import inner
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-Numbers = NDArray[np.int32]
 Seeds = NDArray[np.uint64]
 
 
@@ -22,19 +21,14 @@ class Ways(NamedTuple):
     Attributes:
         matrix: Lengths, shape (nodes, nodes); empty where something else gives them.
         xy: Coordinates, shape (nodes, 2); empty where the legs are not straight.
-        spans: Where the label of each node begins and ends, shape (nodes, 2).
-        hubs, gaps: Entries of the labels: hubs, ascending in a label, and the distances to them.
-        close, close_gaps: Some nodes near each one, ascending, and the distances to them, shape (nodes, k): most legs
-            that are asked for are short, and this is quicker than labels.
+        table: Lengths in single precision, shape (nodes - 1, nodes - 1), where neither gives them.
+        end: The row and column of the last node in the table.
     """
 
     matrix: Floats
     xy: Floats
-    spans: Ints
-    hubs: Numbers
-    gaps: Floats
-    close: Numbers
-    close_gaps: Floats
+    table: NDArray[np.float32]
+    end: int
 
 
 #: Skewness at the first entry of a table of quantiles, and entries per unit of skewness.
@@ -54,45 +48,15 @@ def uniform(state: Seeds) -> float:
 
 
 @inner
-def over_hubs(spans: Ints, hubs: Numbers, gaps: Floats, u: int, v: int) -> float:
-    """The distance between two nodes over the best hub that both have; ``inf`` where there is none."""
-    i, j, u_end, v_end = spans[u, 0], spans[v, 0], spans[u, 1], spans[v, 1]
-    best = np.inf
-    while i < u_end and j < v_end:
-        a, b = hubs[i], hubs[j]
-        if a == b:
-            best = min(best, gaps[i] + gaps[j])
-        i += a <= b
-        j += b <= a
-    return best
-
-
-@inner
-def _on_network(spans: Ints, hubs: Numbers, gaps: Floats, close: Numbers, close_gaps: Floats, u: int, v: int) -> float:
-    # Always the same row for two nodes, so that there and back are equal to the last digit.
-    if u < v:
-        u, v = v, u
-    low, high = 0, close.shape[1]
-    while low < high:
-        middle = (low + high) >> 1
-        if close[u, middle] < v:
-            low = middle + 1
-        else:
-            high = middle
-    if low < close.shape[1] and close[u, low] == v:
-        return close_gaps[u, low]  # type: ignore[no-any-return]
-    return over_hubs(spans, hubs, gaps, u, v)
-
-
-@inner
 def length(ways: Ways, u: int, v: int) -> float:
-    """Of the leg from u to v: an entry of the matrix, the straight line, or the way over the best hub of both."""
+    """Return the length of the leg from u to v: an entry of the matrix or the table, or the straight line."""
     if ways.matrix.shape[0] > 0:
         return ways.matrix[u, v]  # type: ignore[no-any-return]
     if ways.xy.shape[0] > 0:
         x, y = ways.xy[u, 0] - ways.xy[v, 0], ways.xy[u, 1] - ways.xy[v, 1]
         return math.sqrt(x * x + y * y)
-    return _on_network(ways.spans, ways.hubs, ways.gaps, ways.close, ways.close_gaps, u, v)
+    last = ways.table.shape[0]
+    return float(ways.table[ways.end if u == last else u, ways.end if v == last else v])
 
 
 @inner
