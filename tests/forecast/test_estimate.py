@@ -229,3 +229,38 @@ def test_a_forecast_that_exceeds_what_is_accepted_is_said_of_optional_visits_too
         (sentence,) = limit_problems(task, SITE, drives, resources, branches)
         assert words in sentence
         assert "44% chance of running short where 10% is accepted" in sentence
+
+
+def test_branches_that_took_the_same_share_what_is_expected_of_optional_visits(monkeypatch) -> None:
+    """Which of the trees was measured twice does not matter to the visits that follow, only how many were."""
+    from fieldhand.forecast import expected, walker
+
+    trees = ["1", "2", "3"]
+    looks = [
+        step
+        for k, tree in enumerate(trees)
+        for step in (
+            Act(id="", action="take_thermal_picture", at=TreeIs(tree=tree), reading=f"r{k}"),
+            If(id="", condition=replace(LOW, reading=f"r{k}"), then=Act(id="", action="read_co2", count=1)),
+        )
+    ]
+    task = task_for(
+        SITE, Sequence(id="", steps=(*looks, replace(ROUND, optional=True))), constraints=limited("distance_m", 120.0)
+    )
+    asked: list[str] = []
+    real = expected.expected_visits
+
+    def counted(walk, node, visits, rng, before=None):
+        asked.append(node.id)
+        return real(walk, node, visits, rng, before)
+
+    monkeypatch.setattr(expected, "expected_visits", counted)
+    shared = estimate(task, orchard(), ROBOT)
+    some, _ = len(asked), asked.clear()
+    monkeypatch.setattr(walker.Walker, "_state", lambda self: iter((object(),)))
+    alone = estimate(task, orchard(), ROBOT)
+    assert some <= len(trees) + 1 < len(asked)
+    assert len(shared.branches) == len(alone.branches) == 2 ** len(trees)
+    for one, other in zip(shared.branches, alone.branches, strict=True):
+        assert one.metres.mean == pytest.approx(other.metres.mean, rel=0.02)
+        assert [c.chance for c in one.chances] == pytest.approx([c.chance for c in other.chances], abs=0.02)

@@ -5,7 +5,7 @@ Orders come from :mod:`fieldhand.forecast.routes`, as they do on the robot.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -274,15 +274,30 @@ class Walker(Trail):
         key = (node.id, len(self.steps), tuple(self.decisions))
         found = self._kept.get(key)
         if found is None:
-            rng = np.random.default_rng([0 if self.drawn is None else self.drawn.seed, len(self.steps)])
-            found = expected_visits(self, node, visits, rng, self._kept.get(node.id))
-            self._kept[key] = self._kept[node.id] = found
+            # Branches that differ by what was measured where, and not by what that took, expect the same.
+            state = (node.id, *self._state())
+            found = self._kept.get(state)
+            if found is None:
+                rng = np.random.default_rng([0 if self.drawn is None else self.drawn.seed, len(self.steps)])
+                found = expected_visits(self, node, visits, rng, self._kept.get(node.id))
+            self._kept[key] = self._kept[state] = self._kept[node.id] = found
         self.allowance = found.allowance
         step = Step(node=node, kind="visit-list", context=self.context, shed=(*found.shed, *closed))
         self._note(replace(step, places=found.places, outlook=found.outlook))
         if self.drawn is not None:
             self.drawn.visit(found.preview, [v.work for v in visits])
         return found.places
+
+    def _state(self) -> Iterator[object]:
+        """All that decides which optional visits missions make from here on."""
+        context, spent = self.context, self.spent
+        yield len(self.steps), self.allowance, self.to_come()
+        yield context.here, context.here.stand, tuple(context.visited), tuple(context.bound.items())
+        yield tuple((frame.node.id, tuple(n.id for n in frame.left)) for frame in self.plan.frames)
+        # Sums of the same durations in another order differ in their last digits.
+        yield tuple(round(amount, 6) for amount in (spent.metres, spent.seconds, spent.percent, spent.joules))
+        if self.drawn is not None:
+            yield self.drawn.metres.tobytes()
 
     def _capture(self, node: Act) -> Mapping[str, float]:
         """Note the captures of an action; inside a ``Try`` it may fail.
