@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
 from fieldhand.planning.english.arrange import Sentence
@@ -159,20 +161,22 @@ def parse_places(terms: tuple[Term, ...]) -> Places | None:
 @cache
 def _parser() -> Any:
     from lark import Lark
-    from lark.lexer import Lexer
 
-    class Terms(Lexer):
-        """Terms are tokens already."""
-
-        def __init__(self, conf: Any) -> None:
-            pass
-
-        # Lark hands a lexer of this older form the data alone, whatever its base class declares.
-        def lex(self, data: Any) -> Iterator[Any]:  # type: ignore[override]
-            yield from data
+    from fieldhand.planning.english.term_lexer import TermLexer
 
     grammar = (files("fieldhand.planning.english") / "grammar.lark").read_text(encoding="utf-8")
-    return Lark(grammar, parser="lalr", lexer=Terms, start=["start", "places"], maybe_placeholders=False)
+    options = {"parser": "lalr", "lexer": TermLexer, "start": ["start", "places"], "maybe_placeholders": False}
+    return Lark(grammar, **options, cache=_tables())
+
+
+def _tables() -> str | bool:
+    """Return the file that keeps the parser's tables, which take a tenth of a second to build; False for none.
+
+    It stands beside the modules as they are compiled, and is trusted as they are. Lark builds the tables anew where
+    grammar, options or versions have changed.
+    """
+    folder = Path(__file__).parent / "__pycache__"
+    return str(folder / "grammar.tables") if os.access(folder, os.W_OK) else False
 
 
 def _terms(tree: Any) -> tuple[Term, ...]:
