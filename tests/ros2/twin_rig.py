@@ -9,12 +9,12 @@ from functools import cache
 from random import Random
 
 from fieldhand.clock import SimulatedClock
-from fieldhand.execution.drivers.memory import Memory
 from fieldhand.execution.drivers.ros2.goal import ActionClient
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.outcome import Outcome
 from fieldhand.execution.drivers.ros2.transport import SENSOR, Message
 from fieldhand.execution.drivers.ros2.twin.robot import Said, SimulatedRobot
+from fieldhand.execution.drivers.simulation_state import SimulationState
 from fieldhand.execution.world import World
 from fieldhand.robot.bindings import Distro, NavigationBinding, Ros2Bindings
 from fieldhand.robot.model import RobotProfile
@@ -51,7 +51,7 @@ class TwinRig:
     world: World = field(default_factory=World)
     robot: RobotProfile = field(default_factory=husky)
     seed: int = 0
-    memory: Memory | None = None
+    memory: SimulationState | None = None
     said: list[Said] = field(default_factory=list)
 
     def __post_init__(self) -> None:

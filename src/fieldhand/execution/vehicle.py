@@ -1,19 +1,24 @@
-"""What a mission is carried out with: a driver, and the clocks that go with it."""
+"""Vehicles, on which missions are carried out: a driver with its clocks."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Literal
 
-from fieldhand.clock import Clock, WallClock
+from fieldhand.clock import Clock, SimulatedWallClock, WallClock
+from fieldhand.errors import OutputError
 from fieldhand.execution.drivers.protocol import Driver
+from fieldhand.execution.world import ClockJumps, DiskFull, World
 from fieldhand.task.results import Event
 
 if TYPE_CHECKING:
-    from fieldhand.execution.world import World
     from fieldhand.robot.model import RobotProfile
     from fieldhand.site.model import Site
+
+#: When a mission begins whose world sets the wall clock without saying when it began.
+SOME_MORNING = datetime(2026, 1, 1, 6, 0, tzinfo=UTC)
 
 #: What carries messages to a robot.
 TransportName = Literal["dds", "rclpy"]
@@ -91,7 +96,6 @@ def simulation(site: Site, robot: RobotProfile, world: World, *, seed: int, spee
 
     from fieldhand.clock import ScaledClock, SimulatedClock
     from fieldhand.execution.drivers.simulation import SimulatedDriver
-    from fieldhand.execution.drivers.surroundings import wall_clock_of, writing_in
     from fieldhand.execution.mission_clock import MissionClock
 
     clock = MissionClock(SimulatedClock() if speed is None else ScaledClock(speed))
@@ -99,6 +103,32 @@ def simulation(site: Site, robot: RobotProfile, world: World, *, seed: int, spee
         driver=SimulatedDriver(site, robot, world, clock, np.random.default_rng(seed)),
         clock=clock,
         charge_percent=world.charge_percent,
-        wall=wall_clock_of(world, clock),
-        disk=lambda write: writing_in(world, write),
+        wall=_wall_clock_of(world, clock),
+        disk=lambda write: _writing_in(world, write),
     )
+
+
+def _wall_clock_of(world: World, clock: Clock) -> WallClock | None:
+    """Return the time of day in a world, or None if the world defines none."""
+    jumps = [(fault.at_s, fault.by_s) for fault in world.faults if isinstance(fault, ClockJumps)]
+    if world.begins is None and not jumps:
+        return None
+    return SimulatedWallClock(clock, (world.begins or SOME_MORNING).timestamp(), jumps)
+
+
+def _writing_in(world: World, write: Writer) -> Writer:
+    """Return a writer that fails once the world's disk is full."""
+    full_s = min((fault.at_s for fault in world.faults if isinstance(fault, DiskFull)), default=None)
+    if full_s is None:
+        return write
+
+    def until_full(event: Event) -> None:
+        if event.t >= full_s:
+            raise OutputError(
+                "the event log cannot be written: no space left on the disk",
+                where=f"{event.t:.0f} s into the mission",
+                advice="the robot was stopped where it was; make room, what was written before is kept",
+            )
+        write(event)
+
+    return until_full

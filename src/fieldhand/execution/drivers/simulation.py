@@ -11,8 +11,8 @@ import numpy as np
 
 from fieldhand.clock import Clock
 from fieldhand.execution.drivers.groundtruth import GroundTruth, Hindrance, Point
-from fieldhand.execution.drivers.memory import Memory
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, GoalFault, GoalState, Position, Progress
+from fieldhand.execution.drivers.simulation_state import SimulationState
 from fieldhand.execution.world import World
 from fieldhand.forecast.routes import beginning, drives_for
 from fieldhand.language import message
@@ -220,11 +220,11 @@ class SimulatedDriver:
             return stop.why
         return None
 
-    def memory(self) -> Memory:
+    def memory(self) -> SimulationState:
         """What it needs to go on later from where it stands now; a goal in hand is broken off."""
         here = self.position()
         captures, struck = self._truth.counts()
-        return Memory(
+        return SimulationState(
             seconds=self._clock.now() - self._begun_s,
             x=here.x,
             y=here.y,
@@ -236,7 +236,7 @@ class SimulatedDriver:
             lost=tuple(self._lost),
         )
 
-    def recall(self, memory: Memory) -> None:
+    def recall(self, memory: SimulationState) -> None:
         """Go on as the robot that this memory is of: of the same site, profile and world.
 
         Raises:

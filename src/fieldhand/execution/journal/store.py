@@ -17,8 +17,14 @@ from pathlib import Path
 from types import TracebackType
 
 from fieldhand.errors import JournalError
-from fieldhand.execution.journal.chain import Head, extended, require_chain, start
-from fieldhand.execution.journal.mark import Mark, MarkFile, create_mark, mark_path, read_mark
+from fieldhand.execution.journal.hash_chain import Head, extended, require_chain, start
+from fieldhand.execution.journal.high_water_mark import (
+    HighWaterMark,
+    HighWaterMarkFile,
+    create_mark,
+    mark_path,
+    read_mark,
+)
 from fieldhand.execution.journal.records import Record, diverged
 from fieldhand.execution.log import EventLog
 from fieldhand.folders import FolderLock, FolderTaken, Unguarded, require_own_file
@@ -61,7 +67,7 @@ def create(path: Path, mission: str) -> None:
     """
     heads = {table: start(table) for table in ("tape", "events")}
     with _said(path):
-        create_mark(mark_path(path), Mark(epoch=0, heads=heads))
+        create_mark(mark_path(path), HighWaterMark(epoch=0, heads=heads))
         with closing(_connect(path)) as db:
             db.execute("BEGIN IMMEDIATE")
             for table in _TABLES:
@@ -100,8 +106,8 @@ class Journal:
             self._tape, self.before, self._epoch = opened.tape, opened.lines, opened.epoch
             self._heads: dict[str, Head] = opened.heads
             self._log = stack.enter_context(closing(mended(log, self.before)))
-            self._mark = stack.enter_context(closing(MarkFile(mark_path(path))))
-            self._mark.write(Mark(epoch=self._epoch, heads=self._heads), stored=True)
+            self._mark = stack.enter_context(closing(HighWaterMarkFile(mark_path(path))))
+            self._mark.write(HighWaterMark(epoch=self._epoch, heads=self._heads), stored=True)
             self._files = _identity(path)
             self._open = stack.pop_all()
         self._read = self._said = 0
@@ -140,7 +146,7 @@ class Journal:
             self._require_in_place()
             self._write(order)
             self._require_in_place()
-            self._mark.write(Mark(epoch=self._epoch, heads=self._heads))
+            self._mark.write(HighWaterMark(epoch=self._epoch, heads=self._heads))
         while self._untold:
             self._log.line(self._untold[0])
             self._tell(self._untold[0])
@@ -293,7 +299,7 @@ def _checked(
     return [(one, two) for _, one, two, _ in rows], heads
 
 
-def _require_mark(mark: Mark, epoch: int, heads: Mapping[str, Sequence[Head]], path: Path) -> None:
+def _require_mark(mark: HighWaterMark, epoch: int, heads: Mapping[str, Sequence[Head]], path: Path) -> None:
     """Refuse a journal that had come further than it says now."""
     for table, reached in mark.heads.items():
         there = heads[table]
@@ -318,7 +324,7 @@ def _add_checksums(db: sqlite3.Connection, path: Path) -> None:
         db.execute(f"DROP TABLE old_{table}")
     about = {"format": str(FORMAT), "epoch": "0", "rows": _rows(heads)}
     db.executemany("INSERT OR REPLACE INTO about VALUES (?, ?)", list(about.items()))
-    create_mark(mark_path(path), Mark(epoch=0, heads=heads))
+    create_mark(mark_path(path), HighWaterMark(epoch=0, heads=heads))
 
 
 def _numbered(head: Head, rows: Sequence[tuple[str, str]]) -> tuple[list[tuple[int, str, str, bytes]], Head]:

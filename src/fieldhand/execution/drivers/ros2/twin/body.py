@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable, Mapping
 from itertools import pairwise
 
-from fieldhand.execution.drivers.memory import Memory
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Position, Progress
 from fieldhand.execution.drivers.simulation import SimulatedDriver
+from fieldhand.execution.drivers.simulation_state import SimulationState
 from fieldhand.site.model import Place, Site
 
 Point = tuple[float, float]
@@ -77,7 +77,7 @@ class Body:
         """Whether it is under way."""
         return self._does == "driving"
 
-    def memory(self) -> Memory:
+    def memory(self) -> SimulationState:
         """By which it goes on later."""
         return self._driver.memory()
 

@@ -11,7 +11,6 @@ import numpy as np
 
 from fieldhand.clock import Clock
 from fieldhand.errors import InputError
-from fieldhand.execution.drivers.memory import Memory
 from fieldhand.execution.drivers.protocol import Progress
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.map_frame import in_map
@@ -26,6 +25,7 @@ from fieldhand.execution.drivers.ros2.twin.messages import part_of
 from fieldhand.execution.drivers.ros2.twin.navigation import Navigation
 from fieldhand.execution.drivers.ros2.twin.senses import Senses
 from fieldhand.execution.drivers.simulation import SimulatedDriver
+from fieldhand.execution.drivers.simulation_state import SimulationState
 from fieldhand.execution.world import World
 from fieldhand.robot.bindings import Datum, Ros2Bindings
 from fieldhand.robot.model import RobotProfile
@@ -128,7 +128,7 @@ class SimulatedRobot:
         sim_time: bool = False,
         speed: float = 1.0,
         say: Callable[[Said], None] = lambda _: None,
-        memory: Memory | None = None,
+        memory: SimulationState | None = None,
         wall: Callable[[], float] = time.time,
     ) -> None:
         bindings = bindings_of(profile)
@@ -176,7 +176,7 @@ class SimulatedRobot:
         """Since the robot was first made, without the time between its end and its next beginning."""
         return self._clock.now() - self._begun_s
 
-    def memory(self) -> Memory:
+    def memory(self) -> SimulationState:
         """By which it goes on later from where it stands now."""
         self._clock.pass_on()
         return self.body.memory()

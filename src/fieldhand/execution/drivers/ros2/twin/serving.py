@@ -6,8 +6,8 @@ import time
 from collections.abc import Callable
 
 from fieldhand.clock import ScaledClock
-from fieldhand.execution.drivers.memory import Memory
 from fieldhand.execution.drivers.ros2.twin.robot import SimulatedRobot
+from fieldhand.execution.drivers.simulation_state import SimulationState
 
 #: Seconds of the wall clock between two steps, and between two times that the state is written.
 _STEP_S, _SAVE_S = 0.005, 0.2
@@ -18,7 +18,7 @@ def serve(
     clock: ScaledClock,
     *,
     ended: Callable[[], str | None],
-    save: Callable[[Memory], None] = lambda _: None,
+    save: Callable[[SimulationState], None] = lambda _: None,
     steady: Callable[[], float] = time.monotonic,
 ) -> str:
     """Let a robot live until it is told to end.

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from fieldhand.errors import InputError, OutputError
-from fieldhand.execution.drivers.memory import Memory
+from fieldhand.execution.drivers.simulation_state import SimulationState
 from fieldhand.files import FileFault, read_file, write_whole
 
 #: A robot that has been at every tree of a large site with every sensor remembers less.
@@ -53,7 +53,7 @@ class _Document(BaseModel):
     lost: tuple[tuple[Finite | None, str], ...]
 
 
-def write_state(path: Path, memory: Memory, identity: Identity) -> None:
+def write_state(path: Path, memory: SimulationState, identity: Identity) -> None:
     """Write it, whole or not at all.
 
     Raises:
@@ -73,7 +73,7 @@ def write_state(path: Path, memory: Memory, identity: Identity) -> None:
         ) from None
 
 
-def read_state(path: Path, identity: Identity) -> Memory | None:
+def read_state(path: Path, identity: Identity) -> SimulationState | None:
     """What stands in it; None where there is no such file.
 
     Raises:
@@ -97,4 +97,4 @@ def read_state(path: Path, identity: Identity) -> Memory | None:
             raise InputError(f"is the state of a robot with another {part}", where=str(path), advice=advice)
     values = document.model_dump(exclude={"format", *asdict(identity)})
     values["lost"] = tuple((math.inf if until_s is None else until_s, what) for until_s, what in document.lost)
-    return Memory(**values)
+    return SimulationState(**values)

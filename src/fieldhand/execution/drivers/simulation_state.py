@@ -1,4 +1,4 @@
-"""What of a simulated robot outlasts the program that simulates it."""
+"""The state of a simulated robot that outlasts the program that simulates it."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True, kw_only=True)
-class Memory:
-    """A simulated robot in no goal: made anew with this, it goes on as if nothing had been.
+class SimulationState:
+    """The state of a simulated robot without a goal, from which another one continues.
 
     Attributes:
         seconds: Since it was first made; faults of its world come by them.

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fieldhand.errors import JournalError
-from fieldhand.execution.journal.chain import Head
+from fieldhand.execution.journal.hash_chain import Head
 from fieldhand.files import store_names, write_stored
 
 #: Two copies, written in turn, each in a sector of its own: one that is cut off leaves the other.
@@ -25,19 +25,19 @@ _EMPTY = b" " * (2 * _SLOT)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Mark:
-    """The rows that a journal had written.
+class HighWaterMark:
+    """How far a journal had come.
 
     Attributes:
         epoch: Number of the opening that wrote it.
-        heads: Of each table, by its name.
+        heads: Last row of each table, by the table's name.
     """
 
     epoch: int
     heads: Mapping[str, Head]
 
 
-class MarkFile:
+class HighWaterMarkFile:
     """The file of a mark, open for writing.
 
     Args:
@@ -51,7 +51,7 @@ class MarkFile:
         self._descriptor = os.open(path, os.O_RDWR | getattr(os, "O_BINARY", 0))
         self._turn = _latest(os.read(self._descriptor, 2 * _SLOT))[0]
 
-    def write(self, mark: Mark, *, stored: bool = False) -> None:
+    def write(self, mark: HighWaterMark, *, stored: bool = False) -> None:
         """Write a mark over the older of the two copies.
 
         Args:
@@ -86,8 +86,8 @@ def mark_path(journal: Path) -> Path:
     return journal.with_suffix(".mark")
 
 
-def create_mark(path: Path, mark: Mark) -> None:
-    """Make the file of a mark.
+def create_mark(path: Path, mark: HighWaterMark) -> None:
+    """Create the file of a mark.
 
     Raises:
         OSError: It cannot be written.
@@ -99,7 +99,7 @@ def create_mark(path: Path, mark: Mark) -> None:
     store_names(path.parent)
 
 
-def read_mark(path: Path) -> Mark:
+def read_mark(path: Path) -> HighWaterMark:
     """Return the mark of a journal.
 
     Raises:
@@ -117,15 +117,15 @@ def read_mark(path: Path) -> Mark:
     return found
 
 
-def _encoded(turn: int, mark: Mark) -> bytes:
+def _encoded(turn: int, mark: HighWaterMark) -> bytes:
     heads = {table: [head.rows, head.sha256.hex()] for table, head in mark.heads.items()}
     body = json.dumps({"turn": turn, "epoch": mark.epoch, "heads": heads}).encode()
     return (hashlib.sha256(body).hexdigest().encode() + b" " + body).ljust(_SLOT)
 
 
-def _latest(data: bytes) -> tuple[int, Mark | None]:
-    """Turn and mark of the later copy that is whole; (0, None) where neither is."""
-    found: tuple[int, Mark | None] = (0, None)
+def _latest(data: bytes) -> tuple[int, HighWaterMark | None]:
+    """Return turn and mark of the later copy that is whole, or (0, None)."""
+    found: tuple[int, HighWaterMark | None] = (0, None)
     for slot in (data[:_SLOT], data[_SLOT : 2 * _SLOT]):
         sha256, _, body = slot.strip().partition(b" ")
         if hashlib.sha256(body).hexdigest().encode() != sha256:
@@ -133,5 +133,5 @@ def _latest(data: bytes) -> tuple[int, Mark | None]:
         said = json.loads(body)
         heads = {table: Head(rows=rows, sha256=bytes.fromhex(sum_)) for table, (rows, sum_) in said["heads"].items()}
         if found[1] is None or said["turn"] > found[0]:
-            found = said["turn"], Mark(epoch=said["epoch"], heads=heads)
+            found = said["turn"], HighWaterMark(epoch=said["epoch"], heads=heads)
     return found

@@ -1,4 +1,4 @@
-"""Checksums of journal rows: each row's SHA-256 covers the row before it, so that no row is changed, dropped or moved.
+"""Checksums of journal rows: each row's SHA-256 covers the row before it, which reveals rows changed or dropped.
 
 They detect accidents (a failing disk, a file put back from a backup, two programs on one journal). Whoever can write
 the journal can compute them anew: they are not a signature.
