@@ -17,7 +17,6 @@ from shapely.ops import unary_union
 
 from fieldhand.errors import DriveFault
 from fieldhand.site.drives import Drive, Drives
-from fieldhand.site.driving.taut import taut, taut_lengths
 from fieldhand.site.model import Gate, Site
 from fieldhand.site.planting import Planting
 from planted_sites import generated, planted, upright
@@ -200,8 +199,8 @@ def test_to_the_other_side_of_a_row_the_way_leads_around_its_end():
     west = replace(site.trees[30].place, stand=(4.5, 36.0))  # the tenth tree of the middle row, from its west
     east = replace(site.trees[30].place, stand=(7.5, 36.0))
     way = drives.between(west, east)
-    # down 36 m and out by the standoff, past two mouths 6 m apart in the middle of their aisles, and back up
-    assert way.length_m == pytest.approx(2 * math.hypot(1.5, 37.5) + 6.0)
+    # down 36 m and out by the standoff, around the end of the row at the clearance to either side, and back up
+    assert way.length_m == pytest.approx(2 * math.hypot(1.5 - CLEARANCE, 37.5) + 2 * CLEARANCE)
     assert wrong(site, way) == ""
 
 
@@ -375,58 +374,7 @@ def test_a_site_without_rows_has_no_aisles_to_draw():
     assert drives.network().lines == ()
 
 
-# --- the string pulled taut --------------------------------------------------------------------------------------
-
-
-@st.composite
-def corridors(draw):
-    n = draw(st.integers(3, 9))
-    u = np.cumsum(draw(st.lists(st.floats(0.5, 5.0), min_size=n, max_size=n)))
-    low = np.array(draw(st.lists(st.floats(-3.0, 3.0), min_size=n, max_size=n)))
-    high = low + np.array(draw(st.lists(st.floats(0.1, 3.0), min_size=n, max_size=n)))
-    low[[0, -1]] = high[[0, -1]] = (low[[0, -1]] + high[[0, -1]]) / 2.0
-    return u, low, high
-
-
-@settings(max_examples=150, deadline=None)
-@given(corridors())
-def test_the_taut_string_is_the_shortest_of_all_lines_between_the_sides(corridor):
-    u, low, high = corridor
-    line = taut(u, low, high)
-    inside = np.interp(u, line[:, 0], line[:, 1])
-    assert (inside >= low - 1e-9).all()
-    assert (inside <= high + 1e-9).all()
-    length = float(np.hypot(*np.diff(line, axis=0).T).sum())
-    assert length == pytest.approx(shortest_by_all_pairs(u, low, high), abs=1e-6)
-
-
-@settings(max_examples=150, deadline=None)
-@given(corridors(), st.integers(0, 10**6))
-def test_taut_strings_from_one_spot_to_many_are_as_long_as_one_by_one(corridor, seed):
-    u, low, high = corridor
-    low, high = low - 0.05, high + 0.05
-    rng = np.random.default_rng(seed)
-    at = np.concatenate([rng.uniform(u[0] - 2.0, u[-1] + 2.0, 8), rng.choice(u, 3)])
-    spots = np.column_stack([at, rng.uniform(np.interp(at, u, low), np.interp(at, u, high))])
-    lengths = taut_lengths(u, low, high, spots[0], spots[1:])
-    for spot, length in zip(spots[1:], lengths.tolist(), strict=True):
-        one, two = sorted((spots[0], spot), key=lambda s: s[0])
-        inner = (u > one[0]) & (u < two[0])
-        sides = [np.concatenate([[one[1]], side[inner], [two[1]]]) for side in (low, high)]
-        line = taut(np.concatenate([[one[0]], u[inner], [two[0]]]), *sides)
-        assert length == pytest.approx(float(np.hypot(*np.diff(line, axis=0).T).sum()), abs=1e-9)
-
-
-def shortest_by_all_pairs(u, low, high) -> float:
-    """Dijkstra over all corners of the sides that see each other."""
-    nodes = [(k, v) for k in range(len(u)) for v in {float(low[k]), float(high[k])}]
-    metres = np.zeros((len(nodes), len(nodes)))
-    for (i, (k, v)), (j, (m, w)) in itertools.permutations(enumerate(nodes), 2):
-        if k < m:
-            between = v + (w - v) * (u[k : m + 1] - u[k]) / (u[m] - u[k])
-            if (between >= low[k : m + 1] - 1e-9).all() and (between <= high[k : m + 1] + 1e-9).all():
-                metres[i, j] = math.hypot(u[m] - u[k], w - v)
-    return float(dijkstra(metres, indices=[0])[0, -1])
+# --- rows in no order --------------------------------------------------------------------------------------------
 
 
 def test_rows_that_a_file_names_across_each_other_are_kept_apart_one_by_one():

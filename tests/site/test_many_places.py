@@ -16,9 +16,9 @@ from fieldhand.errors import DriveFault
 from fieldhand.forecast.distances import Distances
 from fieldhand.forecast.routes import reachable
 from fieldhand.site.drives import Drives
-from fieldhand.site.driving.chords import Chords
 from fieldhand.site.driving.free import Area
 from fieldhand.site.driving.roads import Roads
+from fieldhand.site.driving.visibility import Visibility
 from fieldhand.site.model import Site
 from generated_orchards import orchard_sites
 from planted_sites import generated, planted, scattered, upright
@@ -170,38 +170,56 @@ def test_the_size_of_the_roads_grows_with_the_places():
 
 @st.composite
 def holed(draw):
-    """Ground with holes in it, and points on it."""
+    """Ground with holes in it, a line along the middle of each, and points about it."""
     corner, turned = st.floats(5.0, 70.0), st.floats(0.0, 180.0)
     made = st.tuples(corner, corner, st.floats(0.5, 30.0), st.floats(0.5, 6.0), turned)
-    holes = [rotate(box(x, y, x + w, y + h), turn) for x, y, w, h, turn in draw(st.lists(made, min_size=1, max_size=6))]
+    holes, lines = [], []
+    for x, y, w, h, turn in draw(st.lists(made, min_size=1, max_size=14)):
+        holes.append(rotate(box(x, y, x + w, y + h), turn))
+        middle = LineString([(x, y + h / 2.0), (x + w, y + h / 2.0)])
+        lines.append(rotate(middle, turn, origin=box(x, y, x + w, y + h).centroid).coords)
     ground = box(0.0, 0.0, 100.0, 100.0).difference(shapely.union_all(holes))
     rng = np.random.default_rng(draw(st.integers(0, 10**6)))
-    return ground, rng.uniform(-5.0, 105.0, (30, 2))
+    return ground, np.array(lines), rng.uniform(-5.0, 105.0, (30, 2))
 
 
 @settings(max_examples=60, deadline=None)
 @given(holed())
-def test_a_line_is_seen_if_the_ground_covers_it_and_no_chord_parts_its_ends(world):
-    ground, at = world
+def test_a_line_is_seen_if_the_ground_covers_it_and_no_row_near_by_parts_its_ends(world):
+    ground, axes, at = world
     area = Area(ground)
     i, j = np.triu_indices(len(at), k=1)
     seen = area.sees(at[i], at[j])
     lines = [LineString(pair) for pair in np.stack([at[i], at[j]], axis=1)]
     assert seen.tolist() == [area.edged.covers(line) for line in lines]
-    kept = pairs_of(Chords(ground).pairs(at))
+    visibility = Visibility(ground, axes)
+    kept = pairs_of(visibility.pairs(at))
     assert pairs_of([(i[seen], j[seen])]) <= kept <= pairs_of([(i, j)])
-    between_two = {(a, b + 7) for a, b in pairs_of(Chords(ground).pairs(at[:7], at[7:]))}
-    assert between_two == {(a, b) for a, b in kept if a < 7 <= b}
+    to_others = {(a, b + 7) for a, b in pairs_of(visibility.pairs(at[:7], at[7:]))}
+    assert to_others >= {(a, b) for a, b in zip(i[seen].tolist(), j[seen].tolist(), strict=True) if a < 7 <= b}
+
+
+@settings(max_examples=60, deadline=None)
+@given(holed())
+def test_the_corners_seen_from_a_point_are_those_at_which_a_way_may_turn(world):
+    ground, axes, at = world
+    at = at[Area(ground).holds(at)]
+    assume(len(at) > 1)
+    visibility = Visibility(ground, axes)
+    shortest = visibility.graph.lengths(visibility.links(at))
+    everything = Visibility(ground, np.empty((0, 2, 2)))
+    assert shortest == pytest.approx(everything.graph.lengths(everything.links(at)), abs=1e-9)
 
 
 def pairs_of(batches) -> set[tuple[int, int]]:
     return {(a, b) for one, two in batches for a, b in zip(one.tolist(), two.tolist(), strict=True)}
 
 
-def test_a_line_through_the_middle_of_a_long_row_is_parted_by_its_chord():
+def test_a_line_through_the_middle_of_a_long_row_is_parted_by_its_axis():
     row = box(10.0, 49.0, 90.0, 51.0)
     ground = box(0.0, 0.0, 100.0, 100.0).difference(row)
-    assert not [pair for pair in Chords(ground).pairs(np.array([(50.0, 20.0), (55.0, 80.0)])) if len(pair[0])]
+    visibility = Visibility(ground, np.array([[(10.0, 50.0), (90.0, 50.0)]]))
+    assert not pairs_of(visibility.pairs(np.array([(50.0, 20.0), (55.0, 80.0)])))
 
 
 def test_a_marker_at_a_tree_stands_on_it_whichever_is_asked_for_first():

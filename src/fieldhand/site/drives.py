@@ -18,12 +18,11 @@ from numpy.typing import NDArray
 from fieldhand.errors import DriveFault
 from fieldhand.language import message
 from fieldhand.language.words import say_marker, say_number, say_tree
-from fieldhand.site.driving.layout import Layout
+from fieldhand.site.driving.layout import Layout, Spot
 from fieldhand.site.driving.network import Network, network_of
 from fieldhand.site.driving.reasons import cut_off, no_stand
 from fieldhand.site.driving.roads import Roads, roads_of
 from fieldhand.site.driving.sides import Visited, few_lanes, pick
-from fieldhand.site.driving.spots import Spot
 from fieldhand.site.driving.stands import Candidate, Stands
 from fieldhand.site.model import Place, Site
 
@@ -119,8 +118,7 @@ class Drives:
         if not self.layout.open:
             at, there = np.array(one).reshape(-1, 2), np.array(two).reshape(-1, 2)
             return np.asarray(np.hypot(*(at[:, None, :] - there[None, :, :]).transpose(2, 0, 1)))
-        spots = self.layout.spots
-        lengths = self.layout.lengths(spots.at(one), None if to is None else spots.at(two))
+        lengths = self.layout.lengths(self.layout.spots(one), None if to is None else self.layout.spots(two))
         if np.isinf(lengths).any():
             i, j = np.argwhere(np.isinf(lengths))[0].tolist()
             raise self._no_way(places[i], (places if to is None else to)[j])
@@ -174,18 +172,15 @@ class Drives:
 
     @staticmethod
     def _row_of(place: Place, candidates: Sequence[Candidate]) -> tuple[int, int] | None:
-        """The body and the line of a tree whose stand is open; None for all else."""
+        """Return the group and the line of a tree whose stand is open; None for all else."""
         if place.stand is not None or len(candidates) < 2 or candidates[0].lane is None:
             return None
-        body, _, line = candidates[0].lane
-        return body, line
+        group, _, line = candidates[0].lane
+        return group, line
 
     def _lane_at(self, xy: XY) -> tuple[int, int, int] | None:
-        aisle = self.layout.spot(xy).aisle
-        if aisle is None:
-            return None
-        below = aisle.body.lines.index(aisle.below)
-        return aisle.body_number, below, below + 1
+        aisle = self.layout.aisle(xy)
+        return None if aisle is None else (aisle.group_number, aisle.position, aisle.position + 1)
 
     def _origin(self, here: Place | None) -> Spot:
         """From where stands are to be reached."""
@@ -205,7 +200,7 @@ class Drives:
             for c in option
             if not c.why_not
         ]
-        linked = self.layout.linked(self.layout.spots.at([c.xy for c in able]), origin)
+        linked = self.layout.linked(self.layout.spots([c.xy for c in able]), origin)
         away = np.hypot(*(np.array([c.xy for c in able]).reshape(-1, 2) - origin.xy).T).tolist()
         metres = {c.xy: m for c, m, is_linked in zip(able, away, linked, strict=True) if is_linked}
         return [
@@ -256,7 +251,7 @@ class Drives:
     def linked(self, places: Sequence[Place], here: Place) -> tuple[bool, ...]:
         """Which of the places can be driven to from here, wherever the robot will stand there."""
         able = [[] if bad else c for bad, c in zip(self._impossible(places), self._able_of(places), strict=True)]
-        spots = self.layout.spots.at([c.xy for some in able for c in some])
+        spots = self.layout.spots([c.xy for some in able for c in some])
         linked = iter(self.layout.linked(spots, self._origin(here)))
         return tuple(any([next(linked) for _ in some]) for some in able)  # noqa: C419 - each has its turn
 
@@ -296,10 +291,10 @@ class Drives:
             return [""] * len(places)
         start = self._origin(None)
         able = self._able_of(places)
-        linked = iter(self.layout.linked(self.layout.spots.at([c.xy for cs in able for c in cs]), start))
+        linked = iter(self.layout.linked(self.layout.spots([c.xy for cs in able for c in cs]), start))
         reached = [any([next(linked) for _ in candidates]) for candidates in able]  # noqa: C419 - each has its turn
         return [
-            "" if reach else cut_off(self.layout, self.layout.spots.at([c.xy for c in candidates]), start)
+            "" if reach else cut_off(self.layout, self.layout.spots([c.xy for c in candidates]), start)
             for reach, candidates in zip(reached, able, strict=True)
         ]
 

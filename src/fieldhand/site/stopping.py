@@ -38,12 +38,12 @@ def safe_stop(drives: Drives, way: Drive, within_m: float) -> float | None:
     most = min(within_m, way.length_m)
     steps = np.append(np.arange(0.0, max(most, 0.0), _STEP_M), max(most, 0.0))
     points = [way.at(float(metres)) for metres in steps]
-    spots = drives.layout.spots.at(points)
-    busy = [(float(m.at[0]), float(m.at[1])) for m in drives.layout.mouths]
+    aisles = drives.layout.aisles.at(np.array(points))
+    busy = [(x, y) for aisle in drives.layout.aisles.all for x, y in aisle.entries.tolist()]
     markers = [place.xy for place in drives.site.markers.values()]
     gates = [(gate.place.xy, gate.width_m / 2.0) for gate in drives.site.gates]
-    for metres, point, spot in sorted(zip(steps.tolist(), points, spots, strict=True), key=lambda one: -one[0]):
-        in_aisle = spot.aisle is not None and _is_clear(point, busy, gates)
+    for metres, point, aisle in sorted(zip(steps.tolist(), points, aisles, strict=True), key=lambda one: -one[0]):
+        in_aisle = aisle is not None and _is_clear(point, busy, gates)
         if in_aisle or any(math.dist(point, at) <= _AT_MARKER_M for at in markers):
             return float(metres)
     return None
@@ -51,7 +51,7 @@ def safe_stop(drives: Drives, way: Drive, within_m: float) -> float | None:
 
 def stands_in(drives: Drives, at: XY) -> str:
     """Say where a point lies: "the aisle between rows 3 and 4", "the open"."""
-    aisle = drives.layout.spot(at).aisle
+    aisle = drives.layout.aisle(at)
     if aisle is None:
         return message("the open", context="log")
     return message("the {known}", context="log", known=aisle_name(drives.site, aisle))

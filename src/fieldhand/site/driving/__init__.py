@@ -1,15 +1,16 @@
-"""Where a robot can drive: open ground, the aisles between rows, and the ways over both.
+"""Where a robot can drive: ground without obstacles, the shortest ways over it, and the aisles between rows.
 
-free      where a robot may be at all: boundary, keep-outs, fences and gates
-ground    shortest ways over open ground (a visibility graph), with its corners and chords
-access    how a place reaches open ground
-rowlines  rows as lines in the frame of their block
-outline   how far the rows of a block reach, as an outline with few corners
-bodies    the blocks of a site, each with its rows, aisles and outline
-aisles    moves within one aisle
-spots     where a point lies, and what ways it reaches
-layout    all of it together: from any spot to any other
-stands    where the robot stands to be at a tree
-roads     the ways between many places as a sparse graph
-network   aisles, headlands and gates as lines with names
+free        where a robot may be at all: boundary, keep-outs, fences and gates
+rowlines    rows as lines in the frame of their block
+aisles      rows side by side in groups, the aisles between them, the headlands at their ends
+row_bodies  the ground around each row that a robot keeps off, as a polygon with few corners
+visibility  the corners of a ground that see each other, and what other points see
+graph       shortest ways over a sparse graph
+layout      all of it together: from any point to any other
+stands      where the robot stands to be at a tree
+sides       from which side the trees of a visit list are worked on
+roads       the ways between many places as a sparse graph
+network     aisles, headlands and gates as lines with names
+reasons     why a place cannot be driven to
+stretch     the ground that a stopped robot takes as blocked
 """

@@ -1,350 +1,276 @@
-"""Moves within one aisle: the strip between two neighbouring rows, from mouth to mouth."""
+"""Aisles: the strips between neighbouring rows of a block, and the headlands at the ends of these rows."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+import itertools
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
-from shapely.geometry import Polygon
+from shapely.geometry import LineString, Point, Polygon
 from shapely.geometry.base import BaseGeometry
-from shapely.ops import unary_union
 
-from fieldhand.site.driving.bodies import Body
-from fieldhand.site.driving.free import Area, Free
-from fieldhand.site.driving.ground import XY, Ground
-from fieldhand.site.driving.rowlines import Line, Points, RowLine, simplified_above
-from fieldhand.site.driving.taut import taut, taut_lengths
+from fieldhand.site.driving.free import Free
+from fieldhand.site.driving.graph import Points
+from fieldhand.site.driving.row_bodies import RowBody, row_bodies
+from fieldhand.site.driving.rowlines import Frame, Line, RowLine, row_line
+from fieldhand.site.model import Site
+from fieldhand.site.planting import Block
 
-#: How a robot moves in it: along straight lines; along bent rows; around something that is in it; not at all.
-Course = Literal["straight", "bent", "obstructed", "closed"]
+#: Rows of a block that are this many row spacings apart have open ground between them, not an aisle.
+_APART = 2.5
 
-#: An aisle in which something stands has sides with at most so many corners, or gives up this part of its width.
-_MANY_CORNERS = 120
-_SIDES = (0.0, 0.01, 0.03, 0.1)
-_MOST_ROOM = 0.7
+#: Rows end to end stand within this part of a row spacing.
+_SAME_LINE = 0.35
 
 #: The middle of bent rows is drawn with this tolerance, part of the aisle's width.
 _MIDDLE = 0.05
 
-#: A mouth that is not free in its middle is looked for at so many points across.
-_MOUTHS = 21
 
-#: One row is longer than the next by this many widths of the aisle.
-_ASLANT = 0.7
+@dataclass(frozen=True, eq=False)
+class RowGroup:
+    """Rows side by side, with an aisle between every two neighbours.
+
+    Attributes:
+        block: Position of their block in the planting.
+        lines: In the order of v, at least one.
+        bodies: Of the lines.
+    """
+
+    block: int
+    frame: Frame
+    lines: tuple[RowLine, ...]
+    bodies: tuple[RowBody, ...]
+
+    @cached_property
+    def start_headland(self) -> Line:
+        """(v, u) along the ends of the rows of least u, in the order of v."""
+        return self._headland(0)
+
+    @cached_property
+    def end_headland(self) -> Line:
+        """(v, u) along the ends of the rows of greatest u, in the order of v."""
+        return self._headland(1)
+
+    def _headland(self, end: int) -> Line:
+        uv = self.frame.local(np.concatenate([body.ends[end] for body in self.bodies]))
+        uv = uv[np.argsort(uv[:, 1], kind="stable")]
+        return uv[:, 1], uv[:, 0]
 
 
 @dataclass(frozen=True, eq=False)
 class Aisle:
-    """The strip between two neighbouring rows of a body.
+    """The strip between two neighbouring rows.
 
     Attributes:
         number: Of the aisle on the site.
-        body_number: Position of its body.
-        low, high: v between which the robot is clear of both rows all the way; ``low > high`` where rows are not
-            straight enough for that.
+        group_number: Position of its group.
+        position: Of the aisle in its group: that of the row below it.
     """
 
     number: int
-    body_number: int
-    body: Body
-    below: RowLine
-    above: RowLine
-    free: Free
-    course: Course
+    group_number: int
+    group: RowGroup
+    position: int
 
     @property
-    def low(self) -> float:
-        """Above this v the robot is clear of the row below all the way."""
-        return self.below.top
+    def frame(self) -> Frame:
+        """The axes of its rows."""
+        return self.group.frame
 
     @property
-    def high(self) -> float:
-        """Below this v the robot is clear of the row above all the way."""
-        return self.above.bottom
+    def below(self) -> RowLine:
+        """The row of lesser v."""
+        return self.group.lines[self.position]
 
-    @cached_property
-    def sides(self) -> tuple[Points, Points, Points]:
-        """u, and the least and greatest v there at which the robot is clear of the rows; whole length of the aisle."""
-        (lu, lv), (hu, hv) = self.below.upper, self.above.lower
-        first, last = self._span
-        u = np.unique(np.concatenate([[first], lu, hu, [last]]))
-        return u, np.interp(u, lu, lv), np.interp(u, hu, hv)
+    @property
+    def above(self) -> RowLine:
+        """The row of greater v."""
+        return self.group.lines[self.position + 1]
+
+    @property
+    def is_straight(self) -> bool:
+        """Return True if a robot can drive all along it in a straight line."""
+        return self.below.top <= self.above.bottom
 
     def bounds(self, u: Points) -> tuple[Points, Points]:
-        """The least and greatest v at which the robot is clear of the rows at each u."""
+        """Return the least and greatest v at which the robot is clear of the rows at each u."""
         return np.interp(u, *self.below.upper), np.interp(u, *self.above.lower)
 
     def width(self, u: Points | float) -> Points:
-        """Metres from row to row at each u."""
+        """Return the metres from row to row at each u."""
         return np.asarray(np.interp(u, self.above.u, self.above.low) - np.interp(u, self.below.u, self.below.high))
 
     def middle(self, u: Points | float) -> Points:
-        """v halfway between the rows at each u."""
+        """Return v halfway between the rows at each u."""
         low, high = np.interp(u, self.below.u, self.below.high), np.interp(u, self.above.u, self.above.low)
         return np.asarray((low + high) / 2.0)
 
-    @property
+    @cached_property
     def middle_line(self) -> Points:
-        """(u, v) halfway between the rows, from outline to outline, with few points; shape (n, 2)."""
-        v0, v1 = self.middle(np.array([-np.inf, np.inf])).tolist()
-        start, end = self.body.reaches(v0)[0], self.body.reaches(v1)[1]
-        if self.low <= self.high:
-            return np.array([[start, (self.low + self.high) / 2.0], [end, (self.low + self.high) / 2.0]])
-        u = self.sides[0]
+        """(u, v) halfway between the rows, from headland to headland, with few points; shape (n, 2)."""
+        ends = self.middle(np.array([-np.inf, np.inf]))
+        start = float(np.interp(ends[0], *self.group.start_headland))
+        end = float(np.interp(ends[1], *self.group.end_headland))
+        u = np.unique(np.concatenate([self.below.u, self.above.u]))
         u = np.concatenate([[start], u[(u > start) & (u < end)], [end]])
         tolerance = _MIDDLE * abs(float(self.width(u[len(u) // 2])))
         line = shapely.linestrings(np.column_stack([u, self.middle(u)]))
         return shapely.get_coordinates(shapely.simplify(line, tolerance))
 
-    def way(self, a: Points, b: Points) -> Points | None:
-        """The points of the shortest way within the aisle between two of its spots (u, v); None if there is none.
+    @property
+    def entries(self) -> Points:
+        """Where it opens onto the headlands, in metres east and north, shape (2, 2)."""
+        return self.frame.world(self.middle_line[[0, -1]])
 
-        A spot nearer to a row than the robot's clearance is left straight across the aisle.
-        """
-        if self.course == "closed":
-            return None
-        if self.course == "obstructed":
-            ends = self.body.frame.world(np.array([a, b])).tolist()
-            points = self._ground.way((ends[0][0], ends[0][1]), (ends[1][0], ends[1][1]))
-            return None if points is None else self.body.frame.local(np.array(points))
-        one, two = self.clear_of_rows(np.array([a, b]))
-        straight = self._is_inside(one[1]) and self._is_inside(two[1])
-        inner = np.array([one, two]) if straight else self._taut(one, two)
-        return np.vstack([a[None, :], inner, b[None, :]])
+    @cached_property
+    def polygon(self) -> BaseGeometry:
+        """The strip from row to row, as long as the longer of them, in metres east and north."""
+        below, above = self.below, self.above
+        ends = [self.group.bodies[k].ends for k in (self.position, self.position + 1)]
+        first = min(float(self.frame.local(start)[:, 0].min()) for start, _ in ends)
+        last = max(float(self.frame.local(end)[:, 0].max()) for _, end in ends)
+        u = np.unique(np.concatenate([[first], below.u, above.u, [last]]))
+        u = u[(u >= first) & (u <= last)]
+        low, high = np.interp(u, below.u, below.high), np.interp(u, above.u, above.low)
+        ring = np.vstack([np.column_stack([u, low]), np.column_stack([u, np.maximum(low, high)])[::-1]])
+        return Polygon(self.frame.world(ring)).buffer(0.0)
 
-    def metres(self, a: Points, b: Points) -> float:
-        """Of :meth:`way`; inf if there is none."""
-        return float(self.metres_from(a, b[None, :])[0])
 
-    def metres_from(self, a: Points, spots: Points) -> Points:
-        """Metres of the ways from one spot to each of these, shape (n,); inf where there is none."""
-        if self.course == "closed":
-            return np.full(len(spots), np.inf)
-        if self.course == "obstructed":
-            return self._ground.lengths(self.body.frame.world(a[None, :]), self.body.frame.world(spots)).ravel()
-        one, two = self.clear_of_rows(a[None, :])[0], self.clear_of_rows(spots)
-        found = np.hypot(*(two - one).T)
-        bent = ~(self._is_inside(one[1]) & self._is_inside(two[:, 1]))
-        if bent.any():
-            found[bent] = taut_lengths(*self.sides, one, two[bent])
-        return np.asarray(found + np.abs(a[1] - one[1]) + np.abs(spots[:, 1] - two[:, 1]))
+class Aisles:
+    """The rows of a site in groups, their bodies, and the aisles between them.
 
-    def metres_between(self, one: Points, two: Points) -> Points:
-        """Metres of the way from each of these spots to its counterpart of those, shape (n,); inf: there is none."""
-        straight = (self.course == "straight") & self._is_inside(one[:, 1]) & self._is_inside(two[:, 1])
-        found = np.hypot(*(two - one).T)
-        for k in np.flatnonzero(~straight).tolist():
-            found[k] = self.metres(one[k], two[k])
-        return np.asarray(found)
+    Args:
+        site: With its rows.
+        free: Ground without keep-outs.
+        standoff_m: Metres beyond the last trees at which a robot turns, where there is room.
+    """
 
-    def foot(self, spot: Points) -> tuple[XY, float] | None:
-        """Where a spot reaches ground on which ways keep their clearance, in an aisle in which something stands."""
-        if self.course != "obstructed":
-            return None
-        ((x, y),) = self.body.frame.world(spot[None, :]).tolist()
-        return self._ground.foot((x, y))
-
-    def lengths(self, rows: Points, columns: Points | None = None) -> Points:
-        """Metres of the ways from each of these spots to each of those (the same if none are given), shape (n, m);
-        inf where there is none."""
-        if self.course == "obstructed":
-            world = self.body.frame.world
-            return self._ground.lengths(world(rows), None if columns is None else world(columns))
-        same = columns is None
-        spots = rows if columns is None else columns
-        found = np.full((len(rows), len(spots)), np.inf)
-        if self.course == "closed":
-            return found
-        one, two = self._is_inside(rows[:, 1]), self._is_inside(spots[:, 1])
-        found[np.ix_(one, two)] = np.hypot(*(rows[one, None] - spots[None, two]).transpose(2, 0, 1))
-        for i in np.flatnonzero(~one | ~two.all()).tolist():
-            rest = np.flatnonzero(~two | ~one[i])
-            rest = rest[rest > i] if same else rest
-            found[i, rest] = self.metres_from(rows[i], spots[rest])
-            if same:
-                found[rest, i] = found[i, rest]
-        return found
-
-    def mouths(self, end: Literal[0, 1]) -> Points:
-        """Where the robot drives in and out at an end (0: that of least u), (u, v), shape (n, 2); none if it is closed.
-
-        In the middle of the opening; where one row is longer than the next, so that the opening is aslant, also at its
-        sides.
-        """
-        v_out, u_out = self.body.start_outline if end == 0 else self.body.end_outline
-        k = -1 * end
-        if self.low <= self.high:
-            low, high = self.low, self.high
-        else:
-            low = float(self.below.high[k]) + self.free.clearance_m
-            high = float(self.above.low[k]) - self.free.clearance_m
-        if low > high:
-            return np.empty((0, 2))
-        across = np.linspace(low, high, _MOUTHS)
-        across = across[np.argsort(np.abs(across - (low + high) / 2.0), kind="stable")]
-        spots = np.column_stack([np.interp(across, v_out, u_out), across])
-        if self.course == "obstructed":
-            open_ = self._soft_area.holds(self.body.frame.world(spots))
-            spots = spots[open_]
-        if len(spots) < 2 or np.ptp(spots[:, 0]) < _ASLANT * (high - low):
-            return spots[:1]
-        return np.asarray(spots[np.unique([0, int(spots[:, 1].argmin()), int(spots[:, 1].argmax())])])
-
-    def _is_inside(self, v: Points) -> NDArray[np.bool_]:
-        """Whether the robot goes straight from and to this v, wherever along the aisle."""
-        return np.asarray((v >= self.low) & (v <= self.high))
-
-    def clear_of_rows(self, spots: Points) -> Points:
-        """The spots themselves, or the nearest straight across the aisle where the robot is clear of the rows."""
-        low, high = self.bounds(spots[:, 0])
-        return np.column_stack([spots[:, 0], np.minimum(np.maximum(spots[:, 1], low), high)])
-
-    def _taut(self, a: Points, b: Points) -> Points:
-        if a[0] > b[0]:
-            return self._taut(b, a)[::-1]
-        u, low, high = self.sides
-        if b[0] - a[0] < 1e-9:
-            return np.array([a, b])
-        inner = (u > a[0]) & (u < b[0])
-        return taut(
-            np.concatenate([[a[0]], u[inner], [b[0]]]),
-            np.concatenate([[a[1]], low[inner], [b[1]]]),
-            np.concatenate([[a[1]], high[inner], [b[1]]]),
+    def __init__(self, site: Site, free: Free, standoff_m: float) -> None:
+        self.row_lines = tree_lines(site)
+        found = [
+            (number, frame, lines)
+            for number, block in enumerate(site.planting.blocks)
+            for frame, together in _groups(site, number, block, free.clearance_m)
+            for lines in _in_order(frame, together, self.row_lines)
+        ]
+        bodies = iter(
+            row_bodies(
+                [_trees_of(site, line) for _, _, lines in found for line in lines],
+                [(frame, site.planting.blocks[number]) for number, frame, lines in found for _ in lines],
+                free,
+                standoff_m,
+            )
+        )
+        self.groups = tuple(
+            RowGroup(number, frame, tuple(lines), tuple(next(bodies) for _ in lines)) for number, frame, lines in found
+        )
+        self.bodies = tuple(body for group in self.groups for body in group.bodies)
+        self._first = [0, *itertools.accumulate(len(group.lines) - 1 for group in self.groups)]
+        self.all = tuple(
+            Aisle(self._first[k] + position, k, group, position)
+            for k, group in enumerate(self.groups)
+            for position in range(len(group.lines) - 1)
         )
 
-    # --- where something stands in the aisle --------------------------------------------------------------------
+    def of(self, group: int, position: int) -> Aisle:
+        """Return the aisle above that line of a group."""
+        return self.all[self._first[group] + position]
+
+    def at(self, xy: Points) -> list[Aisle | None]:
+        """Return the aisle in which each point lies; None on open ground."""
+        number = np.full(len(xy), len(self.all))
+        points, aisles = self._polygons.query(shapely.points(xy), predicate="intersects")
+        np.minimum.at(number, points, aisles)
+        return [self.all[k] if k < len(self.all) else None for k in number.tolist()]
 
     @cached_property
-    def _ground(self) -> Ground:
-        hard = unary_union([self.between_rows(clear=False), self.corridor]).intersection(self.free.hard)
-        return Ground(_areas(hard), self.soft, self.free.clearance_m)
-
-    @cached_property
-    def soft(self) -> BaseGeometry:
-        """Where the robot is clear of rows and of all else, in metres east and north."""
-        return _areas(self.corridor.intersection(self.free.soft))
-
-    @cached_property
-    def _soft_area(self) -> Area:
-        return Area(self.soft)
-
-    @cached_property
-    def corridor(self) -> BaseGeometry:
-        """Where the robot is clear of both rows, in metres east and north, whatever else stands there.
-
-        Past the end of a row it reaches to the row's line, so that a turn into the next aisle is on it like a mouth.
-        """
-        return _areas(unary_union([self._beside_rows(), *self._past_rows()]))
-
-    def _beside_rows(self) -> BaseGeometry:
-        """Where the robot is clear of both rows as if they went on level.
-
-        Sides with very many corners give up a little room: straight from mouth to mouth where that leaves most of it.
-        """
-        many = len(self.below.u) + len(self.above.u) > _MANY_CORNERS / 2
-        if many and self.low <= self.high:
-            _, low, high = self.sides
-            if self.high - self.low > _MOST_ROOM * float(np.median(high - low)):
-                return _areas(self._strip(self.low, self.high).intersection(self.body.polygon))
-        for tolerance in _SIDES[int(many) :]:
-            corridor = self.between_rows(clear=True, tolerance=tolerance)
-            if int(shapely.get_num_coordinates(corridor)) <= _MANY_CORNERS:
-                break
-        return corridor
-
-    def _past_rows(self) -> Iterator[BaseGeometry]:
-        """Beyond the clearance from either end of each row: from its line to where the robot is clear of the other."""
-        clearance, (first, last) = self.free.clearance_m, self._span
-        for row in (self.below, self.above):
-            for k, u0, u1 in ((0, first, row.u[0] - clearance), (-1, row.u[-1] + clearance, last)):
-                line = row.u[[k]], (row.low[[k]] + row.high[[k]]) / 2.0
-                sides = (line, self.above.lower) if row is self.below else (self.below.upper, line)
-                if u0 < u1:
-                    yield self._between(*sides, u0, u1)
-
-    @property
-    def _span(self) -> tuple[float, float]:
-        """The least and the greatest u of the body."""
-        (_, start), (_, end) = self.body.start_outline, self.body.end_outline
-        return float(start.min()), float(end.max())
-
-    @property
-    def hull(self) -> Polygon:
-        """A four-cornered area in which the whole aisle lies."""
-        return self._strip(float(self.below.high.min()), float(self.above.low.max()))
-
-    def _strip(self, low: float, high: float) -> Polygon:
-        """Between two v, as long as the body."""
-        u0, u1 = self._span
-        return Polygon(self.body.frame.world(np.array([(u0, low), (u1, low), (u1, high), (u0, high)])))
-
-    def between_rows(self, *, clear: bool, tolerance: float = 0.0) -> BaseGeometry:
-        """The aisle up to the rows, or up to where the robot is clear of them; in metres east and north.
-
-        Args:
-            clear: Of the rows by the robot's clearance.
-            tolerance: Part of the width that may be left out where that makes the sides simpler.
-        """
-        below, above = (self.below.u, self.below.high), (self.above.u, self.above.low)
-        if clear:
-            below, above = self.below.upper, self.above.lower
-        if tolerance > 0.0:
-            below, above = self._simplified(below, above, tolerance)
-        return self._between(below, above, *self._span)
-
-    def _between(self, below: Line, above: Line, u0: float, u1: float) -> BaseGeometry:
-        """From line to line and from u to u, within the body; in metres east and north."""
-        u = np.unique(np.concatenate([[u0], below[0], above[0], [u1]]))
-        u = u[(u >= u0) & (u <= u1)]
-        low, high = np.interp(u, *below), np.interp(u, *above)
-        parts = []
-        runs = np.flatnonzero(np.diff(np.concatenate([[False], high > low, [False]]).astype(int)))
-        for first, last in runs.reshape(-1, 2).tolist():
-            if last - first > 1:
-                k = slice(first, last)
-                ring = np.vstack([np.column_stack([u[k], low[k]]), np.column_stack([u[k], high[k]])[::-1]])
-                parts.append(Polygon(self.body.frame.world(ring)).buffer(0.0))
-        return _areas(unary_union(parts).intersection(self.body.polygon)) if parts else Polygon()
-
-    def _simplified(self, below: Line, above: Line, part: float) -> tuple[Line, Line]:
-        u, low, high = self.sides
-        tolerance = part * max(float(np.median(high - low)), 0.1)
-        one, two = simplified_above(below, tolerance), simplified_above((above[0], -above[1]), tolerance)
-        if (np.interp(u, *one) > -np.interp(u, *two)).any():
-            return below, above
-        return one, (two[0], -two[1])
+    def _polygons(self) -> shapely.STRtree:
+        return shapely.STRtree([aisle.polygon for aisle in self.all])
 
 
-def aisles_of(bodies: tuple[Body, ...], free: Free) -> tuple[Aisle, ...]:
-    """All aisles of a site, body after body, in their order across the rows."""
-    found: list[Aisle] = []
-    for number, body in enumerate(bodies):
-        for k in range(len(body.lines) - 1):
-            below, above = body.lines[k], body.lines[k + 1]
-            course: Course = "straight" if below.top <= above.bottom else "bent"
-            aisle = Aisle(len(found), number, body, below, above, free, course)
-            if course == "bent":
-                _, low, high = aisle.sides
-                course = "bent" if (low <= high).all() else "obstructed" if (low < high).any() else "closed"
-                aisle = replace(aisle, course=course)
-            found.append(aisle)
-    if not free.bounded:
-        return tuple(found)
-    # Most aisles are clear of everything by a rough look; only the others are looked at as they really are.
-    open_ = [k for k, a in enumerate(found) if a.course in ("straight", "bent")]
-    rough = free.covers(np.array([found[k].hull for k in open_]), soft=True) if open_ else np.zeros(0, dtype=bool)
-    for k in np.array(open_, dtype=int)[~rough].tolist():
-        if not free.covers(found[k].between_rows(clear=True), soft=True)[0]:
-            found[k] = replace(found[k], course="obstructed")
-    return tuple(found)
+def tree_lines(site: Site) -> shapely.STRtree:
+    """Return the lines through the trees of all rows, in the order of the planting; of a single tree a point."""
+    xy = [site.xy[row.trees] for row in site.planting.rows]
+    return shapely.STRtree([LineString(p) if len(p) > 1 else Point(p[0]) for p in xy])
 
 
-def _areas(shape: BaseGeometry) -> BaseGeometry:
-    """The areas of an intersection, without its points and lines."""
-    parts = [p for p in getattr(shape, "geoms", [shape]) if p.area > 0.0]
-    return unary_union(parts) if parts else Polygon()
+def _trees_of(site: Site, line: RowLine) -> Points:
+    """Return the trees of a line from one end to the other, shape (n, 2)."""
+    return np.concatenate([site.xy[site.planting.rows[row].trees] for row in line.rows])
+
+
+def _groups(site: Site, number: int, block: Block, clearance_m: float) -> Iterator[tuple[Frame, list[RowLine]]]:
+    """Yield the rows of a block that lie side by side, in order across them."""
+    first = sum(len(b.rows) for b in site.planting.blocks[:number])
+    frame = _frame(site, block)
+    lines = [row_line((first + k,), frame.local(site.xy[row.trees]), clearance_m) for k, row in enumerate(block.rows)]
+    for beside in _overlapping(lines):
+        lines = sorted(beside, key=lambda line: float(line.low.mean() + line.high.mean()))
+        middles = np.array([float(line.low.mean() + line.high.mean()) / 2.0 for line in lines])
+        spacing = float(np.median(np.diff(middles))) if len(lines) > 1 else 0.0
+        group: list[RowLine] = []
+        for line, gap in zip(lines, [0.0, *np.diff(middles).tolist()], strict=True):
+            if group and gap < _SAME_LINE * spacing and _end_to_end(group[-1], line):
+                group[-1] = _joined(group[-1], line)
+            elif group and gap > _APART * spacing:
+                yield frame, group
+                group = [line]
+            else:
+                group.append(line)
+        yield frame, group
+
+
+def _frame(site: Site, block: Block) -> Frame:
+    """Return the block's axes, along its rows as they really run."""
+    frame = Frame.of_bearing(block.bearing_deg)
+    together, along = 0.0, 0.0
+    for row in block.rows:
+        uv = frame.local(site.xy[row.trees])
+        u, v = (uv - uv.mean(axis=0)).T
+        together, along = together + float(u @ v), along + float(u @ u)
+    slope = together / along if along > 0.0 else 0.0
+    return frame.turned(slope) if abs(slope) < 0.5 else frame
+
+
+def _overlapping(lines: Sequence[RowLine]) -> list[list[RowLine]]:
+    """Return rows in groups that a road across the rows parts from each other."""
+    groups: list[list[RowLine]] = []
+    end = -np.inf
+    for line in sorted(lines, key=lambda line: float(line.u[0])):
+        if not groups or line.u[0] > end:
+            groups.append([])
+        groups[-1].append(line)
+        end = max(end, float(line.u[-1]))
+    return groups
+
+
+def _end_to_end(one: RowLine, two: RowLine) -> bool:
+    return bool(one.u[-1] < two.u[0] or two.u[-1] < one.u[0])
+
+
+def _joined(one: RowLine, two: RowLine) -> RowLine:
+    if two.u[0] < one.u[0]:
+        one, two = two, one
+    u, low, high = (np.concatenate([getattr(one, k), getattr(two, k)]) for k in ("u", "low", "high"))
+    return RowLine((*one.rows, *two.rows), u, low, high, one.clearance_m)
+
+
+def _in_order(frame: Frame, lines: Sequence[RowLine], trees: shapely.STRtree) -> list[Sequence[RowLine]]:
+    """Return the lines together, or each on its own where a row lies between two others that are neighbours."""
+    if len(lines) == 1:
+        return [lines]
+    strips = []
+    for below, above in itertools.pairwise(lines):
+        sides = [np.column_stack([below.u, below.high]), np.column_stack([above.u, above.low])[::-1]]
+        ring = np.vstack(sides)
+        if len(ring) > 2:
+            strips.append(Polygon(frame.world(ring)))
+    if not all(strip.is_valid for strip in strips):
+        return [[line] for line in lines]
+    inner = [strip.buffer(-1e-3) for strip in strips]
+    if inner and trees.query(inner, predicate="intersects").size:
+        return [[line] for line in lines]
+    return [lines]

@@ -9,12 +9,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import connected_components, dijkstra
+from scipy.sparse.csgraph import dijkstra
 
 Points = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-#: Two doors may coincide; an edge of no length would be none.
+#: Two corners may coincide; an edge of no length would be none.
 _SHORTEST_M = 1e-9
 
 #: Rows and columns of a table that are worked on together.
@@ -62,18 +62,6 @@ class Graph:
         ends, first = np.unique(ends[order], return_index=True)
         self._head, self._tail = np.divmod(ends, max(count, 1))
         self._length = length[order][first]
-
-    def parts(self, one: Indices, two: Indices, more: int) -> Indices:
-        """Which part of the graph each node is in, counted from 0: no way leads from one part to another.
-
-        Args:
-            one, two: Further pairs that are joined; nodes counted on from those of the graph are allowed.
-            more: How many of these there are.
-        """
-        n = self.count + more
-        ends = np.concatenate([self._head, one]), np.concatenate([self._tail, two])
-        matrix = csr_matrix((np.ones(len(ends[0])), ends), shape=(n, n))
-        return np.asarray(connected_components(matrix, directed=False)[1], dtype=np.intp)
 
     def ways(self, first: int) -> tuple[Indices, Indices, Points]:
         """Each pair of nodes that an edge joins, once, and its metres; nodes counted on from ``first``."""

@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 import shapely
 from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import minimum_spanning_tree
+from scipy.sparse.csgraph import connected_components
 from shapely.geometry import LineString
 from shapely.geometry.base import BaseGeometry
+from shapely.ops import nearest_points
 
 from fieldhand.language import message
-from fieldhand.site.driving.aisles import Aisle
-from fieldhand.site.driving.bodies import Body
-from fieldhand.site.driving.graph import Indices, Points
-from fieldhand.site.driving.ground import XY
-from fieldhand.site.driving.layout import Layout
+from fieldhand.site.driving.aisles import Aisle, RowGroup
+from fieldhand.site.driving.graph import Points
+from fieldhand.site.driving.layout import XY, Layout
 from fieldhand.site.model import Gate, Site
 
 LineKind = Literal["aisle", "headland", "gate", "link"]
@@ -29,8 +28,8 @@ _COMPASS = ("north", "north-east", "east", "south-east", "south", "south-west", 
 #: Pieces of a line shorter than this are not drawn.
 _SHORTEST_M = 0.01
 
-#: What takes no link to drive over weighs almost nothing.
-_NOTHING = 1e-6
+#: Lines this near to each other meet.
+_MEET_M = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,14 +65,13 @@ class Network:
 
 
 def network_of(site: Site, layout: Layout) -> Network:
-    """What a robot can drive along on this site."""
-    lines = [
-        *(line for aisle in layout.aisles for line in _aisle(site, aisle)),
-        *(line for body in layout.bodies for line in _headlands(site, layout, body)),
-        *(_gate(site, gate) for gate in site.gates),
-        *_links(layout),
+    """Return what a robot can drive along on this site."""
+    driven = [
+        *(line for aisle in layout.aisles.all for line in _aisle(site, layout, aisle)),
+        *(line for group in layout.aisles.groups for line in _headlands(site, layout, group)),
     ]
-    return Network(lines=tuple(lines))
+    gates = [_gate(site, gate) for gate in site.gates]
+    return Network(lines=(*driven, *gates, *_links(layout, driven)))
 
 
 def aisle_name(site: Site, aisle: Aisle) -> str:
@@ -84,34 +82,31 @@ def aisle_name(site: Site, aisle: Aisle) -> str:
     blocks = site.planting.blocks
     if len(blocks) <= 1:
         return rows_said
-    return message("{known} of block {id}", context="log", known=rows_said, id=blocks[aisle.body.block].name)
+    return message("{known} of block {id}", context="log", known=rows_said, id=blocks[aisle.group.block].name)
 
 
-def _of_block(site: Site, body: Body) -> str:
+def _of_block(site: Site, group: RowGroup) -> str:
     blocks = site.planting.blocks
-    return f" of block {blocks[body.block].name}" if len(blocks) > 1 else ""
+    return f" of block {blocks[group.block].name}" if len(blocks) > 1 else ""
 
 
-def _aisle(site: Site, aisle: Aisle) -> Iterator[NetworkLine]:
-    """Its middle line; without the parts where something stands in it."""
-    if aisle.course == "closed":
-        return
-    line = LineString(aisle.body.frame.world(aisle.middle_line))
-    free = line if aisle.course != "obstructed" else line.intersection(aisle.soft)
-    for part in _pieces(free):
+def _aisle(site: Site, layout: Layout, aisle: Aisle) -> Iterator[NetworkLine]:
+    """Yield its middle line, without the parts where something stands in it or it is too narrow."""
+    line = LineString(aisle.frame.world(aisle.middle_line))
+    for part in _pieces(line.intersection(layout.visibility.area.edged)):
         yield _line("aisle", aisle_name(site, aisle), part)
 
 
-def _headlands(site: Site, layout: Layout, body: Body) -> Iterator[NetworkLine]:
-    """Along the ends of the rows, as far as there is room for the robot."""
-    if len(body.lines) < 2:
+def _headlands(site: Site, layout: Layout, group: RowGroup) -> Iterator[NetworkLine]:
+    """Yield the lines along the ends of the rows, as far as there is room for the robot."""
+    if len(group.lines) < 2:
         return
-    for sign, (v, u) in ((-1.0, body.start_outline), (1.0, body.end_outline)):
-        east, north = (sign * body.frame.along).tolist()
+    for sign, (v, u) in ((-1.0, group.start_headland), (1.0, group.end_headland)):
+        east, north = (sign * group.frame.along).tolist()
         side = _COMPASS[round(np.degrees(np.arctan2(east, north)) / 45.0) % 8]
-        name = f"{side} headland{_of_block(site, body)}"
-        line = LineString(body.frame.world(np.column_stack([u, v])))
-        for part in _pieces(line.intersection(layout.ground.soft.edged)):
+        name = f"{side} headland{_of_block(site, group)}"
+        line = LineString(group.frame.world(np.column_stack([u, v])))
+        for part in _pieces(line.intersection(layout.visibility.area.edged)):
             yield _line("headland", name, part)
 
 
@@ -131,65 +126,25 @@ def _gate(site: Site, gate: Gate) -> NetworkLine:
     return _line("gate", f"gate {gate.place.id}", np.array([middle - half, middle + half]))
 
 
-def _links(layout: Layout) -> list[NetworkLine]:
-    """The fewest metres over open ground that join aisles and headlands: a minimum spanning tree."""
-    ground = layout.ground
-    n = len(ground.nodes)
-    if not layout.mouths:
-        return []
-    body_of = _bodies_at(layout)
-    one, two, metres = ground.one, ground.two, ground.metres
-    weight = np.where((body_of[one] >= 0) & (body_of[one] == body_of[two]), _NOTHING, metres)
-    ends = _through(layout)
-    tree = minimum_spanning_tree(
-        csr_matrix(
-            (
-                np.concatenate([weight, np.full(len(ends), _NOTHING)]),
-                (np.concatenate([one, ends[:, 0]]), np.concatenate([two, ends[:, 1]])),
-            ),
-            shape=(n, n),
-        )
-    ).tocoo()
-    links = {
-        (i, j) for i, j, w in zip(tree.row.tolist(), tree.col.tolist(), tree.data.tolist(), strict=True) if w > 1e-3
-    }
-    for link in _dead_ends(links, body_of):
-        links.discard(link)
-    return [_line("link", "way over open ground", ground.nodes[[i, j]]) for i, j in sorted(links)]
-
-
-def _through(layout: Layout) -> Indices:
-    """Pairs of nodes of the ground that an aisle joins, shape (n, 2)."""
-    doors: dict[int, list[int]] = {}
-    for k, mouth in enumerate(layout.mouths):
-        doors.setdefault(mouth.aisle, []).append(layout.ground.first_door + k)
-    pairs = [(d[0], other) for d in doors.values() for other in d[1:]]
-    return np.array(pairs, dtype=np.intp).reshape(-1, 2)
-
-
-def _dead_ends(links: set[tuple[int, int]], body_of: Points) -> set[tuple[int, int]]:
-    """Links that lead to corners of obstacles and no farther."""
-    left = set(links)
-    gone: set[tuple[int, int]] = set()
-    while True:
-        degree: dict[int, int] = {}
-        for node in itertools.chain.from_iterable(left):
-            degree[node] = degree.get(node, 0) + 1
-        dead = {k for k in left if any(degree[node] == 1 and body_of[node] < 0 for node in k)}
-        if not dead:
-            return gone
-        left -= dead
-        gone |= dead
-
-
-def _bodies_at(layout: Layout) -> Points:
-    """For each node of the ground the body on whose outline it lies; -1 for none. Shape (n,)."""
-    found = np.full(len(layout.ground.nodes), -1)
-    if len(layout.bodies) and len(found):
-        points = shapely.points(layout.ground.nodes)
-        for node, body in layout.spots.outlines.query(points, predicate="dwithin", distance=1e-5).T.tolist():
-            found[node] = max(body, found[node])
-    return found
+def _links(layout: Layout, driven: Sequence[NetworkLine]) -> Iterator[NetworkLine]:
+    """Yield ways over open ground that join aisles and headlands which do not meet, nearest first."""
+    lines = np.array([LineString(line.points) for line in driven], dtype=object)
+    if not len(lines):
+        return
+    one, two = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=_MEET_M)
+    meeting = csr_matrix((np.ones(len(one)), (one, two)), shape=(len(lines), len(lines)))
+    part = connected_components(meeting, directed=False)[1]
+    parts = [shapely.union_all(lines[part == k]) for k in range(part.max() + 1)]
+    pairs = sorted((float(parts[i].distance(parts[j])), i, j) for i, j in itertools.combinations(range(len(parts)), 2))
+    joined = list(range(len(parts)))
+    for _, i, j in pairs:
+        if joined[i] == joined[j]:
+            continue
+        a, b = (layout.spot((p.x, p.y)) for p in nearest_points(parts[i], parts[j]))
+        way = layout.way(a, b)
+        if way is not None:
+            joined = [joined[i] if k == joined[j] else k for k in joined]
+            yield _line("link", "way over open ground", np.array(way))
 
 
 def _pieces(shape: BaseGeometry) -> Iterator[Points]:

@@ -5,13 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal
 
+import numpy as np
 import shapely
 
 from fieldhand.language import Number, counted, message
+from fieldhand.site.driving.aisles import Aisle
 from fieldhand.site.driving.graph import Points
-from fieldhand.site.driving.layout import Layout
-from fieldhand.site.driving.spots import Spot
+from fieldhand.site.driving.layout import Layout, Spot
 from fieldhand.site.driving.stands import Candidate
+
+#: Ground that reaches so little out of an aisle lies in it.
+_TOUCH_M = 0.01
 
 
 def no_stand(candidates: Sequence[Candidate], robot_m: float) -> str:
@@ -26,8 +30,9 @@ def no_stand(candidates: Sequence[Candidate], robot_m: float) -> str:
 def cut_off(layout: Layout, spots: Sequence[Spot], start: Spot) -> str:
     """Why no way leads from the start to any of the spots at which the robot could be at a place."""
     for spot in spots:
-        if spot.aisle is not None and not len(spot.links.nodes):
-            return message("out of reach: no way out of its aisle: {ends}", ends=_ends(layout, spot))
+        aisle = layout.aisle(spot.xy)
+        if aisle is not None and (spot.part < 0 or aisle.polygon.buffer(_TOUCH_M).covers(layout.part(spot.part))):
+            return message("out of reach: no way out of its aisle: {ends}", ends=_ends(layout, aisle, spot))
     line = shapely.LineString([spots[0].xy, start.xy])
     between = layout.free.in_the_way(line) if layout.free.bounded else ""
     if between:
@@ -59,21 +64,18 @@ def _together(parts: Sequence[str]) -> str:
     return said
 
 
-def _ends(layout: Layout, spot: Spot) -> str:
-    """What closes either end of the aisle in which a spot lies."""
-    one, two = _closed_by(layout, spot, 0), _closed_by(layout, spot, 1)
+def _ends(layout: Layout, aisle: Aisle, spot: Spot) -> str:
+    """Return what closes either end of the aisle in which a spot lies."""
+    one, two = _closed_by(layout, aisle, spot, 0), _closed_by(layout, aisle, spot, 1)
     if one == two:
         return message("{obstacle} closes both ends", obstacle=one)
     return message("{obstacle} closes one end and {other} the other", obstacle=one, other=two)
 
 
-def _closed_by(layout: Layout, spot: Spot, end: Literal[0, 1]) -> str:
-    aisle, uv = spot.aisle, spot.uv
-    if aisle is None or uv is None:
-        return message("nothing")
-    middle = aisle.middle_line
-    ahead: Points = middle[middle[:, 0] > uv[0]] if end == 1 else middle[middle[:, 0] < uv[0]][::-1]
+def _closed_by(layout: Layout, aisle: Aisle, spot: Spot, end: Literal[0, 1]) -> str:
+    middle, ((u, _),) = aisle.middle_line, aisle.frame.local(np.array([spot.xy])).tolist()
+    ahead: Points = middle[middle[:, 0] > u] if end == 1 else middle[middle[:, 0] < u][::-1]
     if not len(ahead):
         ahead = middle[[-end]]
-    line = shapely.LineString([spot.xy, *aisle.body.frame.world(ahead)])
+    line = shapely.LineString([spot.xy, *aisle.frame.world(ahead)])
     return layout.free.in_the_way(line) or message("another row")

@@ -1,6 +1,6 @@
 """What can be driven between places as a sparse graph: a handful of ways a place, however many places there are.
 
-The shortest ways over it are drives that lead by other places' stands and by junctions, so they are never shorter than
+The shortest ways over it are drives that lead by other places' stands and by corners, so they are never shorter than
 the drives that :meth:`fieldhand.site.drives.Drives.lengths` measures, and little longer. Along an aisle and over open
 ground each stand is joined to a few that it can be driven to straight: the nearest in each direction (Yao 1982), which
 leaves ways over them nearly straight.
@@ -8,7 +8,7 @@ leaves ways over them nearly straight.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,8 +18,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from fieldhand.site.driving.graph import Indices, Points
-from fieldhand.site.driving.layout import Layout, by_aisle
-from fieldhand.site.driving.spots import Spot
+from fieldhand.site.driving.layout import Layout
 from fieldhand.site.model import Place
 
 #: Along an aisle a stand is joined to those that are so many stands away.
@@ -32,8 +31,6 @@ _ABOUT = 60
 #: No way is shorter, so that none counts as missing.
 _SHORTEST_M = 1e-9
 
-Ways = tuple[Indices, Indices, Points]
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Roads:
@@ -41,7 +38,8 @@ class Roads:
 
     Attributes:
         places: In the order in which they were given, each with its stand. Node k is the stand of place k.
-        at: Metres east and north of every node, shape (n, 2): the stands, then junctions (mouths, corners, turns).
+        at: Metres east and north of every node, shape (n, 2): the stands, then corners of the ground, then feet of
+            stands that no way leads through.
         ways: Pairs of nodes, shape (m, 2).
         lengths: Metres of each way, shape (m,), greater than 0.
         straight: Whether all drives between the places are straight lines. Then there are neither ways nor junctions.
@@ -65,85 +63,66 @@ class Roads:
 
 
 def roads_of(layout: Layout, places: tuple[Place, ...]) -> Roads:
-    """The roads between places, each with its stand."""
+    """Return the roads between places, each with its stand."""
     stands = [p.stand or p.xy for p in places]
     at = np.array(stands).reshape(-1, 2)
-    spots = layout.spots.at(stands) if layout.open else []
-    if all(s.foot is not None for s in spots) and layout.is_one_view(at):
+    spots = layout.spots(stands) if layout.open else []
+    if not spots or layout.is_one_view(spots):
         none = np.empty((0, 2), dtype=np.int64)
         return Roads(places=places, at=at, ways=none, lengths=np.empty(0), straight=True)
-    # A stand off the ground on which ways keep their clearance hangs by one way at its foot there: none leads through.
-    feet = [_foot(layout, spot) for spot in spots]
+    # A stand off the ground that ways keep to hangs by one way at its foot there: none leads through it.
+    feet = [spot if spot.foot is None or spot.spur == 0.0 else layout.spot(spot.foot) for spot in spots]
+    off = np.array([k for k, spot in enumerate(spots) if feet[k] is not spot], dtype=np.intp)
     node = np.arange(len(spots))
-    off = np.array([k for k, (_, metres) in enumerate(feet) if metres > 0.0], dtype=np.intp)
-    first_foot = len(spots) + layout.graph.count
-    node[off] = first_foot + np.arange(len(off))
-    grounded = [foot for foot, _ in feet]
+    node[off] = len(spots) + layout.graph.count + np.arange(len(off))
+    links = layout.links(feet)
     found = [
-        *_to_junctions(grounded, node, len(spots)),
-        layout.graph.ways(len(spots)),
-        (off, node[off], np.array([feet[k][1] for k in off.tolist()])),
-        *(
-            (node[np.array(inside)[i]], node[np.array(inside)[j]], metres)
-            for number, inside in by_aisle(grounded).items()
-            for i, j, metres in _along(layout, number, np.array([grounded[k].uv for k in inside]))
+        (
+            np.repeat(node, [len(link.nodes) for link in links]),
+            len(spots) + np.concatenate([link.nodes for link in links]),
+            np.concatenate([link.metres for link in links]),
         ),
+        layout.graph.ways(len(spots)),
+        (off, node[off], np.array([spots[k].spur for k in off.tolist()])),
     ]
-    open_ = np.array([k for k, foot in enumerate(grounded) if foot.foot is not None], dtype=np.intp)
-    if len(open_) > 1:
-        i, j, metres = _about(layout, np.array([grounded[k].foot for k in open_.tolist()]))
-        found.append((node[open_[i]], node[open_[j]], metres))
+    for i, j in _neighbours(layout, np.array([spot.xy for spot in feet])):
+        metres = layout.straight(feet, i, j)
+        i, j, metres = i[np.isfinite(metres)], j[np.isfinite(metres)], metres[np.isfinite(metres)]
+        found.append((node[i], node[j], metres))
     one, two, metres = (np.concatenate(part) for part in zip(*found, strict=True))
     return Roads(
         places=places,
-        at=np.vstack([at, layout.junctions, np.array([feet[k][0].xy for k in off.tolist()]).reshape(-1, 2)]),
+        at=np.vstack([at, layout.visibility.corners, np.array([feet[k].xy for k in off.tolist()]).reshape(-1, 2)]),
         ways=np.column_stack([one, two]).astype(np.int64),
         lengths=np.maximum(metres, _SHORTEST_M),
         straight=False,
     )
 
 
-def _foot(layout: Layout, spot: Spot) -> tuple[Spot, float]:
-    """Where a spot reaches ground on which ways keep their clearance, and the metres to there: 0 where it is on it."""
-    if spot.foot is not None:
-        found = layout.ground.foot(spot.foot)
-    else:
-        found = None if spot.aisle is None or spot.uv is None else spot.aisle.foot(spot.uv)
-    if found is None or found[1] + spot.spur < _SHORTEST_M:
-        return spot, 0.0
-    return layout.spot(found[0]), spot.spur + found[1]
+def _neighbours(layout: Layout, at: Points) -> Iterator[tuple[Indices, Indices]]:
+    """Yield pairs of points that may be joined straight: along an aisle, and over open ground."""
+    numbers = np.array([len(layout.aisles.all) if a is None else a.number for a in layout.aisles.at(at)])
+    order = np.argsort(numbers, kind="stable")
+    for inside in np.split(order, np.flatnonzero(np.diff(numbers[order])) + 1):
+        number = int(numbers[inside[0]])
+        if number == len(layout.aisles.all):
+            yield _about(layout, at, inside)
+            continue
+        along = inside[np.argsort(layout.aisles.all[number].frame.local(at[inside])[:, 0], kind="stable")]
+        for step in _STEPS:
+            yield along[:-step], along[step:]
 
 
-def _to_junctions(spots: Sequence[Spot], node: Indices, first: int) -> Iterator[Ways]:
-    """From each spot to the nodes of the graph that it reaches by itself."""
-    links = [spot.links for spot in spots]
-    if links:
-        yield (
-            np.repeat(node, [len(link.nodes) for link in links]),
-            first + np.concatenate([link.nodes for link in links]),
-            np.concatenate([link.metres for link in links]),
-        )
-
-
-def _along(layout: Layout, number: int, uv: Points) -> Iterator[Ways]:
-    """From each spot of an aisle to others along it."""
-    order = np.argsort(uv[:, 0], kind="stable")
-    for step in _STEPS:
-        i, j = order[:-step], order[step:]
-        metres = layout.aisles[number].metres_between(uv[i], uv[j])
-        there = np.isfinite(metres)
-        yield i[there], j[there], metres[there]
-
-
-def _about(layout: Layout, at: Points) -> Ways:
-    """From each point of open ground to the nearest in every direction that it sees."""
-    near = cKDTree(at).query(at, k=min(_ABOUT + 1, len(at)))[1]
+def _about(layout: Layout, all_: Points, which: Indices) -> tuple[Indices, Indices]:
+    """Return each point of open ground with the nearest in every direction that it sees."""
+    at = all_[which]
+    near = cKDTree(at).query(at, k=min(_ABOUT + 1, len(at)))[1].reshape(len(at), -1)
     i, j = np.repeat(np.arange(len(at)), near.shape[1]), near.ravel()
     i, j = i[i != j], j[i != j]
     sector = (np.arctan2(*(at[j] - at[i]).T) // (2.0 * np.pi / _DIRECTIONS)).astype(np.intp)
     # They come from near to far, so the first of each direction is the nearest.
-    seen = layout.ground.soft.sees(at[i], at[j])
+    seen = layout.visibility.area.sees(at[i], at[j])
     i, j, sector = i[seen], j[seen], sector[seen]
     _, first = np.unique(i * (4 * _DIRECTIONS) + sector + 2 * _DIRECTIONS, return_index=True)
     pairs = np.unique(np.sort(np.column_stack([i[first], j[first]]), axis=1), axis=0)
-    return pairs[:, 0], pairs[:, 1], np.hypot(*(at[pairs[:, 0]] - at[pairs[:, 1]]).T)
+    return which[pairs[:, 0]], which[pairs[:, 1]]

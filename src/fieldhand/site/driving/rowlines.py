@@ -120,15 +120,3 @@ def _raised(u: Points, v: Points, by: float) -> Line:
         inside = first + step < last
         most = np.where(inside, np.maximum(most, v[np.minimum(first + step, len(u) - 1)]), most)
     return at, most + by
-
-
-def simplified_above(line: Line, tolerance_m: float) -> Line:
-    """A line with few points that is nowhere below this one, and above it by at most twice the tolerance."""
-    import shapely
-
-    u, v = line
-    if len(u) < 3:
-        return line
-    kept = shapely.get_coordinates(shapely.simplify(shapely.linestrings(np.column_stack(line)), tolerance_m))
-    short = float((v - np.interp(u, kept[:, 0], kept[:, 1])).max())
-    return kept[:, 0], kept[:, 1] + max(short, 0.0)

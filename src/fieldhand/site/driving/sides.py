@@ -22,18 +22,18 @@ class Visited:
 
 
 def few_lanes(rows: Mapping[tuple[int, int], Visited], used: frozenset[Lane]) -> dict[tuple[int, int], Lane]:
-    """For each row, (body, line), the lane that is preferred for it.
+    """For each row, (group, line), the lane that is preferred for it.
 
-    Row by row across a body: what is best for the rows so far, once with the lane above the last row driven through
+    Row by row across a group: what is best for the rows so far, once with the lane above the last row driven through
     and once without (dynamic programming). A lane in which the robot already has something to do costs nothing.
     """
     chosen: dict[tuple[int, int], Lane] = {}
-    for body in sorted({body for body, _ in rows}):
-        lines = sorted(line for b, line in rows if b == body)
+    for group in sorted({group for group, _ in rows}):
+        lines = sorted(line for g, line in rows if g == group)
         # What it takes so far, and the lanes chosen so far, by the lanes above the last row that are driven through.
         best: dict[frozenset[Lane], tuple[Cost, tuple[Lane, ...]]] = {frozenset(): ((0, 0.0), ())}
         for line in lines:
-            row = rows[body, line]
+            row = rows[group, line]
             following: dict[frozenset[Lane], tuple[Cost, tuple[Lane, ...]]] = {}
             for open_, ((count, metres), before) in best.items():
                 for lane in (row.below, row.above):
@@ -45,7 +45,7 @@ def few_lanes(rows: Mapping[tuple[int, int], Visited], used: frozenset[Lane]) ->
                         following[still] = (cost, (*before, lane))
             best = following
         _, lanes_chosen = min(best.values())
-        chosen.update({(body, line): lane for line, lane in zip(lines, lanes_chosen, strict=True)})
+        chosen.update({(group, line): lane for line, lane in zip(lines, lanes_chosen, strict=True)})
     return chosen
 
 

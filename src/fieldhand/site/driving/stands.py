@@ -13,13 +13,11 @@ from scipy.spatial import cKDTree
 from shapely.ops import nearest_points
 
 from fieldhand.site.driving.aisles import Aisle
-from fieldhand.site.driving.bodies import tree_lines
 from fieldhand.site.driving.graph import Indices, Points
-from fieldhand.site.driving.ground import XY
-from fieldhand.site.driving.layout import Layout
+from fieldhand.site.driving.layout import XY, Layout
 from fieldhand.site.model import Gate, Place, Site
 
-#: Stands beside one row on one side, or in one aisle, have the same: (body, line, line) of the aisle, the second line
+#: Stands beside one row on one side, or in one aisle, have the same: (group, line, line) of the aisle, the second line
 #: -1 or one past the last on the outer side of an outer row.
 Lane = tuple[int, int, int]
 
@@ -106,23 +104,23 @@ class Stands:
 
     def _open_tree(self, place: Place) -> int | None:
         """The position of a tree whose stand is to be chosen; None for all else."""
-        if place.stand is not None or place.kind != "tree" or not self._layout.bodies:
+        if place.stand is not None or place.kind != "tree" or not self._layout.aisles.groups:
             return None
         tree = self._site.by_id.get(place.id)
         return None if tree is None else tree.index
 
-    def _find(self, trees: Indices, body: int, line: int) -> None:
+    def _find(self, trees: Indices, group: int, line: int) -> None:
         """The candidates of trees of one row: those below it and those above."""
-        sides = [self._beside(trees, body, line, side) for side in (-1, 1)]
+        sides = [self._beside(trees, group, line, side) for side in (-1, 1)]
         self._found.update(zip(trees.tolist(), zip(*sides, strict=True), strict=True))
 
     @cached_property
     def _line_of(self) -> dict[int, tuple[int, int]]:
-        """For each of the planting's rows its body, and its line there."""
+        """For each of the planting's rows its group, and its line there."""
         return {
             row: (number, k)
-            for number, body in enumerate(self._layout.bodies)
-            for k, line in enumerate(body.lines)
+            for number, group in enumerate(self._layout.aisles.groups)
+            for k, line in enumerate(group.lines)
             for row in line.rows
         }
 
@@ -130,19 +128,15 @@ class Stands:
     def _trees(self) -> cKDTree:
         return cKDTree(self._site.xy)
 
-    @cached_property
-    def _row_lines(self) -> shapely.STRtree:
-        return tree_lines(self._site)
-
-    def _beside(self, trees: Indices, body: int, line: int, side: int) -> list[Candidate]:
+    def _beside(self, trees: Indices, group: int, line: int, side: int) -> list[Candidate]:
         """On one side of a row: -1 that of lesser v."""
-        within = self._layout.bodies[body]
+        within = self._layout.aisles.groups[group]
         other = line + side
-        lane = (body, min(line, other), max(line, other))
+        lane = (group, min(line, other), max(line, other))
         if 0 <= other < len(within.lines):
-            return self._in_aisle(trees, self._layout.spots.aisle_of(body, min(line, other)), side, lane)
+            return self._in_aisle(trees, self._layout.aisles.of(group, min(line, other)), side, lane)
         at = self._site.xy[trees]
-        away = side * self._across(trees, body, bent=True)
+        away = side * self._across(trees, group, bent=True)
         room = self._free_way(at, away, {*within.lines[line].rows})
         off = np.minimum(self._standoff_m, room)
         steps = off[:, None] + np.linspace(0.0, 1.0, _NEARER) * (self._clearance_m - off)[:, None]
@@ -162,9 +156,9 @@ class Stands:
         return Candidate(_xy(beside[0]), lane, self._in_the_way(beside[0]))
 
     def _in_aisle(self, trees: Indices, aisle: Aisle, side: int, lane: Lane) -> list[Candidate]:
-        frame, at = aisle.body.frame, self._site.xy[trees]
+        frame, at = aisle.frame, self._site.xy[trees]
         u, v = frame.local(at).T
-        across = self._across(trees, lane[0], bent=aisle.low > aisle.high)
+        across = self._across(trees, lane[0], bent=not aisle.is_straight)
         lean = np.maximum(across[:, 0] * frame.across[0] + across[:, 1] * frame.across[1], 0.2)
         to_middle = np.maximum(side * (aisle.middle(u) - v) / lean, 0.0)
         xy = at + side * np.minimum(self._standoff_m, to_middle)[:, None] * across
@@ -190,15 +184,14 @@ class Stands:
         open_ = np.flatnonzero(clear.any(axis=1))
         while len(open_):
             first = clear[open_].argmax(axis=1)
-            spots = self._layout.spots.at([_xy(at) for at in beside[open_, first]])
-            elsewhere = np.array([spot.aisle is not aisle for spot in spots])
+            elsewhere = np.array([found is not aisle for found in self._layout.aisles.at(beside[open_, first])])
             clear[open_[elsewhere], first[elsewhere]] = False
             open_ = open_[elsewhere & clear[open_].any(axis=1)]
 
-    def _across(self, trees: Indices, body: int, *, bent: bool) -> Points:
+    def _across(self, trees: Indices, group: int, *, bent: bool) -> Points:
         """The direction across the row at each tree, towards greater v, shape (n, 2): its block's, or that of the row
         just there."""
-        frame = self._layout.bodies[body].frame
+        frame = self._layout.aisles.groups[group].frame
         across = np.tile(frame.across, (len(trees), 1))
         if not bent:
             return across
@@ -218,10 +211,12 @@ class Stands:
         """How far a robot may go from each tree of a row before it is nearer to another."""
         room = np.full(len(at), np.inf)
         rays = shapely.linestrings(np.stack([at, at + 2.0 * self._standoff_m * away], axis=1))
-        tree, line = self._row_lines.query(rays, predicate="intersects")
+        tree, line = self._layout.aisles.row_lines.query(rays, predicate="intersects")
         other = ~np.isin(line, list(own))
         tree, line = tree[other], line[other]
-        np.minimum.at(room, tree, shapely.distance(shapely.points(at[tree]), self._row_lines.geometries[line]) / 2.0)
+        np.minimum.at(
+            room, tree, shapely.distance(shapely.points(at[tree]), self._layout.aisles.row_lines.geometries[line]) / 2.0
+        )
         return room
 
     def _in_the_way(self, stand: Points) -> str:
@@ -247,12 +242,11 @@ class Stands:
         left = np.arange(len(trees))
         for rank in range(_DIRECTIONS):
             tried = left[clear[left, order[left, rank]]]
-            spots = self._layout.spots.at([_xy(around[k, order[k, rank]]) for k in tried.tolist()])
-            reach = self._layout.reach(spots)
-            for k, spot, reaches in zip(tried.tolist(), spots, reach, strict=True):
-                if reaches:
-                    found[k] = (Candidate(spot.xy),)
-            left = np.setdiff1d(left, tried[np.array(reach, dtype=bool)])
+            spots = self._layout.spots([_xy(around[k, order[k, rank]]) for k in tried.tolist()])
+            reached = np.array([spot.foot is not None for spot in spots], dtype=bool)
+            for k in np.flatnonzero(reached).tolist():
+                found[tried[k]] = (Candidate(spots[k].xy),)
+            left = np.setdiff1d(left, tried[reached])
         return found
 
 

@@ -9,8 +9,7 @@ import shapely
 from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
 
-from fieldhand.site.driving.ground import XY
-from fieldhand.site.driving.layout import Layout
+from fieldhand.site.driving.layout import XY, Layout
 
 #: Metres from the robot's middle, where it was stopped, to the stretch: it must be able to turn round there. Where it
 #: was stopped nearer than that to its goal the stretch begins halfway, so that the goal is in it.
@@ -37,9 +36,9 @@ def blocked_stretch(layout: Layout, at: XY, towards: XY, half_width_m: float) ->
     length = math.dist(at, towards)
     gap = min(AHEAD_M, length / 2.0) if length > 0.0 else AHEAD_M
     ux, uy = ((towards[0] - at[0]) / length, (towards[1] - at[1]) / length) if length > 0.0 else (1.0, 0.0)
-    aisle = layout.spot(at).aisle
+    aisle = layout.aisle(at)
     if aisle is not None:
-        frame = aisle.body.frame
+        frame = aisle.frame
         (u, v), (u1, v1) = frame.local(np.array([at, (at[0] + ux, at[1] + uy)])).tolist()
         if abs(u1 - u) > abs(v1 - v):
             along = math.copysign(1.0, u1 - u)
@@ -47,7 +46,7 @@ def blocked_stretch(layout: Layout, at: XY, towards: XY, half_width_m: float) ->
             _, wide = aisle.width(np.array([near, far])).tolist()
             corners = np.array([(near, v - wide), (far, v - wide), (far, v + wide), (near, v + wide)])
             strip = Polygon(frame.world(corners))
-            found = aisle.between_rows(clear=False).buffer(-_BEFORE_ROW_M).intersection(strip)
+            found = aisle.polygon.buffer(-_BEFORE_ROW_M).intersection(strip)
             if (largest := _largest(found)) is not None:
                 return largest
     px, py = -uy, ux

@@ -1,0 +1,168 @@
+"""The ground that rows take up: a polygon with few corners around the trees of each row, for the robot's middle."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from shapely.geometry import LineString, Polygon
+
+from fieldhand.site.driving.free import Free
+from fieldhand.site.driving.graph import Points
+from fieldhand.site.driving.rowlines import Frame
+from fieldhand.site.planting import Block
+
+#: A row's body may take this part of the room to spare beside it on each side, so that it has few corners.
+_GIVE = 0.2
+
+#: Rows this many standoffs farther apart than the robot is wide leave room enough.
+_FAR = 4.0
+
+#: Trees of a row whose distance from other rows is looked at together.
+_PIECE = 16
+
+#: No body is narrower, whatever the robot's width: half of it.
+_THIN_M = 0.01
+
+#: A row of one tree counts as one of this length.
+_SHORT_M = 0.02
+
+
+@dataclass(frozen=True, eq=False)
+class RowBody:
+    """The ground around a row that the robot's middle keeps off.
+
+    Attributes:
+        axis: Along its middle from end to end, shape (n, 2); nothing drives across it.
+        half_m: Metres from the axis to either side.
+    """
+
+    axis: Points
+    half_m: float
+
+    @property
+    def polygon(self) -> Polygon:
+        """Its outline."""
+        return LineString(self.axis).buffer(self.half_m, cap_style="flat", join_style="mitre")
+
+    @property
+    def ends(self) -> tuple[Points, Points]:
+        """The corners of its first and of its last end, shape (2, 2) each."""
+        found = []
+        for end, inner in ((0, 1), (-1, -2)):
+            along = self.axis[end] - self.axis[inner]
+            beside = self.half_m * np.array([-along[1], along[0]]) / np.hypot(*along)
+            found.append(np.array([self.axis[end] - beside, self.axis[end] + beside]))
+        return found[0], found[1]
+
+
+def row_bodies(
+    rows: Sequence[Points], blocks: Sequence[tuple[Frame, Block]], free: Free, standoff_m: float
+) -> list[RowBody]:
+    """Return the bodies of rows.
+
+    A body is straight where its row stands straight enough for the room beside it; else it bends with the row. Beyond
+    the last trees it goes on by the standoff, or as far as leaves room to drive past its end.
+
+    Args:
+        rows: The trees of each from end to end, shape (n, 2).
+        blocks: Of each row the axes and the block.
+        free: Ground without keep-outs.
+        standoff_m: From a tree to where the robot stands to work on it.
+    """
+    if not rows:
+        return []
+    lines = [_ordered(xy, frame) for xy, (frame, _) in zip(rows, blocks, strict=True)]
+    room = _room_beside(lines, _FAR * standoff_m + 2.0 * free.clearance_m)
+    spare = np.minimum(room, _room_to_edges(lines, free)) - 2.0 * free.clearance_m
+    found = []
+    for line, to_spare, (frame, block) in zip(lines, spare.tolist(), blocks, strict=True):
+        axis, off = _straightened(shapely.get_coordinates(line), frame, _GIVE * max(to_spare, 0.0))
+        spacing = block.row_spacing_m if len(block.rows) > 1 and np.isfinite(block.row_spacing_m) else 2.0 * standoff_m
+        turn = max(min(standoff_m, spacing / 2.0), free.clearance_m)
+        found.append((axis, max(free.clearance_m, _THIN_M) + off, turn))
+    return _extended(found, lines, free)
+
+
+def _ordered(xy: Points, frame: Frame) -> LineString:
+    if len(xy) > 1 and float(np.hypot(*np.ptp(xy, axis=0))) > _SHORT_M:
+        u = frame.local(xy[[0, -1]])[:, 0]
+        return LineString(xy if u[0] <= u[1] else xy[::-1])
+    middle = xy.mean(axis=0)
+    return LineString([middle - _SHORT_M / 2.0 * frame.along, middle + _SHORT_M / 2.0 * frame.along])
+
+
+def _room_beside(lines: Sequence[LineString], most_m: float) -> Points:
+    """Return the metres from each line to the next one, or ``most_m`` where that is less."""
+    pieces, row = [], []
+    for k, line in enumerate(lines):
+        xy = shapely.get_coordinates(line)
+        found = [LineString(xy[i : i + _PIECE + 1]) for i in range(0, len(xy) - 1, _PIECE)]
+        pieces += found
+        row += [k] * len(found)
+    tree, of = shapely.STRtree(pieces), np.array(row)
+    one, two = tree.query(pieces, predicate="dwithin", distance=most_m)
+    one, two = one[of[one] < of[two]], two[of[one] < of[two]]
+    metres = shapely.distance(tree.geometries[one], tree.geometries[two])
+    room = np.full(len(lines), most_m)
+    np.minimum.at(room, of[one], metres)
+    np.minimum.at(room, of[two], metres)
+    return room
+
+
+def _room_to_edges(lines: Sequence[LineString], free: Free) -> Points:
+    """Return the metres from each line to the edge of free ground; where the edge crosses it, from its ends."""
+    if not free.bounded:
+        return np.full(len(lines), np.inf)
+    edge = free.hard.boundary
+    shapely.prepare(edge)
+    away = shapely.distance(np.array(lines), edge)
+    ends = np.array([shapely.get_coordinates(line)[[0, -1]] for line in lines]).reshape(-1, 2)
+    from_ends = shapely.distance(np.array(shapely.points(ends)), edge).reshape(-1, 2).min(axis=1)
+    return np.where(away > 0.0, away, from_ends)
+
+
+def _straightened(xy: Points, frame: Frame, tolerance_m: float) -> tuple[Points, float]:
+    """Return a line with few points through a row, and how far trees stand beside it at most."""
+    middle = xy.mean(axis=0)
+    along = np.linalg.svd(xy - middle, full_matrices=False)[2][0]
+    along = along if along @ frame.along > 0.0 else -along
+    across = np.array([-along[1], along[0]])
+    u, v = (xy - middle) @ along, (xy - middle) @ across
+    beside = float(np.ptp(v)) / 2.0
+    if beside <= tolerance_m:
+        centre = middle + (v.min() + v.max()) / 2.0 * across
+        return np.array([centre + u.min() * along, centre + u.max() * along]), beside
+    line = LineString(xy).simplify(tolerance_m)
+    return shapely.get_coordinates(line), float(shapely.distance(shapely.points(xy), line).max())
+
+
+def _extended(bodies: Sequence[tuple[Points, float, float]], lines: Sequence[LineString], free: Free) -> list[RowBody]:
+    """Return the bodies with their ends moved out by the turn, or by less where something is near."""
+    tips = np.array([axis[[0, -1]] for axis, _, _ in bodies])
+    ahead = np.array([[axis[0] - axis[1], axis[-1] - axis[-2]] for axis, _, _ in bodies])
+    ahead /= np.hypot(ahead[..., 0], ahead[..., 1])[..., None]
+    half = np.array([half_m for _, half_m, _ in bodies])[:, None, None]
+    beside = half * np.stack([-ahead[..., 1], ahead[..., 0]], axis=2)
+    turn = np.repeat([[turn] for _, _, turn in bodies], 2, axis=1)
+    # From the middle and from both corners of each end.
+    start = np.stack([tips - beside, tips, tips + beside], axis=2).reshape(-1, 2)
+    reach = np.repeat(3.0 * turn[..., None] * ahead, 3, axis=1).reshape(-1, 2)
+    rays = np.array(shapely.linestrings(np.stack([start, start + reach], axis=1)))
+    points = np.array(shapely.points(start))
+    out = np.repeat(turn.ravel(), 3)
+    if free.bounded:  # half the way to an edge is left to drive through
+        away = shapely.distance(points, shapely.intersection(rays, free.hard.boundary))
+        out = np.fmin(out, np.where(np.isnan(away), np.inf, away) / 2.0)
+    which, other = shapely.STRtree(lines).query(rays, predicate="intersects")
+    which, other = which[which // 6 != other], other[which // 6 != other]
+    meets = shapely.intersection(rays[which], np.array(lines)[other])
+    np.minimum.at(out, which, shapely.distance(points[which], meets) / 3.0)  # the other row may come as near
+    out = np.maximum(out, free.clearance_m).reshape(-1, 2, 3).min(axis=2)
+    found = []
+    for (axis, half_m, _), tip, away, metres in zip(bodies, tips, ahead, out, strict=True):
+        moved = tip + metres[:, None] * away
+        found.append(RowBody(np.vstack([moved[:1], axis[1:-1], moved[1:]]), half_m))
+    return found
