@@ -13,7 +13,8 @@ from shapely.geometry import Polygon
 
 from fieldhand.places.context import Context
 from fieldhand.site.geojson import parse_site
-from fieldhand.site.model import Place, Site, Tree, Zone, ZoneKind
+from fieldhand.site.kinds import ZoneKind
+from fieldhand.site.model import Place, Site, Tree, Zone
 from fieldhand.site.planting import Block, Planting, Row
 from fieldhand.site.projection import Projection
 from fieldhand.terms import Value

@@ -11,8 +11,16 @@ from typing import Any, NoReturn
 
 from fieldhand.site.formats.faults import Faults, Unsound
 from fieldhand.site.formats.records import Records, UnusablePart
-from fieldhand.site.kinds import PointKind, area_kind, barrier_name, is_derived, number_text, point_kind, text_of
-from fieldhand.site.model import ZoneKind
+from fieldhand.site.kinds import (
+    PointKind,
+    ZoneKind,
+    area_kind,
+    barrier_name,
+    is_derived,
+    number_text,
+    point_kind,
+    text_of,
+)
 from fieldhand.terms import Value
 from fieldhand.visible import find_hidden, visible
 

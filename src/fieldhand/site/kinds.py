@@ -10,13 +10,11 @@ import math
 import re
 from collections.abc import Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from fieldhand.terms import Value
 
-if TYPE_CHECKING:
-    from fieldhand.site.model import ZoneKind
-
+ZoneKind = Literal["boundary", "keep_out", "zone"]
 PointKind = Literal["tree", "start", "end", "charger", "gate", "landmark"]
 
 KIND_KEYS = ("marker symbol", "kind", "type", "symbol", "class", "feature type", "category")

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from shapely.geometry import Polygon
 
 from fieldhand.brief import brief_repr
+from fieldhand.site.kinds import ZoneKind
 from fieldhand.site.planting import Planting
 from fieldhand.site.projection import Projection
 from fieldhand.terms import Value
@@ -24,7 +25,6 @@ from fieldhand.terms import Value
 _ENOUGH_TREES = 5_000
 
 PlaceKind = Literal["tree", "marker", "point"]
-ZoneKind = Literal["boundary", "keep_out", "zone"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -129,9 +129,13 @@ class Site:
 
         The same for the same orchard in another format or layout of the file; :attr:`sha256` is of the file's bytes.
         """
-        from fieldhand.site.content import content_sha256
+        from fieldhand.site.content import content_sha256, rings_of
 
-        return content_sha256(self)
+        trees = [[t.place.id, t.place.lat, t.place.lon, sorted(t.properties.items())] for t in self.trees]
+        markers = [[name, place.lat, place.lon] for name, place in self.markers.items()]
+        gates = [[g.place.id, g.place.lat, g.place.lon, g.width_m] for g in self.gates]
+        zones = [[z.kind, z.name, rings_of(z.polygon)] for z in self.zones]
+        return content_sha256(trees, markers, gates, zones)
 
     @cached_property
     def xy(self) -> NDArray[np.float64]:
@@ -146,7 +150,7 @@ class Site:
         from fieldhand.site.rows import planting_of
 
         self.spacing_m  # noqa: B018  selectors over rows ask for it next, and should not have to wait for it
-        return planting_of(self)
+        return planting_of(self.xy, [t.row for t in self.trees], [t.properties for t in self.trees])
 
     @cached_property
     def memory(self) -> dict[object, object]:

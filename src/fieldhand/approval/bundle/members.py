@@ -11,7 +11,8 @@ from pathlib import Path
 
 from fieldhand.approval.bundle.container import SITE_MEMBER
 from fieldhand.errors import BundleError
-from fieldhand.site.formats.files import SHAPEFILE_PARTS, SiteFiles
+from fieldhand.site.formats.files import SiteFiles
+from fieldhand.site.formats.records import SHAPEFILE_PARTS
 
 
 def site_members(files: SiteFiles) -> dict[str, bytes]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import gc
 import statistics
+import sys
 import tempfile
 import time
 from collections.abc import Callable, Sequence
@@ -13,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fieldhand.bench.site.memory import peak_bytes
+from fieldhand.bench.site.memory import own_peak_bytes, peak_bytes
 from fieldhand.bench.site.orchard import benchmark_orchard
 from fieldhand.bench.site.samples import samples
 from fieldhand.errors import DriveFault, PlaceError
@@ -21,7 +22,7 @@ from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
 from fieldhand.places.sources.bound import EXAMPLE_LABEL
 from fieldhand.site.drives import Drives
-from fieldhand.site.geojson import parse_site
+from fieldhand.site.geojson import load_site, parse_site
 from fieldhand.site.model import Place, Site
 
 Clock = Callable[[], float]
@@ -128,11 +129,12 @@ def measure_site(
     )
 
 
-def whole(read: Callable[[], Site], clearance_m: float, standoff_m: float) -> Site:
-    """Load a site with all that missions need of it: rows and the drivable graph."""
-    site = read()
-    _graph(site, clearance_m, standoff_m)
-    return site
+def load(file: str, clearance_m: str, standoff_m: str) -> None:
+    """Load a site with all that missions need of it, in a fresh process, and print the peak of its memory."""
+    _graph(load_site(Path(file)), float(clearance_m), float(standoff_m))
+    peak = own_peak_bytes()
+    if peak is not None:
+        sys.stdout.write(f"{peak}\n")
 
 
 def _graph(site: Site, clearance_m: float, standoff_m: float) -> Drives:

@@ -6,7 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-_PROGRAM = "import sys; from fieldhand.bench.site.memory import load; load(*sys.argv[1:])"
+_PROGRAM = "import sys; from fieldhand.bench.site.measure import load; load(*sys.argv[1:])"
 
 
 def peak_bytes(file: Path, clearance_m: float, standoff_m: float) -> int | None:
@@ -21,18 +21,8 @@ def peak_bytes(file: Path, clearance_m: float, standoff_m: float) -> int | None:
     return int(said) if done.returncode == 0 and said.isdigit() else None
 
 
-def load(file: str, clearance_m: str, standoff_m: str) -> None:
-    """What the fresh process runs: load, and print the peak."""
-    from fieldhand.bench.site.measure import whole
-    from fieldhand.site.geojson import load_site
-
-    whole(lambda: load_site(Path(file)), float(clearance_m), float(standoff_m))
-    peak = _own_peak_bytes()
-    if peak is not None:
-        sys.stdout.write(f"{peak}\n")
-
-
-def _own_peak_bytes() -> int | None:
+def own_peak_bytes() -> int | None:
+    """Return the most bytes that this process held at once; None where the system does not tell."""
     # On Linux ru_maxrss of a started process holds the peak of the one that started it; the high-water mark does not.
     status = Path("/proc/self/status")
     if status.exists():

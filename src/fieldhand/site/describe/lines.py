@@ -23,8 +23,8 @@ from fieldhand.site.describe.rows import (
     row_table,
     table_lines,
 )
-from fieldhand.site.kinds import number_text
-from fieldhand.site.model import Site, ZoneKind
+from fieldhand.site.kinds import ZoneKind, number_text
+from fieldhand.site.model import Site
 from fieldhand.site.names import listed
 
 _KINDS: dict[ZoneKind, str] = {"boundary": "boundary", "keep_out": "keep-out", "zone": "zone"}

@@ -7,18 +7,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Literal
 
 from fieldhand.brief import brief_repr
 from fieldhand.errors import SiteError
 from fieldhand.files import FileFault, read_file
 from fieldhand.language import message, recalled
 from fieldhand.site.formats.geojson import geojson_records
-from fieldhand.site.formats.records import MAX_BYTES, Records, too_big
+from fieldhand.site.formats.records import MAX_BYTES, SHAPEFILE_PARTS, Format, Records, too_big
 from fieldhand.site.formats.table import table_records
 from fieldhand.visible import visible
-
-Format = Literal["geojson", "table", "shapefile", "geopackage", "kml", "zip"]
 
 _ENDINGS: dict[str, Format] = {
     ".geojson": "geojson",
@@ -38,8 +35,6 @@ _MAGIC: dict[bytes, Format] = {
     b"PK\x03\x04": "zip",
     b"\x00\x00\x27\x0a": "shapefile",
 }
-#: Parts of a Shapefile, the main one first.
-SHAPEFILE_PARTS = (".shp", ".shx", ".dbf", ".prj", ".cpg")
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)

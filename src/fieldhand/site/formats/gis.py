@@ -20,10 +20,9 @@ from typing import Any
 from fieldhand.errors import SiteError
 from fieldhand.site.formats.archive import unpack
 from fieldhand.site.formats.confined import read_confined
-from fieldhand.site.formats.files import SHAPEFILE_PARTS, Format
 from fieldhand.site.formats.geojson import geojson_records
 from fieldhand.site.formats.guards import check_geopackage, check_kml
-from fieldhand.site.formats.records import Records, UnusablePart
+from fieldhand.site.formats.records import SHAPEFILE_PARTS, Format, Records, UnusablePart
 from fieldhand.site.formats.table import table_records, value_of
 from fieldhand.site.kinds import KIND_KEYS, area_kind, barrier_name, point_kind, text_of
 from fieldhand.visible import visible

@@ -9,6 +9,10 @@ from typing import Any, Literal
 from fieldhand.errors import SiteError
 
 Unit = Literal["feature", "line"]
+Format = Literal["geojson", "table", "shapefile", "geopackage", "kml", "zip"]
+
+#: Parts of a Shapefile, the main one first.
+SHAPEFILE_PARTS = (".shp", ".shx", ".dbf", ".prj", ".cpg")
 
 MAX_BYTES = 100_000_000
 

@@ -9,17 +9,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.site.model import Site
 from fieldhand.site.planting import Planting
 from fieldhand.site.rows.assemble import assemble
 from fieldhand.site.rows.draw import draw
 from fieldhand.site.rows.named import named_rows
 from fieldhand.site.rows.settle import SeenBlock
+from fieldhand.terms import Value
 
 #: Trees nearer to each other than this, in metres, are one tree entered twice.
 _TWICE_M = 0.2
@@ -27,14 +28,18 @@ _TWICE_M = 0.2
 __all__ = ["planting_of"]
 
 
-def planting_of(site: Site) -> Planting:
-    """Blocks and rows of the site, and the trees along each row with their planting positions.
+def planting_of(xy: NDArray[np.float64], rows: Sequence[str], properties: Sequence[Mapping[str, Value]]) -> Planting:
+    """Return the blocks and rows of a site, and the trees along each row with their planting positions.
 
     The file's own rows, blocks and positions win where they make sense; the other trees are in the rows that can be
     seen in how they stand. Where none can, the planting has no blocks and says why.
+
+    Args:
+        xy: Trees in metres, shape (n, 2).
+        rows: The name of each tree's row, empty where the file gives none.
+        properties: What else the file says of each tree.
     """
-    xy = site.xy
-    named = named_rows(site.trees, xy)
+    named = named_rows(rows, properties, xy)
     seen = _seen(xy) if (named.row_of < 0).any() else []
     return assemble(xy, draw(xy, named, seen))
 

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.site.kinds import BLOCK_KEYS, COLUMN_KEYS, POSITION_KEYS, text_of
-from fieldhand.site.model import Tree
 from fieldhand.site.rows.assemble import groups
+from fieldhand.terms import Value
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -38,28 +38,28 @@ class Named:
     positions: Floats
 
 
-def named_rows(trees: Sequence[Tree], xy: Floats) -> Named:
-    """Rows, blocks and positions of the file, as far as they make sense.
+def named_rows(rows: Sequence[str], properties: Sequence[Mapping[str, Value]], xy: Floats) -> Named:
+    """Return rows, blocks and positions of the file, as far as they make sense.
 
     A name is a row's if the trees that share it stand on a line. Trees that share it and stand on several are several
     rows: those of different blocks.
     """
-    rows = [tree.row for tree in trees]
-    blocks = [text_of(tree.properties, BLOCK_KEYS) for tree in trees]
-    columns = [text_of(tree.properties, COLUMN_KEYS) for tree in trees]
-    positions = np.array([_number(text_of(tree.properties, POSITION_KEYS)) for tree in trees], dtype=np.float64)
+    count = len(xy)
+    blocks = [text_of(said, BLOCK_KEYS) for said in properties]
+    columns = [text_of(said, COLUMN_KEYS) for said in properties]
+    positions = np.array([_number(text_of(said, POSITION_KEYS)) for said in properties], dtype=np.float64)
     for names, along in ((rows, columns), (columns, rows)):
         if not any(names):
             continue
-        for within in (blocks, [""] * len(trees)):
+        for within in (blocks, [""] * count):
             row_of, kept = _lines(xy, names, within)
             if kept is not None:
                 own = positions if np.isfinite(positions).any() else _numbers(along)
                 if not _restarts(own, row_of):
-                    own = np.full(len(trees), np.nan)
+                    own = np.full(count, np.nan)
                 return Named(row_of=row_of, names=kept, block_names=tuple(within), positions=own)
-    none = np.full(len(trees), -1, dtype=np.intp)
-    return Named(row_of=none, names=(), block_names=tuple(blocks), positions=np.full(len(trees), np.nan))
+    none = np.full(count, -1, dtype=np.intp)
+    return Named(row_of=none, names=(), block_names=tuple(blocks), positions=np.full(count, np.nan))
 
 
 def _number(text: str) -> float:
