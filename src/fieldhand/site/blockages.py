@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
 import shapely
 from shapely.geometry import Polygon
+from shapely.geometry.base import BaseGeometry
 
 from fieldhand.site.drives import XY, Drives
-from fieldhand.site.driving.stretch import blocked_stretch
+from fieldhand.site.driving.layout import Layout
 from fieldhand.site.model import Zone
 
 #: On open ground a stretch is at first so many clearances wide to either side.
@@ -17,6 +20,16 @@ _WIDE = 1.5
 
 #: Stretches that are nearer than this to one another are of one obstacle, of which more has been seen.
 _SAME_M = 1.0
+
+#: Metres from the robot's middle, where it was stopped, to the stretch: it must be able to turn round there. Where it
+#: was stopped nearer than that to its goal the stretch begins halfway, so that the goal is in it.
+_AHEAD_M = 0.3
+
+#: Metres of the stretch along the way.
+_LONG_M = 1.0
+
+#: Metres that a stretch ends before a row: the trees themselves are not in it.
+_BEFORE_ROW_M = 0.05
 
 #: A robot stands outside a stretch by at least so much.
 _BESIDE_M = 1e-3
@@ -52,7 +65,7 @@ class Blockages:
         near = shapely.Point(at).buffer(_SAME_M)
         known = sum(stretch.intersects(near) for stretch in self.stretches)
         half_width_m = _WIDE * self._all.clearance_m * 2.0 ** min(known, 6)
-        stretch = blocked_stretch(self._all.layout, at, towards, half_width_m)
+        stretch = _blocked_ahead(self._all.layout, at, towards, half_width_m)
         self.are((*self.stretches, stretch))
         return stretch
 
@@ -70,3 +83,48 @@ def _without(drives: Drives, stretches: Sequence[Polygon]) -> Drives:
     site = replace(drives.site, zones=(*drives.site.zones, *zones))
     vars(site)["planting"] = drives.site.planting  # the rows are where they were
     return Drives(site, drives.clearance_m, drives.standoff_m)
+
+
+def _blocked_ahead(layout: Layout, at: XY, towards: XY, half_width_m: float) -> Polygon:
+    """Return what is taken as blocked ahead of a robot that was stopped.
+
+    In an aisle that is all of it from row to row, since the robot itself found no way past; on open ground a square.
+
+    Args:
+        layout: The site as the robot drives on it.
+        at: Where the robot was stopped, in metres.
+        towards: Where it was to drive on to, the end of its way at most.
+        half_width_m: Half the width on open ground.
+    """
+    length = math.dist(at, towards)
+    gap = min(_AHEAD_M, length / 2.0) if length > 0.0 else _AHEAD_M
+    ux, uy = ((towards[0] - at[0]) / length, (towards[1] - at[1]) / length) if length > 0.0 else (1.0, 0.0)
+    aisle = layout.aisle(at)
+    if aisle is not None:
+        frame = aisle.frame
+        (u, v), (u1, v1) = frame.local(np.array([at, (at[0] + ux, at[1] + uy)])).tolist()
+        if abs(u1 - u) > abs(v1 - v):
+            along = math.copysign(1.0, u1 - u)
+            near, far = u + along * gap, u + along * (gap + _LONG_M)
+            _, wide = aisle.width(np.array([near, far])).tolist()
+            corners = np.array([(near, v - wide), (far, v - wide), (far, v + wide), (near, v + wide)])
+            strip = Polygon(frame.world(corners))
+            found = aisle.polygon.buffer(-_BEFORE_ROW_M).intersection(strip)
+            if (largest := _largest(found)) is not None:
+                return largest
+    px, py = -uy, ux
+    x, y = at[0] + ux * gap, at[1] + uy * gap
+    w, d = half_width_m, max(_LONG_M, 2.0 * half_width_m)
+    return Polygon(
+        [
+            (x + px * w, y + py * w),
+            (x + ux * d + px * w, y + uy * d + py * w),
+            (x + ux * d - px * w, y + uy * d - py * w),
+            (x - px * w, y - py * w),
+        ]
+    )
+
+
+def _largest(shape: BaseGeometry) -> Polygon | None:
+    parts = [p for p in shapely.get_parts(shape) if isinstance(p, Polygon) and p.area > 0.0]
+    return max(parts, key=lambda p: p.area, default=None)

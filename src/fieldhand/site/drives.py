@@ -23,7 +23,7 @@ from fieldhand.site.driving.network import Network, network_of
 from fieldhand.site.driving.reasons import cut_off, no_stand
 from fieldhand.site.driving.roads import Roads, roads_of
 from fieldhand.site.driving.sides import Visited, few_lanes, pick
-from fieldhand.site.driving.stands import Candidate, Stands
+from fieldhand.site.driving.standing import Candidate, StandingPlaces
 from fieldhand.site.model import Place, Site
 
 XY = tuple[float, float]
@@ -71,7 +71,7 @@ class Drives:
         self.standoff_m = standoff_m
         self.clearance_m = clearance_m
         self.layout = Layout(site, clearance_m, standoff_m)
-        self._stands = Stands(site, self.layout, clearance_m, standoff_m)
+        self._stands = StandingPlaces(site, self.layout, clearance_m, standoff_m)
         self._ables: dict[Key, list[Candidate]] = {}
         self._closed: dict[Key, str] = {}
         self._problems: dict[Key, str] = {}

@@ -7,10 +7,9 @@ row_bodies  the ground around each row that a robot keeps off, as a polygon with
 visibility  the corners of a ground that see each other, and what other points see
 graph       shortest ways over a sparse graph
 layout      all of it together: from any point to any other
-stands      where the robot stands to be at a tree
+standing    where the robot stands to be at a tree
 sides       from which side the trees of a visit list are worked on
 roads       the ways between many places as a sparse graph
 network     aisles, headlands and gates as lines with names
 reasons     why a place cannot be driven to
-stretch     the ground that a stopped robot takes as blocked
 """

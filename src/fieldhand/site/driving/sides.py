@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from fieldhand.site.driving.stands import Candidate, Lane
+from fieldhand.site.driving.standing import Candidate, Lane
 
 #: What a choice takes: lanes to drive through, then metres to the stands from where the robot is.
 Cost = tuple[int, float]
