@@ -121,7 +121,7 @@ def test_the_visits_that_go_first_are_named_where_they_are_few():
     plan = ForEach(id="", select=Trees(), body=act(), optional=True)
     ample, tight = (
         read(plan, constraints=Constraints(budgets=(Budget(kind="distance_m", limit=metres),))).lines[0].text
-        for metres in (500.0, 125.0)
+        for metres in (500.0, 110.0)
     )
     assert "(20 of 20 expected, 0 % chance of running short)" in ample
     assert re.search(r"\d+ of 20 expected, \d+ % chance of running short; trees? .* go(es)? first\)", tight)

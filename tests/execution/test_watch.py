@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -178,8 +179,9 @@ def test_a_safe_place_is_inside_an_aisle_clear_of_its_ends():
     metres = safe_stop(drives, way, 8.0)
     assert metres is not None
     at = way.at(metres)
-    assert drives.layout.spot(at).aisle is not None
-    assert all(math.dist(at, m.at) >= CLEAR_M for m in drives.layout.mouths)
+    assert drives.layout.aisle(at) is not None
+    entries = np.concatenate([aisle.entries for aisle in drives.layout.aisles.all])
+    assert all(math.dist(at, entry) >= CLEAR_M for entry in entries.tolist())
     # As far as the charge lasts, and nothing beyond.
     assert 0.0 <= metres <= 8.0
     assert safe_stop(drives, way, way.length_m) == pytest.approx(way.length_m)  # at the marker itself

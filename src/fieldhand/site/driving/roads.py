@@ -113,11 +113,10 @@ def _neighbours(layout: Layout, at: Points) -> Iterator[tuple[Indices, Indices]]
             yield along[:-step], along[step:]
 
 
-def _about(layout: Layout, all_: Points, which: Indices) -> tuple[Indices, Indices]:
-    """Return each point of open ground with the nearest in every direction that it sees."""
-    at = all_[which]
-    near = cKDTree(at).query(at, k=min(_ABOUT + 1, len(at)))[1].reshape(len(at), -1)
-    i, j = np.repeat(np.arange(len(at)), near.shape[1]), near.ravel()
+def _about(layout: Layout, at: Points, which: Indices) -> tuple[Indices, Indices]:
+    """Return each of these points, on open ground, with the nearest of all points in every direction that it sees."""
+    near = cKDTree(at).query(at[which], k=min(_ABOUT + 1, len(at)))[1].reshape(len(which), -1)
+    i, j = np.repeat(which, near.shape[1]), near.ravel()
     i, j = i[i != j], j[i != j]
     sector = (np.arctan2(*(at[j] - at[i]).T) // (2.0 * np.pi / _DIRECTIONS)).astype(np.intp)
     # They come from near to far, so the first of each direction is the nearest.
@@ -125,4 +124,4 @@ def _about(layout: Layout, all_: Points, which: Indices) -> tuple[Indices, Indic
     i, j, sector = i[seen], j[seen], sector[seen]
     _, first = np.unique(i * (4 * _DIRECTIONS) + sector + 2 * _DIRECTIONS, return_index=True)
     pairs = np.unique(np.sort(np.column_stack([i[first], j[first]]), axis=1), axis=0)
-    return which[pairs[:, 0]], which[pairs[:, 1]]
+    return pairs[:, 0], pairs[:, 1]

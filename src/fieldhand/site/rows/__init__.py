@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from fieldhand.site.planting import Planting
 from fieldhand.site.rows.assemble import assemble
 from fieldhand.site.rows.draw import draw
+from fieldhand.site.rows.labels import linked
 from fieldhand.site.rows.named import named_rows
 from fieldhand.site.rows.settle import SeenBlock
 from fieldhand.terms import Value
@@ -63,8 +64,6 @@ def _seen(xy: NDArray[np.float64]) -> list[SeenBlock]:
 
 def first_entries(xy: NDArray[np.float64]) -> NDArray[np.intp]:
     """Of each tree the first of the file that stands in the same place."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
 
     tree = cKDTree(xy)
@@ -73,8 +72,7 @@ def first_entries(xy: NDArray[np.float64]) -> NDArray[np.intp]:
     pairs = tree.query_pairs(min(_TWICE_M, 0.25 * usual), output_type="ndarray")
     if not len(pairs):
         return np.arange(len(xy), dtype=np.intp)
-    graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(xy), len(xy)))
-    label = connected_components(graph, directed=False)[1]
+    label = linked(len(xy), pairs[:, 0], pairs[:, 1])
     first = np.full(int(label.max()) + 1, len(xy), dtype=np.intp)
     np.minimum.at(first, label, np.arange(len(xy)))
     return np.asarray(first[label])

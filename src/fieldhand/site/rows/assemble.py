@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.site.planting import Block, Indices, Known, Planting, Row
+from fieldhand.site.rows.labels import groups
 
 Floats = NDArray[np.float64]
 
@@ -54,34 +55,15 @@ def assemble(xy: Floats, drawn: Drawn) -> Planting:
         _block(xy, drawn, block, [(k, members[k]) for k in np.flatnonzero(drawn.block_of == block).tolist()])
         for block in range(len(drawn.block_names))
     ]
-    ordered: list[Block] = []
-    for place, block in enumerate(_in_order(xy, blocks)):
-        rows = tuple(
-            Row(
-                name=r.name, number=r.number, block=place, trees=r.trees, slots=r.slots, known=r.known,
-                confidence=r.confidence,
-            )
-            for r in block.rows
-        )  # fmt: skip
-        ordered.append(
-            Block(
-                name=block.name or _free_name(place + 1, blocks),
-                rows=rows,
-                bearing_deg=block.bearing_deg,
-                row_spacing_m=block.row_spacing_m,
-                tree_spacing_m=block.tree_spacing_m,
-                known=block.known,
-                confidence=block.confidence,
-            )
+    ordered = [
+        replace(
+            block,
+            name=block.name or _free_name(place + 1, blocks),
+            rows=tuple(replace(row, block=place) for row in block.rows),
         )
+        for place, block in enumerate(_in_order(xy, blocks))
+    ]
     return Planting(blocks=tuple(ordered), tree_count=len(xy), why=drawn.why)
-
-
-def groups(labels: Indices, count: int) -> list[Indices]:
-    """For each label from 0 the positions that carry it, rising; negative labels are left out."""
-    order = np.argsort(labels, kind="stable")
-    ends = np.searchsorted(labels[order], np.arange(count + 1))
-    return [order[ends[k] : ends[k + 1]] for k in range(count)]
 
 
 def bearing(xy: Floats, row_of: Indices) -> float:

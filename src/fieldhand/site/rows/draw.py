@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from fieldhand.language import counted, message
 from fieldhand.site.planting import Known
-from fieldhand.site.rows.assemble import Drawn, along_of, bearing, groups
+from fieldhand.site.rows.assemble import Drawn, along_of, bearing
 from fieldhand.site.rows.grouping import lines_of, row_spacing, together
+from fieldhand.site.rows.labels import groups
 from fieldhand.site.rows.named import Named
 from fieldhand.site.rows.settle import SeenBlock
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.site.rows.assemble import groups
+from fieldhand.site.rows.labels import groups, linked
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -72,8 +72,6 @@ def together(
         sides: Of each road the rows at one side of it, -1, and at the other, 1, which are in different blocks; 0 for
             those that are not beside it. Shape (roads, rows).
     """
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
 
     count = len(lines)
     middle = np.array([line.across.mean() for line in lines])
@@ -81,15 +79,14 @@ def together(
     order = np.argsort(middle, kind="stable")
     reach = (2 + _ONE_MISSING) * spacing + spread
     until = np.searchsorted(middle[order], middle[order] + reach, side="right")
-    linked: list[tuple[int, int]] = []
+    beside: list[tuple[int, int]] = []
     for place, a in enumerate(order):
         near = order[place + 1 : until[place]]
-        linked.extend((int(a), int(b)) for b in near if _beside(lines[a], lines[b], spacing, trusted))
-    pairs = np.array(linked, dtype=np.intp).reshape(-1, 2)
+        beside.extend((int(a), int(b)) for b in near if _beside(lines[a], lines[b], spacing, trusted))
+    pairs = np.array(beside, dtype=np.intp).reshape(-1, 2)
     if sides is not None:
         pairs = pairs[(sides[:, pairs[:, 0]] * sides[:, pairs[:, 1]] >= 0).all(axis=0)]
-    graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
-    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.intp)
+    return linked(count, pairs[:, 0], pairs[:, 1])
 
 
 def _beside(a: Line, b: Line, spacing: float, trusted: bool) -> bool:

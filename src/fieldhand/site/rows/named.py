@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.site.kinds import BLOCK_KEYS, COLUMN_KEYS, POSITION_KEYS, text_of
-from fieldhand.site.rows.assemble import groups
+from fieldhand.site.rows.labels import groups, linked
 from fieldhand.terms import Value
 
 Floats = NDArray[np.float64]
@@ -141,14 +141,11 @@ def is_line(points: Floats, spacing: float) -> bool:
 
 def _pieces(xy: Floats, own: Indices, spacing: float) -> list[Indices]:
     """Trees of one name on several lines: those that a chain of steps leads to from each other."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
 
     points = xy[own]
     tree = cKDTree(points)
     step = max(float(np.median(np.asarray(tree.query(points, k=2)[0])[:, 1])), spacing)
     pairs = tree.query_pairs(3.0 * step, output_type="ndarray")
-    graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(own), len(own)))
-    count, label = connected_components(graph, directed=False)
-    return [own[label == k] for k in range(count)]
+    label = linked(len(own), pairs[:, 0], pairs[:, 1])
+    return [own[trees] for trees in groups(label, int(label.max()) + 1)]

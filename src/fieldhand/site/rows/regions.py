@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldhand.site.rows.labels import groups, linked
 from fieldhand.site.rows.patches import Patches
 from fieldhand.site.rows.tracing import spacing_along, turned
 
@@ -83,8 +84,6 @@ def line_regions(xy: Floats, patches: Patches, clear: Floats) -> list[Region]:
 
 
 def _agreeing(xy: Floats, centre: Indices, first: Floats, second: Floats, power: Floats) -> list[Region]:
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
 
     good = np.arange(len(centre))
@@ -97,12 +96,8 @@ def _agreeing(xy: Floats, centre: Indices, first: Floats, second: Floats, power:
     swapped = _same(first[i], second[j]) & _same(second[i], first[j])
     ratio = np.hypot(*second.T) / np.hypot(*first.T)
     agree = _same(first[i], first[j]) | (swapped & (np.maximum(ratio[i], ratio[j]) < _NEARLY_SQUARE))
-    graph = coo_matrix((np.ones(agree.sum()), (i[agree], j[agree])), shape=(len(good), len(good)))
-    _, label = connected_components(graph, directed=False)
-    regions = [
-        _region(centre[own], first[own], second[own], power[own])
-        for own in (np.flatnonzero(label == k) for k in range(int(label.max()) + 1))
-    ]
+    label = linked(len(good), i[agree], j[agree])
+    regions = [_region(centre[own], first[own], second[own], power[own]) for own in groups(label, int(label.max()) + 1)]
     return sorted(regions, key=lambda r: -len(r.seeds))
 
 
@@ -142,11 +137,10 @@ def _gathered(first: Floats, second: Floats, start: Floats) -> Floats:
         reference = np.nanmean(found, axis=0)
     # What curves on: take what is like the patches next to it.
     left = np.isnan(found[:, 0])
-    for wave in (first,):
-        towards = _towards(wave, reference)
-        like = left & (np.abs(np.hypot(*towards.T) / np.hypot(*reference) - 1) < _SAME_WAVE)
-        like &= np.hypot(*(towards - reference).T) < 0.6 * np.hypot(*reference)
-        found[like] = towards[like]
+    towards = _towards(first, reference)
+    like = left & (np.abs(np.hypot(*towards.T) / np.hypot(*reference) - 1) < _SAME_WAVE)
+    like &= np.hypot(*(towards - reference).T) < 0.6 * np.hypot(*reference)
+    found[like] = towards[like]
     return found
 
 
@@ -218,13 +212,12 @@ def rows_run(xy: Floats, trees: Indices, region: Region) -> tuple[Region, float]
 
 
 def _swapped(region: Region) -> Region:
-    return Region(
-        seeds=region.seeds,
+    return replace(
+        region,
         waves=np.broadcast_to(region.cross, region.waves.shape).copy(),
         wave=region.cross,
         cross=region.wave,
         wider=1.0 / region.wider,
-        power=region.power,
     )
 
 

@@ -15,8 +15,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.site.rows.assemble import groups
 from fieldhand.site.rows.grouping import Line, together
+from fieldhand.site.rows.labels import groups
 
 Floats = NDArray[np.float64]
 

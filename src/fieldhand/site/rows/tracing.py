@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.site.rows.assemble import groups, tree_spacing
+from fieldhand.site.rows.assemble import tree_spacing
+from fieldhand.site.rows.labels import groups, linked
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -52,8 +53,6 @@ def trace(local: Floats, slope: Floats, spacing: float) -> Indices:
         slope: Of the rows at each tree: metres across for each metre along, shape (n,).
         spacing: From tree to tree along the rows.
     """
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
 
     n = len(local)
@@ -67,9 +66,8 @@ def trace(local: Floats, slope: Floats, spacing: float) -> Indices:
     aside = local[j, 0] - local[i, 0] - along * 0.5 * (slope[i] + slope[j])
     middle = _middles(i, j, aside, n, _KERNEL * spacing)
     in_line = np.abs(aside + middle[j] - middle[i]) < _IN_LINE * spacing
-    linked = in_line & (np.abs(along) < _REACH * spacing)
-    graph = coo_matrix((np.ones(linked.sum(), dtype=np.int8), (i[linked], j[linked])), shape=(n, n))
-    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.intp)
+    near = in_line & (np.abs(along) < _REACH * spacing)
+    return linked(n, i[near], j[near])
 
 
 def _middles(i: Indices, j: Indices, aside: Floats, n: int, width: float) -> Floats:
@@ -101,8 +99,6 @@ def bridge(local: Floats, slope: Floats, label: Indices, spacing: float) -> Indi
 
 
 def _bridged_once(local: Floats, slope: Floats, label: Indices, spacing: float) -> Indices:
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
 
     pieces = groups(label, int(label.max(initial=-1)) + 1)
@@ -130,8 +126,7 @@ def _bridged_once(local: Floats, slope: Floats, label: Indices, spacing: float) 
     np.minimum.at(best_ahead, a, cost)
     np.minimum.at(best_behind, b, cost)
     mutual = (cost <= best_ahead[a]) & (cost <= best_behind[b])
-    graph = coo_matrix((np.ones(mutual.sum()), (a[mutual], b[mutual])), shape=(count, count))
-    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.intp)[label]
+    return linked(count, a[mutual], b[mutual])[label]
 
 
 def _end(local: Floats, slope: Floats, trees: Indices, *, first: bool) -> tuple[float, float, float]:
