@@ -41,7 +41,7 @@ from fieldhand.approval.authorize import EveryWarning, approve
 from fieldhand.bench.draw import Draft, draw
 from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.errors import NotApprovedError
-from fieldhand.evaluation.failsafe import Failsafe
+from fieldhand.evaluation.failsafe import BudgetFailsafe
 from fieldhand.evaluation.guard import BudgetGuard
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, Progress
 from fieldhand.execution.drivers.simulation import SimulatedDriver
@@ -174,7 +174,7 @@ def live(folder: Path, approved: AuthorizedTask, draft: Draft, line: Connection)
             robot=profile,
             driver=robot,
             guard=guard,
-            lookout=Failsafe(task, profile, guard.drain),
+            failsafe=BudgetFailsafe(task, profile, guard.drain),
             clock=robot,
             emit=nobody_hears,
             log=journal,

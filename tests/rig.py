@@ -12,7 +12,7 @@ import numpy as np
 from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.execution.attempt import Attempt
 from fieldhand.execution.drivers.simulation import SimulatedDriver
-from fieldhand.execution.guard import Guard, NoGuard, NoLookout
+from fieldhand.execution.guard import Guard, NoFailsafe, NoGuard
 from fieldhand.execution.mission_clock import MissionClock
 from fieldhand.execution.mission_runner import Result, run
 from fieldhand.execution.recorded_inputs import RecordedInputs
@@ -119,7 +119,7 @@ class Rig:
         inputs = RecordedInputs(
             driver=self.driver(),
             guard=self.guard,
-            lookout=NoLookout(),
+            failsafe=NoFailsafe(),
             clock=MissionClock(self.clock),
             emit=lambda event: None,
             asked=lambda: None,

@@ -294,7 +294,7 @@ def carry_out(
         emit, interrupted: As for :func:`fieldhand.execution.mission_runner.run`; so are ``orders`` and ``log``.
         watched: Takes the budget guard and gives one that asks it: to time its decisions, say.
     """
-    from fieldhand.evaluation.failsafe import Failsafe
+    from fieldhand.evaluation.failsafe import BudgetFailsafe
     from fieldhand.evaluation.guard import BudgetGuard
     from fieldhand.execution.mission_runner import run
     from fieldhand.forecast.routes import drives_for
@@ -307,7 +307,7 @@ def carry_out(
         robot=robot,
         driver=vehicle.driver,
         guard=watched(guard),
-        lookout=Failsafe(authorized.task, robot, guard.drain),
+        failsafe=BudgetFailsafe(authorized.task, robot, guard.drain),
         clock=vehicle.clock,
         emit=vehicle.disk(emit),
         interrupted=interrupted,

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.evaluation.drain import Drain
-from fieldhand.evaluation.failsafe import Failsafe
+from fieldhand.evaluation.failsafe import BudgetFailsafe
 from fieldhand.evaluation.telling import Teller
 from fieldhand.execution.world import BatteryDrains, World
 from fieldhand.forecast.state import Spent
@@ -121,7 +121,7 @@ def test_a_mission_with_an_open_end_drives_no_way_home_when_its_limit_is_reached
 
 
 def flown_with_lookout(world: World, robot: RobotProfile, tree: str = "r3c4") -> tuple[Event, ...]:
-    """One mandatory capture far away, without a guard: only the lookout foresees the way home."""
+    """One mandatory capture far away, without a guard: only the failsafe foresees the way home."""
     from fieldhand.clock import SimulatedClock
     from fieldhand.execution.guard import NoGuard
     from fieldhand.execution.mission_runner import run
@@ -144,7 +144,7 @@ def flown_with_lookout(world: World, robot: RobotProfile, tree: str = "r3c4") ->
         guard=NoGuard(),
         clock=rig.clock,
         emit=lambda event: None,
-        lookout=Failsafe(task, robot, Drain(robot)),
+        failsafe=BudgetFailsafe(task, robot, Drain(robot)),
     ).events
 
 

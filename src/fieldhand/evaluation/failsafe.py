@@ -27,8 +27,8 @@ ABNORMAL = 1.2
 _LESS_LIKELY, _LESS = 0.02, 0.8
 
 
-class Failsafe:
-    """Implements :class:`fieldhand.execution.guard.Lookout`.
+class BudgetFailsafe:
+    """Implements :class:`fieldhand.execution.guard.Failsafe`.
 
     Args:
         task, robot: The mission.

@@ -1,4 +1,4 @@
-"""Protocols of the budget guard and of the lookout, which evaluation implements."""
+"""Protocols of the budget guard and of the failsafe, which evaluation implements."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Guard(Protocol):
         ...
 
 
-class Lookout(Protocol):
+class Failsafe(Protocol):
     """Foresees whether what is left lasts for the way home; asked at every look."""
 
     def learn(self, now: Underway) -> None:
@@ -71,8 +71,8 @@ class NoGuard:
         pass
 
 
-class NoLookout:
-    """A lookout for missions without limits: nothing is ever foreseen."""
+class NoFailsafe:
+    """A failsafe for missions without limits: nothing is ever foreseen."""
 
     def learn(self, now: Underway) -> None:
         pass

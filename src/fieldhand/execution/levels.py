@@ -18,7 +18,7 @@ Consequence = Literal["go_on", "return", "end", "stop"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Level:
+class LimitLevel:
     """A threshold, and what follows if it is crossed."""
 
     quantity: Crossable
@@ -37,7 +37,7 @@ class Level:
                 return value <= self.threshold
 
 
-def levels_of(constraints: Constraints, robot: RobotProfile) -> tuple[Level, ...]:
+def levels_of(constraints: Constraints, robot: RobotProfile) -> tuple[LimitLevel, ...]:
     """Return the levels of a Task on a robot."""
     reserve = reserve_percent(constraints, robot)
     battery = robot.energy.levels(reserve)
@@ -50,11 +50,11 @@ def levels_of(constraints: Constraints, robot: RobotProfile) -> tuple[Level, ...
     return (
         # At a level of 0 the battery is empty, and nothing is reported any more.
         *(
-            Level(quantity="charge_percent", level=level, threshold=at, then=then)
+            LimitLevel(quantity="charge_percent", level=level, threshold=at, then=then)
             for level, at, then in charges
             if at > 0.0
         ),
-        *(Level(quantity=b.kind, level="limit", threshold=b.limit, then="return") for b in constraints.budgets),
+        *(LimitLevel(quantity=b.kind, level="limit", threshold=b.limit, then="return") for b in constraints.budgets),
     )
 
 

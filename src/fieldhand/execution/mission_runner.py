@@ -12,7 +12,7 @@ from fieldhand.errors import DriveFault, FieldhandError, NotApprovedError, Outpu
 from fieldhand.execution.attempt import Attempt, Ending
 from fieldhand.execution.drivers.protocol import Driver
 from fieldhand.execution.goals import drive
-from fieldhand.execution.guard import Guard, Lookout, NoLookout
+from fieldhand.execution.guard import Failsafe, Guard, NoFailsafe
 from fieldhand.execution.interrupts import ctrl_c_as_request
 from fieldhand.execution.journal.records import InputLog
 from fieldhand.execution.mission_clock import MissionClock, StopTimeout
@@ -69,7 +69,7 @@ def run(
     interrupted: Callable[[], str | None] = nobody,
     wall: WallClock | None = None,
     orders: Callable[[], Order | None] = nobody,
-    lookout: Lookout | None = None,
+    failsafe: Failsafe | None = None,
     log: InputLog | None = None,
     simulated: bool = False,
 ) -> Result:
@@ -86,7 +86,7 @@ def run(
         interrupted: Asked at every tick; a reason ends the mission as ``aborted``. So does Ctrl-C.
         wall: The time of day, to be recorded.
         orders: Asked at every tick what a person wants now.
-        lookout: Asked at every look whether what is left lasts for the way home; None for missions without limits.
+        failsafe: Asked at every look whether what is left lasts for the way home; None for missions without limits.
         log: Records inputs, so that the mission can be resumed after a power cut. If it holds some already, they are
             replayed and the mission continues from there. It passes events on itself, instead of ``emit``.
         simulated: True if the driver is a simulation. Resuming replays the mission to a new one.
@@ -105,7 +105,7 @@ def run(
         inputs = RecordedInputs(
             driver=driver,
             guard=guard,
-            lookout=lookout or NoLookout(),
+            failsafe=failsafe or NoFailsafe(),
             clock=clock if isinstance(clock, MissionClock) else MissionClock(clock),
             emit=emit,
             asked=asked,
@@ -135,7 +135,7 @@ class MissionRunner:
 
     Args:
         task, site, robot: Of the mission.
-        inputs: Driver, guard, lookout, clock and orders.
+        inputs: Driver, guard, failsafe, clock and orders.
 
     Attributes:
         attempt: The state of the mission.

@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, TypeVar
 from fieldhand.clock import WallClock
 from fieldhand.errors import FieldhandError, JournalError
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, Position, Progress
-from fieldhand.execution.guard import Guard, Lookout
+from fieldhand.execution.guard import Failsafe, Guard
 from fieldhand.execution.journal.records import (
     InputLog,
     Kind,
@@ -63,7 +63,7 @@ class RecordedInputs:
     :class:`~fieldhand.execution.drive_controller.DriveController` starts the goals.
 
     Args:
-        driver, guard, lookout: Asked where the log ends.
+        driver, guard, failsafe: Asked where the log ends.
         clock: The mission's time.
         wall: The time of day, or None if there is none.
         log: Earlier answers; new ones are appended. None records nothing.
@@ -81,7 +81,7 @@ class RecordedInputs:
         *,
         driver: Driver,
         guard: Guard,
-        lookout: Lookout,
+        failsafe: Failsafe,
         clock: MissionClock,
         emit: Callable[[Event], None],
         asked: Callable[[], Order | None],
@@ -90,7 +90,7 @@ class RecordedInputs:
         simulated: bool = False,
     ) -> None:
         self.cuts = 0
-        self._driver, self._guard, self._lookout = driver, guard, lookout
+        self._driver, self._guard, self._failsafe = driver, guard, failsafe
         self._clock, self._wall, self._log = clock, wall, log
         self._emit, self._asked, self._simulated = emit, asked, simulated
         self._live = log is None
@@ -186,7 +186,7 @@ class RecordedInputs:
                 self._now = self._observe()
                 return
 
-    # --- the guard and the lookout ---------------------------------------------------------------------------------
+    # --- the guard and the failsafe ---------------------------------------------------------------------------------
 
     def admit(self, state: MissionState, visit: Visit, still_to_come: Sequence[Visit] = ()) -> Verdict:
         """Return the guard's verdict, recorded or new."""
@@ -213,12 +213,12 @@ class RecordedInputs:
         self._guard.ways_are(drives)
 
     def foresee(self, now: Underway) -> Foresight:
-        """Return the lookout's answer, recorded or new. Only alarms are recorded: no record means no alarm."""
+        """Return the failsafe's answer, recorded or new. Only alarms are recorded: no record means no alarm."""
         if not self._live:
-            self._lookout.learn(now)
+            self._failsafe.learn(now)
             record = self._recorded_if("foresee")
             return Foresight() if record is None else foresight_of(record)
-        answer = self._lookout.foresee(now)
+        answer = self._failsafe.foresee(now)
         if answer.alarm != "none":
             self._record(foresight_record(answer))
         return answer

@@ -3,7 +3,7 @@
 The guard decides between drives. This looks in between: every level of the battery and every limit that is crossed is
 an event of the log, once, and what follows from it is done at once. At the return level the mission turns home, at the
 stop level the robot stops where it stands. Whether what is left still lasts for the way home is asked of a
-:class:`~fieldhand.execution.guard.Lookout`, which evaluation implements.
+:class:`~fieldhand.execution.guard.Failsafe`, which evaluation implements.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from shapely.geometry import LineString, Point
 
 from fieldhand.errors import DriveFault
 from fieldhand.execution.attempt import Attempt
-from fieldhand.execution.levels import Consequence, Level, fastest_drain, levels_of
+from fieldhand.execution.levels import Consequence, LimitLevel, fastest_drain, levels_of
 from fieldhand.execution.open_goals import OpenCapture, OpenDrive
 from fieldhand.forecast.state import Spent, Work
 from fieldhand.forecast.underway import Foresight, Underway
@@ -66,7 +66,7 @@ class Watch:
         self._has_open_end = attempt.task.composition.nominal == "stay"
         self._reach_m = 0.0
         self._levels = levels_of(attempt.task.constraints, attempt.robot)
-        self._crossed: set[Level] = set()
+        self._crossed: set[LimitLevel] = set()
         self._homes: tuple[tuple[tuple[float, float], ...], float, float] | None = None
         self._foreseen: set[Phase] = set()
         self._fastest = fastest_drain(attempt.robot)
@@ -160,7 +160,7 @@ class Watch:
 
     # --- crossings -----------------------------------------------------------------------------------------------
 
-    def _follows(self, level: Level) -> Consequence:
+    def _follows(self, level: LimitLevel) -> Consequence:
         """Return what is done about a crossing, in this phase."""
         if self.phase == "over" or (self.phase == "exit" and level.then == "return"):
             return "go_on"
@@ -174,7 +174,7 @@ class Watch:
             return "stay"
         return self._attempt.exit_for("low_budget")
 
-    def _clear(self, level: Level, value: float) -> None:
+    def _clear(self, level: LimitLevel, value: float) -> None:
         if value >= level.threshold + CLEAR_PERCENT and not level.is_crossed(value):
             self._crossed.discard(level)
             self._say(level.quantity, level.level, value, level.threshold, "go_on", cleared=True)
@@ -232,7 +232,7 @@ class Watch:
     def _ask(
         self, spent: Spent, charge: float, ways: tuple[float, float, float], work: Work | None = None
     ) -> Foresight:
-        """Ask the lookout; the ways are those of :meth:`_ways`."""
+        """Ask the failsafe; the ways are those of :meth:`_ways`."""
         on_m, after_m, home_m = ways
         return self._attempt.inputs.foresee(
             Underway(

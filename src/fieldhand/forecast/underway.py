@@ -1,4 +1,4 @@
-"""Data between a robot that drives or works and the lookout that foresees whether it still comes home."""
+"""Data between a robot that drives or works and the failsafe that foresees whether it still comes home."""
 
 from __future__ import annotations
 

@@ -145,16 +145,16 @@ def compose_station(
             seed=seed,
         )
         return Station(robot=profile, sites=places, depot=depot, crew=crew)
-    from fieldhand.execution.drivers.ros2.boarding import Lookout, board, bound, join
+    from fieldhand.execution.drivers.ros2.boarding import RobotPresence, board, bound, join
     from fieldhand.program.aboard import Aboard
 
     with ExitStack() as stack:
         stack.callback(depot.close)
         bindings = bound(profile, connection)
-        lookout, aboard = Lookout(join(connection, bindings)[0], bindings), Aboard(connection, board)
+        presence, aboard = RobotPresence(join(connection, bindings)[0], bindings), Aboard(connection, board)
         stack.pop_all()
     let_go = ExitStack()
-    let_go.callback(lookout.close)
+    let_go.callback(presence.close)
     let_go.callback(aboard.close)
     return Station(
         robot=profile,
@@ -162,7 +162,7 @@ def compose_station(
         depot=depot,
         crew=Crew(depot, carry=aboard.carry, check=aboard.check, conclude=conclude, seed=seed),
         on=str(connection),
-        missing=lookout.missing,
+        missing=presence.missing,
         let_go=let_go,
     )
 

@@ -78,7 +78,7 @@ class Bar:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Report:
+class ReportContent:
     """The content of a report, without its maps."""
 
     title: str
@@ -111,7 +111,7 @@ def compose(
     estimate: Estimate | None,
     signed: str = "",
     hashes: Sequence[tuple[str, str]] = (),
-) -> Report:
+) -> ReportContent:
     """Compose the content of a mission's report.
 
     Args:
@@ -127,7 +127,7 @@ def compose(
     read = summaries(task, robot, events)
     rows = reading_rows({s.quantity: s for s in read}, events, names)
     status, verdict = _verdict(task, robot, events, outcomes)
-    return Report(
+    return ReportContent(
         title=HEADINGS["page"],
         subtitle=_subtitle(robot, site, authorization),
         status=status,

@@ -8,7 +8,7 @@ from functools import cache
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
-from fieldhand.evaluation.report.content import GOAL_HEAD, HEADINGS, TABLE_HEAD, Report
+from fieldhand.evaluation.report.content import GOAL_HEAD, HEADINGS, TABLE_HEAD, ReportContent
 from fieldhand.evaluation.report.maps import ReportMap
 from fieldhand.visible import visible
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from jinja2 import Template
 
 
-def render_page(report: Report, maps: Sequence[ReportMap]) -> str:
+def render_page(report: ReportContent, maps: Sequence[ReportMap]) -> str:
     """Return the page as HTML with all text escaped."""
     return _template().render(
         r=report,

@@ -17,7 +17,7 @@ from fieldhand.forecast.underway import Foresight
 
 #: ``sight``: an observation. ``begun``: a goal is about to begin. ``cancel``: its end is asked for.
 #: ``admit``, ``choose``: an answer of the guard. ``cut``: here the power was cut. ``interrupt``: Ctrl-C a second time.
-#: ``foresee``: the lookout's alarm; an answer without one is not kept.
+#: ``foresee``: the failsafe's alarm; an answer without one is not kept.
 Kind = Literal["sight", "begun", "cancel", "admit", "choose", "foresee", "cut", "interrupt"]
 
 
@@ -171,7 +171,7 @@ def choice_of(record: Record, node: str) -> Choice:
 
 
 def foresight_record(said: Foresight) -> Record:
-    """Return the record of an alarm of the lookout."""
+    """Return the record of an alarm of the failsafe."""
     return Record(kind="foresee", body=json.dumps(dataclasses.asdict(said)))
 
 

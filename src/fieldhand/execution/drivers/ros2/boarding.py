@@ -99,8 +99,8 @@ def board(
         transport.close()
 
 
-class Lookout:
-    """Sees from what others have announced whether the robot is there; sends nothing. Safe for several threads.
+class RobotPresence:
+    """Presence of a robot, from what it has announced; sends nothing. Safe for several threads.
 
     Args:
         transport: Open for as long as this is asked.
@@ -112,7 +112,7 @@ class Lookout:
         self._guard = threading.Lock()
 
     def missing(self) -> tuple[str, ...]:
-        """What of the robot is not there now, in words."""
+        """Return the parts of the robot that are missing now, in words."""
         bindings, whole = self._bindings, self._bindings.whole_name
         topics = {"position": whole(bindings.position.fix.topic), "battery": whole(bindings.battery.topic.topic)}
         if bindings.use_sim_time:
