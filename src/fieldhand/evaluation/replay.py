@@ -19,7 +19,7 @@ from fieldhand.evaluation.tally import Tallies, Tally
 from fieldhand.language import message
 from fieldhand.task import requests as ask
 from fieldhand.task.nodes.base import Cut, Failed, GivenUp, Stopped
-from fieldhand.task.plan import Act, Node, walk
+from fieldhand.task.plan import Act, Node, acts
 from fieldhand.task.results import (
     Acted,
     Arrived,
@@ -80,13 +80,12 @@ class _Replay:
     def __init__(self, plan: Node, events: Sequence[Event]) -> None:
         self._tallies = Tallies(plan)
         self._inside = self._tallies.inside
-        own = self._inside[plan.id]
         over = next((k for k, e in enumerate(events) if isinstance(e, Exited | Ended)), len(events))
         self._orderly = any(isinstance(e, Ended) and e.status in ("completed", "returned", "exceeded") for e in events)
         # The exit itself belongs to the plan only where a stop took it: then it names that stop.
         # What stood in the way, waiting, and what was crossed say nothing of the plan.
         aside = (Obstructed, Waited, ClockSet, LimitCrossed)
-        self._events = [e for e in events[: over + 1] if e.node in own and not isinstance(e, aside)]
+        self._events = [e for e in events[: over + 1] if e.node in self._inside[plan.id] and not isinstance(e, aside)]
         self._next = 0
         self._of: dict[str, list[int]] = {}
         for position, event in enumerate(self._events):
@@ -134,6 +133,14 @@ class _Replay:
             self._next += 1
         return self._peek()
 
+    def _is_whole(self) -> bool:
+        """Whether the log was not cut off here."""
+        return self._orderly or self._peek() is not None
+
+    def _is_unseen(self, node: Node) -> bool:
+        """Whether a node may be done although the log has nothing of it."""
+        return _is_silent(node) and (self._is_whole() or not any(acts(node)))
+
     def _when(self, node: Node) -> int:
         """The position of the next event of a node or of one inside."""
         some = [self._of[name] for name in self._inside[node.id] if name in self._of]
@@ -168,7 +175,7 @@ class _Replay:
 
     def _arrange(self, node: Node) -> tuple[int, ...]:
         """The order of the log; steps without events come last, and of those such that need have none (a stop)."""
-        if not self._comes([node]) and not _is_silent(node):
+        if not self._comes([node]) and not self._is_unseen(node):
             raise self._absent(node)
         keys = [(self._when(step), _is_silent(step)) for step in node.children]
         return tuple(sorted(range(len(keys)), key=keys.__getitem__))
@@ -236,13 +243,14 @@ class _Replay:
         """Begin the next visit, if the log has one."""
         while self._shed(node):
             pass
-        if visits.to_come > 0 and self._comes(node.children):
-            visits.begun += 1
-            visits.before = self._tallies.copies(node)
-            return True
-        if visits.to_come > 0 and not _is_silent(node):
+        if visits.to_come > 0:
+            seen = self._comes(node.children) or isinstance(self._peek_own(node), Decided)
+            if seen or (self._is_whole() and _is_silent(node)):
+                visits.begun += 1
+                visits.before = self._tallies.copies(node)
+                return True
             raise self._lost()
-        if visits.to_come > 0 or not node.is_optional:
+        if not node.is_optional:
             self._miss_visits(node, visits)
         return None
 
@@ -250,7 +258,7 @@ class _Replay:
         self._skim(node)
         if self._given_up(self._run.frame):
             return False
-        if not self._comes([node]) and not _is_silent(node):
+        if not self._comes([node]) and not self._is_unseen(node):
             raise self._absent(node)
         self._run.frame.tour = _Visits(most=1, begun=1, before=self._tallies.copies(node))
         return True
@@ -336,5 +344,5 @@ class _Replay:
 
 
 def _is_silent(node: Node) -> bool:
-    """Return True if a node holds nothing that must leave a trace in the log."""
-    return not any(inner.act is not None or inner.is_choice for inner in walk(node))
+    """Return True if a node that does not fail may leave no trace in the log."""
+    return node.act is None and not node.is_choice and all(map(_is_silent, node.caught or node.children))

@@ -17,25 +17,10 @@ from fieldhand.forecast.state import Choice
 from fieldhand.language import message
 from fieldhand.places.selector import Selector
 from fieldhand.site.model import Place
+from fieldhand.task import requests as ask
 from fieldhand.task.conditions import Condition
 from fieldhand.task.nodes.base import Failed, GivenUp, Stopped
 from fieldhand.task.plan import Act, AnyOrder, Node, Optional
-from fieldhand.task.requests import (
-    Arrange,
-    Begin,
-    Bind,
-    Capture,
-    Decide,
-    Drive,
-    Forget,
-    Locate,
-    Next,
-    Offer,
-    Permit,
-    Read,
-    Request,
-    Round,
-)
 from fieldhand.task.results import Decided, MissionStatus
 from fieldhand.task.run import Steps, carry_out_in_steps
 
@@ -76,7 +61,7 @@ class Performer:
         except Stopped as stopped:
             self._stop(stopped)
 
-    def _perform(self, request: Request) -> Answer:
+    def _perform(self, request: ask.Request) -> Answer:
         """Answer a request, or say what went wrong and throw that into the plan."""
         try:
             return (yield from self._answer(request))
@@ -85,11 +70,11 @@ class Performer:
         except FieldhandError as error:
             raise self._failure(request, error) from error
 
-    def _failure(self, request: Request, error: FieldhandError) -> Failed | GivenUp:
+    def _failure(self, request: ask.Request, error: FieldhandError) -> Failed | GivenUp:
         """Say what failed, and give what the plan is to be told."""
-        at_work = isinstance(request, Locate | Drive | Capture)
+        at_work = isinstance(request, ask.Locate | ask.Drive | ask.Capture)
         if isinstance(error, BlockedFault) and at_work:
-            if isinstance(request, Drive) and request.tour is not None:
+            if isinstance(request, ask.Drive) and request.tour is not None:
                 request.tour.cannot_reach(error)
                 return GivenUp(request.node.id)
             if optional := give_up_unreachable(self.attempt, error.what):
@@ -97,35 +82,35 @@ class Performer:
         self.attempt.fail(request.node.id, error, handled=self.attempt.run.is_caught)
         return Failed(request.node.id)
 
-    def _answer(self, request: Request) -> Answer:
+    def _answer(self, request: ask.Request) -> Answer:
         match request:
-            case Locate(selector=selector):
+            case ask.Locate(selector=selector):
                 return (yield from self._locate(request.node, selector))
-            case Permit(node=node, place=place):
+            case ask.Permit(node=node, place=place):
                 admit(self.attempt, visit_to(self.attempt, place, node), refused=[place])
-            case Drive():
+            case ask.Drive():
                 return (yield from self._drive(request))
-            case Bind(label=label, places=places):
+            case ask.Bind(label=label, places=places):
                 self.attempt.bind(label, places)
-            case Capture(node=act):
+            case ask.Capture(node=act):
                 return (yield from self._capture(act))
-            case Forget(reading=reading):
+            case ask.Forget(reading=reading):
                 self.attempt.readings.pop(reading, None)
-            case Read(reading=reading, value=value):
+            case ask.Read(reading=reading, value=value):
                 self.attempt.readings[reading] = value
-            case Decide(node=node, condition=condition):
+            case ask.Decide(node=node, condition=condition):
                 return self._decide(node, condition)
-            case Arrange(node=any_order):
+            case ask.Arrange(node=any_order):
                 return self._arrange(any_order)
-            case Begin(node=for_each):
+            case ask.Begin(node=for_each):
                 return Tour(self.attempt, for_each)
-            case Next(tour=tour, made=made):
+            case ask.Next(tour=tour, made=made):
                 self.place = None
                 yield from self._look_around(first=tour.place is None and made == 0)
                 return tour.next(made)
-            case Round(node=repeat, left=left):
+            case ask.Round(node=repeat, left=left):
                 yield from self._look_around(first=left == repeat.times - 1)
-            case Offer(node=optional):
+            case ask.Offer(node=optional):
                 return self._offer(optional)
         return None
 
@@ -149,7 +134,7 @@ class Performer:
         self.place = there = attempt.reached(place)
         return there
 
-    def _drive(self, request: Drive) -> Generator[None, None, Place]:
+    def _drive(self, request: ask.Drive) -> Generator[None, None, Place]:
         """Drive; where something in the way leads it another way, the guard is asked anew."""
         attempt, node = self.attempt, request.node
         tour: Tour | None = request.tour

@@ -15,6 +15,7 @@ from fieldhand.errors import DriveFault, PlaceError
 from fieldhand.forecast import routes
 from fieldhand.forecast.drawn import Drawn, Luck
 from fieldhand.forecast.local import local_decisions
+from fieldhand.forecast.optional_work import LikelyWork, ToldWork
 from fieldhand.forecast.possible import Outlooks, Readings
 from fieldhand.forecast.steps import Decision, Step, Walk
 from fieldhand.forecast.trail import Answers
@@ -118,13 +119,13 @@ def branches(
     def likely(answers: Answers) -> Walker:
         drawn = None if luck is None else Drawn(luck)
         readings = Readings(outlooks)
-        return Walker(task, site, robot, ways, answers, charge_percent, drawn=drawn, readings=readings, kept=kept)
+        return Walker(
+            task, site, robot, ways, answers, charge_percent, optional=LikelyWork(kept), drawn=drawn, readings=readings
+        )
 
     def told(answers: Answers) -> Walker:
         readings = Readings(outlooks)
-        return Walker(
-            task, site, robot, ways, answers, charge_percent, optional="told", readings=readings, kept=kept
-        )  # fmt: skip
+        return Walker(task, site, robot, ways, answers, charge_percent, optional=ToldWork(kept), readings=readings)
 
     root = task.composition.plan
     looked = _Exploration(likely, root, limit, seed, by_themselves=_BY_THEMSELVES)

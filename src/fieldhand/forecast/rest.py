@@ -98,9 +98,7 @@ def _most(task: Task, site: Site, robot: RobotProfile, drives: Drives, nodes: Se
     fixed = not any(_is_relative(node) for node in nodes)
     worst, most = Rest(), -1.0
     for holds in every_answer(nodes):
-        found = _walk_rest(
-            Walker(task, site, robot, drives, Answers(holds=holds), optional="none", context=context), nodes
-        )
+        found = _walk_rest(Walker(task, site, robot, drives, Answers(holds=holds), context=context), nodes)
         found = replace(found, fixed=fixed)
         seconds = (sum(found.legs_m) + found.work.metres) / speed + found.work.seconds
         if found.first is not None:
@@ -165,7 +163,6 @@ def _walk_rest(walker: Walker, nodes: Sequence[Node]) -> Rest:
             walker.robot,
             walker.drives,
             Answers(holds=never),
-            optional="none",
             context=walker.beginning,
         )
         walked = walker.run(())

@@ -105,12 +105,12 @@ class Trail:
     def _drive_to(self, node: Node, place: Place) -> None:
         if place.xy != self.context.here.xy or self._stuck:
             leg = self._leg(node, "drive", place)
-            if self.plan.is_caught and self._decide(node, "blocked"):
+            if self.plan.is_caught and self.decide(node, "blocked"):
                 # As bad as it gets: all of the way is driven, and the robot stands just before the place.
-                self._note(replace(leg, reached=False))
+                self.note(replace(leg, reached=False))
                 self._standing = _on_the_way(leg.places[0])
                 raise Failed(node.id)
-            self._note(leg)
+            self.note(leg)
             (place,) = leg.places
         else:
             place = self.context.here
@@ -123,10 +123,10 @@ class Trail:
         if not goes or (home.xy == self.context.here.xy and not self._stuck):
             if goes:
                 self.stops.append(self.context.here)
-            self._note(Step(node=node, kind="exit", context=self.context, places=(home,)))
+            self.note(Step(node=node, kind="exit", context=self.context, places=(home,)))
             return
         leg = self._leg(node, "exit", home)
-        self._note(leg)
+        self.note(leg)
         (home,) = leg.places
         self.stops.append(home)
         self._stand(Context(here=home, visited=self.context.visited, bound=self.context.bound))
@@ -151,7 +151,8 @@ class Trail:
             joules=drive.length_m * self.robot.energy.drive_j_per_m,
         )
 
-    def _decide(self, node: Node, kind: DecisionKind) -> bool:
+    def decide(self, node: Node, kind: DecisionKind) -> bool:
+        """Return the answer to what the walk cannot know, and record it as a decision."""
         condition = plan.condition_of(node) if kind == "holds" else None
         possible: tuple[bool, ...] = (True, False)
         if condition is not None and self.readings is not None:
@@ -164,7 +165,7 @@ class Trail:
         place = self.context.here.id
         self.decisions.append(Decision(node=node.id, kind=kind, answer=answer, sure=sure, place=place))
         if kind == "holds":
-            self._note(Step(node=node, kind="decide", context=self.context, answer=answer))
+            self.note(Step(node=node, kind="decide", context=self.context, answer=answer))
         return answer
 
     def _bind(self, label: str, *places: Place) -> None:
@@ -172,7 +173,8 @@ class Trail:
             bound = {**self.context.bound, label: places}
             self.context = Context(here=self.context.here, visited=self.context.visited, bound=bound)
 
-    def _note(self, step: Step) -> None:
+    def note(self, step: Step) -> None:
+        """Add a step, and what it uses."""
         self.steps.append(step)
         metres = 0.0 if step.drive is None else step.drive.length_m
         if self.drawn is not None and self.plan.optional is None:

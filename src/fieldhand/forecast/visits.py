@@ -99,9 +99,7 @@ class Visits:
         longest, most = Visit(place=context.here), -1.0
         for holds in every_answer((body,)):
             answers = Answers(holds=holds)
-            walker = Walker(
-                self._task, self._site, self._robot, self._drives, answers, optional="none", context=context
-            )  # fmt: skip
+            walker = Walker(self._task, self._site, self._robot, self._drives, answers, context=context)
             steps = walker.along(body)
             legs = [(s.drive.length_m, s.places[0]) for s in steps if s.drive is not None]
             acts = [s for s in steps if s.kind == "act"]

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldhand.forecast import routes
+from fieldhand.forecast.optional_work import LikelyWork
 from fieldhand.forecast.steps import Answer, Walk, never
 from fieldhand.forecast.trail import Answers
-from fieldhand.forecast.walker import Walker
+from fieldhand.forecast.walker import OptionalWork, Walker
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
@@ -25,6 +26,7 @@ def walk(
     fails: Answer = never,
     drives: Drives | None = None,
     charge_percent: float = 100.0,
+    optional: OptionalWork | None = None,
 ) -> Walk:
     """Walk a Task from the start of the site to its exit, whatever the answers: also a branch that cannot be.
 
@@ -35,6 +37,7 @@ def walk(
         fails: Asked for the id of each action inside a ``Try``; what is outside one does not fail in a forecast.
         drives: The ways of the site, if the caller has them; they remember what they found.
         charge_percent: Charge at the beginning.
+        optional: Decides on optional visits and steps; by default those are taken that missions probably do.
 
     Raises:
         PlaceError: A selector gives nothing, or several places where one is needed; ``where`` names the node.
@@ -42,5 +45,7 @@ def walk(
         TaskError: It comes to more than ``MAX_NODES`` nodes.
     """
     ways = drives or routes.drives_for(site, robot)
-    walker = Walker(task, site, robot, ways, Answers(holds=holds, fails=fails), charge_percent)
+    walker = Walker(
+        task, site, robot, ways, Answers(holds=holds, fails=fails), charge_percent, optional=optional or LikelyWork({})
+    )
     return walker.run((task.composition.plan,))
