@@ -1,0 +1,580 @@
+"""A mission carried out four ways: previewed, simulated, replayed from its log, and as a tree of BehaviorTree.CPP.
+
+``python tests/agreement.py COUNT [FIRST]`` compares so many random missions and prints what came of them
+(docs/plans.md). Every one agrees on the places, their order, and the captures.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections import Counter, defaultdict, deque
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+from lxml import etree
+
+from fieldhand import mission
+from fieldhand.evaluation.replay import replay
+from fieldhand.exchange.btcpp import write_tree
+from fieldhand.execution.guard import Guard
+from fieldhand.execution.world import ActionFails, Spot, World
+from fieldhand.forecast import routes
+from fieldhand.forecast.conditions import Facts, evaluate
+from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
+from fieldhand.forecast.steps import Walk
+from fieldhand.forecast.walk import walk as preview
+from fieldhand.forecast.walker import OptionalWork, Walker
+from fieldhand.places.context import Context
+from fieldhand.places.resolution import resolve_one
+from fieldhand.places.selectors import Bound, Farthest, Here, Nearest, Selector, TreeIs, Union
+from fieldhand.robot.capabilities import capabilities_of
+from fieldhand.site.drives import Drives
+from fieldhand.site.model import Place
+from fieldhand.task.codec import decode_parts
+from fieldhand.task.conditions import AllOf, AnyOf, Compare, Condition, Not
+from fieldhand.task.conditions import walk as condition_parts
+from fieldhand.task.frames import Task
+from fieldhand.task.plan import (
+    Act,
+    AnyOrder,
+    ForEach,
+    GoTo,
+    If,
+    Node,
+    Optional,
+    Repeat,
+    Stop,
+    Try,
+    acts,
+    walk,
+)
+from fieldhand.task.plan import (
+    Sequence as Steps,
+)
+from fieldhand.task.results import Acted, Arrived, Decided, Ended, Event, Exited, Visiting
+from rig import authorized, husky, orchard, task_for
+
+#: What happens: kind ("drive", "capture", "failure"), id of the node, id of the place.
+Trace = list[tuple[str, str, str]]
+
+#: Fails at some trees, and stands only where a try catches that.
+FAILING = "read_co2"
+QUANTITIES = {
+    "read_co2": ("co2", "ppm", 420.0),
+    "take_thermal_picture": ("canopy_temperature", "degC", 33.0),
+    "read_ambient_temperature": ("ambient_temperature", "degC", 30.0),
+}
+
+
+class Drawn:
+    """A plan drawn by chance.
+
+    Args:
+        rng: Of every choice.
+    """
+
+    def __init__(self, rng: np.random.Generator) -> None:
+        self._rng = rng
+        self._trees = [tree.place.id for tree in orchard().trees]
+
+    def plan(self) -> Node:
+        return self._node(3, tried=False, optional=False, label="")
+
+    def _chance(self, share: float) -> bool:
+        return bool(self._rng.random() < share)
+
+    def _tree(self) -> TreeIs:
+        return TreeIs(tree=str(self._rng.choice(self._trees)))
+
+    def _place(self, label: str) -> Selector:
+        options: list[Selector] = [self._tree(), self._tree(), Nearest(to=Here()), Farthest(origin=Here())]
+        if label:
+            options += [Bound(label=label), Nearest(to=Bound(label=label), adjacent=True)]
+        return options[int(self._rng.integers(len(options)))]
+
+    def _condition(self, depth: int = 1) -> Condition:
+        kind = int(self._rng.integers(4 if depth else 1))
+        if kind == 1:
+            return Not(condition=self._condition(depth - 1))
+        if kind >= 2:
+            both = (self._condition(depth - 1), self._condition(depth - 1))
+            return AllOf(conditions=both) if kind == 2 else AnyOf(conditions=both)
+        quantity, unit, value = QUANTITIES[str(self._rng.choice(list(QUANTITIES)))]
+        value += float(self._rng.normal(0.0, value / 20))
+        reading = str(self._rng.choice(["a", "b"]))
+        return Compare(reading=reading, quantity=quantity, test="lt", value=round(value, 1), unit=unit)
+
+    def _act(self, *, tried: bool, label: str) -> Act:
+        fails = tried and self._chance(0.5)
+        return Act(
+            id="",
+            action=FAILING if fails else str(self._rng.choice([a for a in QUANTITIES if a != FAILING])),
+            at=self._place(label) if self._chance(0.6) else None,
+            count=1 if fails else int(self._rng.integers(1, 4)),
+            reading=str(self._rng.choice(["", "a", "b"])),
+        )
+
+    def _node(self, depth: int, *, tried: bool, optional: bool, label: str) -> Node:
+        if depth == 0 or self._chance(0.15):
+            if self._chance(0.15):
+                return GoTo(id="", place=self._place(label))
+            return self._act(tried=tried, label=label)
+
+        def inner(*, also_tried: bool = False, also_optional: bool = False, named: str = "") -> Node:
+            return self._node(
+                depth - 1, tried=tried or also_tried, optional=optional or also_optional, label=named or label
+            )
+
+        match int(self._rng.integers(9)):
+            case 0 | 1:
+                return Steps(id="", steps=tuple(inner() for _ in range(int(self._rng.integers(1, 4)))))
+            case 2:
+                return AnyOrder(id="", steps=tuple(inner() for _ in range(int(self._rng.integers(1, 4)))))
+            case 3 | 4:
+                return self._loop(inner, optional=not optional and self._chance(0.3), named=f"t{depth}")
+            case 5:
+                until = self._condition() if self._chance(0.4) else None
+                return Repeat(id="", times=int(self._rng.integers(1, 4)), body=inner(), until=until)
+            case 6:
+                stop = Stop(id="", exit="nominal" if self._chance(0.5) else "faulted")
+                then = stop if self._chance(0.15) else inner()
+                otherwise = inner() if self._chance(0.5) else None
+                first = replace(self._act(tried=tried, label=label), reading="a")
+                chosen = If(id="", condition=self._condition(), then=then, otherwise=otherwise)
+                return Steps(id="", steps=(first, chosen))
+            case 7:
+                return Try(id="", body=inner(also_tried=True), otherwise=inner())
+            case _:
+                return inner() if optional else Optional(id="", body=inner(also_optional=True))
+
+    def _loop(self, inner: Any, *, optional: bool, named: str) -> ForEach:
+        names = self._rng.permutation(self._trees)[: int(self._rng.integers(1, 5))].tolist()
+        near = self._chance(0.2) and not optional
+        return ForEach(
+            id="",
+            select=Nearest(to=Here(), count=2) if near else Union(parts=tuple(TreeIs(tree=t) for t in names)),
+            body=inner(also_optional=optional, named=named),
+            label=named,
+            order="given" if not optional and self._chance(0.4) else "best",
+            optional=optional,
+            at_most=None if self._chance(0.7) else int(self._rng.integers(1, 4)),
+            until=self._condition() if self._chance(0.2) else None,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Done:
+    """One time that an action was done.
+
+    Attributes:
+        captures: That succeeded.
+        failed: Whether it failed then.
+        readings: What the last capture measured.
+    """
+
+    captures: int
+    failed: bool
+    readings: dict[str, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Simulated:
+    """A mission that came to its end as its plan has it.
+
+    Attributes:
+        chosen: The places that the guard chose of optional visits, each time that their for-each was reached; by node.
+        taken: Whether the guard let an optional step be done, each time that it was reached; by node.
+    """
+
+    task: Task
+    events: tuple[Event, ...]
+    chosen: Mapping[str, Sequence[Sequence[Place]]]
+    taken: Mapping[str, Sequence[bool]]
+
+    @property
+    def trace(self) -> Trace:
+        found: Trace = []
+        for event in self._of_plan():
+            if isinstance(event, Arrived):
+                found.append(("drive", event.node, event.place))
+            elif isinstance(event, Acted) and event.status == "success":
+                found.append(("capture", event.node, event.place))
+            elif isinstance(event, Acted):
+                failure = ("failure", event.node, event.place)
+                # A capture that is tried again fails once.
+                if event.attempt == 1:
+                    found.append(failure)
+        return found
+
+    @property
+    def decisions(self) -> dict[str, deque[bool]]:
+        """What each condition came to, in its order, by node."""
+        found: dict[str, deque[bool]] = defaultdict(deque)
+        for event in self._of_plan():
+            if isinstance(event, Decided):
+                found[event.node].append(event.holds)
+        return found
+
+    @property
+    def work(self) -> dict[str, deque[Done]]:
+        """Each time that an action was done, by node."""
+        counts = {act.id: act.count for act in acts(self.task.composition.plan)}
+        found: dict[str, deque[Done]] = defaultdict(deque)
+        made: Counter[str] = Counter()
+        for event in self._of_plan():
+            if not isinstance(event, Acted) or (event.status == "failed" and event.attempt > 1):
+                continue
+            failed = event.status == "failed"
+            made[event.node] += not failed
+            if failed or made[event.node] == counts[event.node]:
+                captures = made.pop(event.node, 0)
+                found[event.node].append(Done(captures=captures, failed=failed, readings=dict(event.readings)))
+        return found
+
+    def _of_plan(self) -> Iterator[Event]:
+        for event in self.events:
+            if isinstance(event, Exited):
+                return
+            yield event
+
+
+class _Watch:
+    """A guard that notes what another chooses.
+
+    Args:
+        events: Of the mission, as it goes.
+    """
+
+    def __init__(self, events: list[Event]) -> None:
+        self._events = events
+        self.chosen: dict[str, list[list[Place]]] = defaultdict(list)
+        self.taken: dict[str, list[bool]] = defaultdict(list)
+
+    def over(self, guard: Guard) -> Guard:
+        self._guard = guard
+        return self
+
+    def admit(self, state: MissionState, visit: Visit, still_to_come: Sequence[Visit] = ()) -> Verdict:
+        return self._guard.admit(state, visit, still_to_come)
+
+    def choose(
+        self,
+        state: MissionState,
+        candidates: Sequence[Visit],
+        *,
+        at_most: int | None = None,
+        still_to_come: Sequence[Visit] = (),
+    ) -> Choice:
+        choice = self._guard.choose(state, candidates, at_most=at_most, still_to_come=still_to_come)
+        if state.frames[-1].node.is_optional_step:
+            self.taken[state.node].append(choice.index is not None)
+            return choice
+        runs = sum(isinstance(e, Visiting) and e.node == state.node for e in self._events)
+        self.chosen[state.node] += [[] for _ in range(runs - len(self.chosen[state.node]))]
+        if choice.index is not None:
+            self.chosen[state.node][-1].append(candidates[choice.index].place)
+        return choice
+
+    def ways_are(self, drives: Drives) -> None:
+        self._guard.ways_are(drives)
+
+
+class AsChosen:
+    """Takes the optional work that the guard of a mission has chosen."""
+
+    def __init__(self, flight: Simulated) -> None:
+        self._chosen = {node: deque(runs) for node, runs in flight.chosen.items()}
+        self._taken = {node: deque(answers) for node, answers in flight.taken.items()}
+
+    def visits(
+        self, walker: Walker, node: ForEach, places: tuple[Place, ...], closed: tuple[Place, ...]
+    ) -> tuple[Place, ...]:
+        return self.next(node.id)
+
+    def next(self, node: str) -> tuple[Place, ...]:
+        """The visits of a for-each that is reached once more."""
+        return tuple(self._chosen[node].popleft())
+
+    def takes(self, walker: Walker, node: Optional) -> bool:
+        return self._taken[node.id].popleft()
+
+
+def simulated(seed: int) -> Simulated:
+    """The first mission of a seed that ends as its plan says."""
+    robot, site = husky(), orchard()
+    for attempt in range(100):
+        rng = np.random.default_rng([18, seed, attempt])
+        task = task_for(Drawn(rng).plan(), nominal=str(rng.choice(["return_to_start", "return_to_end", "stay"])))  # type: ignore[arg-type]
+        bad = rng.permutation([t.place.id for t in site.trees])[:7].tolist()
+        world = World(faults=tuple(ActionFails(action=FAILING, at=Spot(id=tree)) for tree in bad))
+        events: list[Event] = []
+        watch = _Watch(events)
+        mission.simulate(
+            authorized(task, site, robot),
+            site,
+            robot,
+            world=world,
+            seed=seed,
+            speed=None,
+            emit=events.append,
+            watched=watch.over,
+        )
+        stopped = any(isinstance(e, Exited) and e.node for e in events)
+        if stopped or any(isinstance(e, Ended) and e.status == "completed" for e in events):
+            return Simulated(task=task, events=tuple(events), chosen=watch.chosen, taken=watch.taken)
+    raise AssertionError(f"no mission of seed {seed} ends as its plan says")
+
+
+def previewed(flight: Simulated, optional: OptionalWork | None) -> Walk:
+    """The preview of the branch that a mission took, with the optional work as given, or as it is forecast."""
+    decisions, work = flight.decisions, flight.work
+    return preview(
+        flight.task,
+        orchard(),
+        husky(),
+        holds=lambda node: decisions[node].popleft(),
+        fails=lambda node: work[node].popleft().failed,
+        optional=optional,
+    )
+
+
+def trace_of(walked: Walk) -> Trace:
+    """What happens on a preview."""
+    found: Trace = []
+    for step in walked.steps:
+        if step.kind == "drive":
+            found.append(("drive", step.node.id, step.places[0].id))
+        elif step.kind == "act" and step.node.act is not None:
+            place = step.places[0].id
+            found += [("capture", step.node.id, place)] * step.captures
+            found += [("failure", step.node.id, place)] * (step.captures < step.node.act.count)
+    return found
+
+
+@dataclass
+class Interpreter:
+    """A robot that ticks an exported tree: the control nodes as BehaviorTree.CPP documents them, and the leaves.
+
+    Args:
+        flight: Says what its captures come to.
+            The tree asks the budget about optional visits; their order is the robot's own.
+    """
+
+    flight: Simulated
+    trace: Trace = field(default_factory=list)
+    _entries: dict[str, Any] = field(default_factory=dict)
+    _readings: dict[str, dict[str, float]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        robot, site = husky(), orchard()
+        self._task = self.flight.task
+        self._work = self.flight.work
+        self._optional = AsChosen(self.flight)
+        self._drives = routes.drives_for(site, robot)
+        self._context = Context(here=routes.beginning(self._drives))
+        self._tree = etree.fromstring(write_tree(self._task, capabilities_of(robot)))[0]
+        self._tested = self._conditions()
+
+    def run(self) -> Trace:
+        self._tick(self._tree[0])
+        return self.trace
+
+    def _conditions(self) -> dict[Any, Condition]:
+        """The condition of each leaf that tests one: they stand in the order of the plan's."""
+        written: dict[str, list[Any]] = defaultdict(list)
+        for element in self._tree.iter("CompareReading"):
+            written[_node(element)].append(element)
+        found = {}
+        for node in walk(self._task.composition.plan):
+            parts = () if node.tested is None else condition_parts(node.tested)
+            leaves = [part for part in parts if isinstance(part, Compare)]
+            found.update(zip(written[node.id], leaves, strict=True))
+        return found
+
+    def _tick(self, element: Any) -> bool | None:
+        """True for success, False for failure, None where it is skipped."""
+        for key, answer in (("_failureIf", False), ("_successIf", True), ("_skipIf", None)):
+            if key in element.attrib and self._holds(element.get(key)):
+                return answer
+        match element.tag:
+            case "Sequence":
+                return all(self._tick(child) is not False for child in element)
+            case "Fallback":
+                return any(self._tick(child) for child in element)
+            case "IfThenElse":
+                return self._tick(element[1] if self._tick(element[0]) else element[2])
+            case "Inverter":
+                return not self._tick(element[0])
+            case "ForceSuccess":
+                self._tick(element[0])
+                return True
+            case "Repeat":
+                return all(self._tick(element[0]) is not False for _ in range(int(element.get("num_cycles"))))
+            case "LoopString" | "LoopInt":
+                return all(self._loops(element))
+            case "Script":
+                name, value = element.get("code").split(" := ")
+                self._entries[name] = {"true": True, "false": False}.get(value, value.strip("'"))
+                return True
+            case "AlwaysSuccess" | "BeginMission" | "TakeExit" | "HandleFault" | "BudgetAllows":
+                return True
+            case "AlwaysFailure":
+                return False
+        return self._leaf(element)
+
+    def _loops(self, element: Any) -> Iterator[bool]:
+        for value in self._entries[_entry(element.get("queue"))]:
+            self._entries[_entry(element.get("value"))] = value
+            yield self._tick(element[0]) is not False
+
+    def _holds(self, code: str) -> bool:
+        name, _, value = code.partition(" != ")
+        found = self._entries[name]
+        return bool(found) if not value else str(found) != value.strip("'")
+
+    def _leaf(self, element: Any) -> bool:
+        match element.tag:
+            case "GoToPlace":
+                self._go(element)
+            case "ResolvePlaces":
+                self._entries[_entry(element.get("places"))] = self._resolved(element)
+            case "OrderSteps":
+                self._entries[_entry(element.get("order"))] = self._ordered(element)
+            case "CompareReading":
+                facts = Facts(site=orchard(), robot=husky(), here=self._context.here, readings=self._readings)
+                truth = evaluate(self._tested[element], facts).truth
+                return element.get("if_unknown") == "true" if truth is None else truth
+            case _:
+                return self._acts(element)
+        return True
+
+    def _go(self, element: Any) -> None:
+        wanted = element.get("place")
+        place = self._entries[_entry(wanted)] if wanted.startswith("{") else self._place(wanted)
+        here, visited, bound = self._context.here, self._context.visited, self._context.bound
+        if place.xy != here.xy:
+            here = self._drives.between(here, place).end
+            self.trace.append(("drive", _node(element), here.id))
+        if here.kind == "tree" and here.id not in set(visited):
+            visited = (*visited, here.id)
+        if label := element.get("label"):
+            bound = {**bound, label: (here,)}
+        self._context = Context(here=here, visited=visited, bound=bound)
+
+    def _place(self, text: str) -> Place:
+        return resolve_one(_selectors(text)[0], orchard(), self._context)
+
+    def _resolved(self, element: Any) -> tuple[Place, ...]:
+        node = _node(element)
+        if element.get("optional") == "true":
+            return self._optional.next(node)
+        loop = ForEach(
+            id=node,
+            select=_selectors(element.get("select"))[0],
+            body=Stop(id=""),
+            order=element.get("order", "best"),
+            at_most=int(element.get("at_most")) if "at_most" in element.attrib else None,
+        )
+        places = routes.places_of(loop, loop.select, orchard(), self._context)
+        home = routes.home_if_last(self._task, orchard(), node, self._context.here)
+        return routes.visits_in_order(loop, self._drives, self._context.here, places, home)
+
+    def _ordered(self, element: Any) -> tuple[int, ...]:
+        node = next(n for n in walk(self._task.composition.plan) if n.id == _node(element))
+        home = routes.home_if_last(self._task, orchard(), node.id, self._context.here)
+        order = routes.steps_in_order(node, orchard(), self._drives, self._context, home)  # type: ignore[arg-type]
+        return tuple(k + 1 for k in order)
+
+    def _acts(self, element: Any) -> bool:
+        node, reading = _node(element), element.get("reading", "").removeprefix("{reading_").removesuffix("}")
+        self._readings.pop(reading, None)
+        work = self._work[node].popleft()
+        self.trace += [("capture", node, self._context.here.id)] * work.captures
+        if work.failed:
+            self.trace.append(("failure", node, self._context.here.id))
+            return False
+        assert work.captures == int(element.get("count", "1"))
+        if reading:
+            self._readings[reading] = work.readings
+        return True
+
+
+def _entry(port: str) -> str:
+    return port.strip("{}")
+
+
+def _node(element: Any) -> str:
+    """The id of the plan node that an element belongs to."""
+    while element.get("name") is None:
+        element = element.getparent()
+    return str(element.get("name"))
+
+
+@cache
+def _selectors(text: str) -> tuple[Selector, ...]:
+    return decode_parts(text, (TreeIs, Nearest, Farthest, Bound, Union))
+
+
+def disagreements(flight: Simulated) -> list[str]:
+    """What the four ways of carrying out a mission differ in."""
+    robot, found = flight.trace, list[str]()
+    walked = previewed(flight, AsChosen(flight))
+    if trace_of(walked) != robot:
+        found.append(f"the preview {_differs(trace_of(walked), robot)}")
+    tree = Interpreter(flight=flight)
+    if tree.run() != robot:
+        found.append(f"the tree {_differs(tree.trace, robot)}")
+    return found + _of_replay(flight, walked)
+
+
+def _of_replay(flight: Simulated, walked: Walk) -> list[str]:
+    """What a replay counts otherwise than the robot did it. What a failure cut off it wants as well."""
+    tallies = replay(flight.task.composition.plan, flight.events)
+    wanted: Counter[str] = Counter()
+    for step in walked.steps:
+        if step.kind == "act" and step.node.act is not None:
+            wanted[step.node.id] += step.node.act.count
+    done = Counter(node for kind, node, _ in flight.trace if kind == "capture")
+    failed = Counter(node for kind, node, _ in flight.trace if kind == "failure")
+    found = []
+    for name, tally in tallies.items():
+        counted = (tally.done, tally.seen, tally.failed)
+        whole = bool(failed) or (tally.wanted == wanted[name] and not tally.open)
+        if counted != (done[name], done[name], failed[name]) or not whole:
+            found.append(f"the replay counts {counted} of {tally.wanted} of {name}, and not {done[name]}")
+    return found
+
+
+def _differs(one: Trace, robot: Trace) -> str:
+    for number, (a, b) in enumerate(zip(one, robot, strict=False)):
+        if a != b:
+            return f"has {a} where the robot has {b}, as event {number + 1}"
+    return f"has {len(one)} events, the robot {len(robot)}"
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Compare missions and print how many disagree."""
+    count, first = int(arguments[0]), int(arguments[1]) if len(arguments) > 1 else 0
+    wrong = otherwise = nodes = events = failures = optional = 0
+    for seed in range(first, first + count):
+        flight = simulated(seed)
+        found = disagreements(flight)
+        for line in found:
+            print(f"seed {seed}: {line}")
+        wrong += bool(found)
+        nodes += sum(1 for _ in walk(flight.task.composition.plan))
+        events += len(flight.trace)
+        failures += any(kind == "failure" for kind, _, _ in flight.trace)
+        if flight.chosen or flight.taken:
+            optional += 1
+            otherwise += trace_of(previewed(flight, None)) != flight.trace
+    print(f"{count} missions, {nodes} nodes, {events} drives, captures and failures: {wrong} disagree")
+    print(f"{failures} with failures; {optional} with optional work, of which {otherwise} were forecast otherwise")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
