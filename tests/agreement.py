@@ -29,7 +29,8 @@ from fieldhand.forecast.walk import walk as preview
 from fieldhand.forecast.walker import OptionalWork, Walker
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve_one
-from fieldhand.places.selectors import Bound, Farthest, Here, Nearest, Selector, TreeIs, Union
+from fieldhand.places.selector import Selector
+from fieldhand.places.selectors import Bound, Farthest, Here, Nearest, TreeIs, Union
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.site.drives import Drives
 from fieldhand.site.model import Place
