@@ -45,7 +45,7 @@ LOOK_AGAIN_S = 1.0
 
 @dataclass(frozen=True, kw_only=True)
 class Ending:
-    """How the plan came to its end, and which exit follows; ``node`` is the ``Stop`` that ended it, if any."""
+    """End of the plan, with the exit that follows; ``node`` is the ``Stop`` that ended it, if any."""
 
     status: MissionStatus
     exit: Literal["nominal", "faulted"]
@@ -55,7 +55,7 @@ class Ending:
 
 
 class Attempt:
-    """Where the robot is and has been, what was bound and read, what was used, what happened.
+    """State of a mission: the robot's place, what was bound, read and used, and the events so far.
 
     Args:
         task, site, robot: What is carried out, where, by which robot.
@@ -163,7 +163,7 @@ class Attempt:
 
     @property
     def facts(self) -> Facts:
-        """What a condition is tested against now."""
+        """Facts against which a condition is tested now."""
         return Facts(site=self.site, robot=self.robot, here=self.here, readings=self.readings)
 
     def charge_percent(self) -> float:
@@ -182,7 +182,7 @@ class Attempt:
         self.inputs.event(event)
 
     def resolve(self, selector: Selector) -> tuple[Place, ...]:
-        """The places of a selector, as they are now; where the robot will stand there is open.
+        """Return the places that a selector means now; their stands are open.
 
         Raises:
             PlaceError: It selects nothing, or names what the site lacks.
@@ -190,7 +190,7 @@ class Attempt:
         return tuple(resolve(selector, self.site, self._context(self.here)))
 
     def resolve_one(self, selector: Selector) -> Place:
-        """The place of a selector that must give one.
+        """Return the one place that a selector means now.
 
         Raises:
             PlaceError: It gives none or several, or names what the site lacks.
@@ -198,7 +198,7 @@ class Attempt:
         return resolve_one(selector, self.site, self._context(self.here))
 
     def reached(self, place: Place) -> Place:
-        """The place with where the robot will stand there if it drives there now; as it stands if it is there.
+        """Return a place with the stand that a drive would lead to now, or with the present one if the robot is there.
 
         Raises:
             DriveFault: There is no way to it.
@@ -208,7 +208,7 @@ class Attempt:
         return self.way_to(place).end
 
     def way_to(self, place: Place) -> Drive:
-        """The way to a place; to its other side, if what stands in the way leaves no other.
+        """Return the way to a place, or to its other side if obstacles leave no other.
 
         Raises:
             DriveFault: There is none.
@@ -221,7 +221,7 @@ class Attempt:
             return self.drives.between(self.standing, dataclasses.replace(place, stand=None))
 
     def state(self) -> MissionState:
-        """What the guard decides on. ``here`` is where the robot itself stands: from there it has to come home."""
+        """Return the state that the guard decides on. ``here`` is where the robot stands, from which it comes home."""
         return MissionState(
             frames=tuple(self.run.frames),
             context=self._context(self.standing),
@@ -240,7 +240,7 @@ class Attempt:
             self.ending = ending
 
     def exit_for(self, fault: Fault) -> Then:
-        """Where the Task wants the robot after a fault; a Task that does not say gets what every mission does."""
+        """Return the Task's exit for a fault, or the default one."""
         return exit_of(self.task, fault)
 
     def fail(self, node: str, error: FieldhandError, *, handled: bool) -> None:
@@ -261,11 +261,11 @@ class Attempt:
         self.emit(Faulted(t=self.t, node=node, fault=name, what=self.what, handled=handled))
 
     def is_at(self, place: Place) -> bool:
-        """Whether the robot has stopped at a place and stands there still."""
+        """Return True if the robot has stopped at a place and still stands there."""
         return self.arrived_at is not None and (self.arrived_at.kind, self.arrived_at.id) == (place.kind, place.id)
 
     def stop_at(self, place: Place) -> None:
-        """The robot has reached a place."""
+        """Note that the robot has reached a place."""
         self.here = self.standing = self.arrived_at = place
         if place.kind == "tree" and place.id not in self.visited:
             self.visited.append(place.id)
@@ -289,7 +289,7 @@ class Attempt:
         self.controller.start(ActionGoal(action=action, place=self.here, parameters=parameters))
 
     def attend(self) -> Progress:
-        """How the goal in hand stands; when it is over, what came of it is recorded, once."""
+        """Return the progress of the current goal; record its end, once, when it is over."""
         progress = self.controller.poll()
         goal = self._open
         if goal is None or not progress.over:
@@ -318,12 +318,12 @@ class Attempt:
 
     @property
     def busy(self) -> bool:
-        """Whether a goal is in hand whose end is not recorded yet."""
+        """True if there is a goal whose end is not recorded yet."""
         return self._open is not None
 
     @property
     def doing(self) -> OpenDrive | OpenCapture | None:
-        """The goal in hand."""
+        """The current goal."""
         return self._open
 
     def note_power_cuts(self) -> None:
@@ -433,7 +433,7 @@ class Attempt:
         return Context(here=here, visited=tuple(self.visited), bound=dict(self.bound))
 
     def _stands(self) -> Place:
-        """Where the robot is, as a place: the place in hand if it is there."""
+        """Return the robot's position as a place: ``here`` if it is there."""
         position = self.seen.position
         xy = (position.x, position.y)
         if math.dist(xy, self.here.stand or self.here.xy) <= AT_M:

@@ -78,7 +78,7 @@ class BatteryMeter:
 
     @property
     def _lasts_s(self) -> float:
-        """Seconds for which the surprise in hand has to last."""
+        """Seconds for which the current surprise has to last."""
         return self._explained_s if all(odd.explained for odd in self._odd) else self._hold_s
 
     def _is_explained(self, percent: float, now: float) -> bool:

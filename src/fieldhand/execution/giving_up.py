@@ -1,4 +1,4 @@
-"""What is not done: work that the guard forbids or that no way leads to, and all that would have come after it."""
+"""Giving up work that the guard forbids or that no way leads to, with all that would have come after it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from fieldhand.task.run import Frame
 
 
 class Over(Exception):
-    """The plan is over before its last node; :attr:`Attempt.ending` says how."""
+    """Raised when the plan is over before its last node; :attr:`Attempt.ending` is its ending."""
 
 
 def visit_to(attempt: Attempt, place: Place, work: Node) -> Visit:
@@ -29,7 +29,7 @@ def visit_to(attempt: Attempt, place: Place, work: Node) -> Visit:
 
 
 def to_come(attempt: Attempt) -> list[Visit]:
-    """The mandatory visits that are still to come of the loops in hand, innermost first."""
+    """Return the mandatory visits still to come of the open loops, innermost first."""
     tours = [frame.tour for frame in attempt.run.outwards() if frame.tour is not None and not frame.node.is_optional]
     return [visit for tour in tours for visit in tour.still_to_come()]
 

@@ -157,14 +157,14 @@ def capture(attempt: Attempt, node: Act) -> Generator[None, None, Mapping[str, f
 
 
 def _tries(attempt: Attempt, action: Action) -> tuple[int, float]:
-    """How often an action is tried, and seconds between."""
+    """Return how often an action is tried, and the seconds between."""
     robot = attempt.robot
     retries = robot.retries if action.retries is None else action.retries
     return retries + 1, robot.patience.retry_wait_s if action.retry_wait_s is None else action.retry_wait_s
 
 
 def _stand(attempt: Attempt, place: Place) -> Place | None:
-    """The place with where the robot will stand there; None where no way is left."""
+    """Return a place with the stand that a drive would lead to, or None if no way is left."""
     try:
         return attempt.reached(place)
     except DriveFault:

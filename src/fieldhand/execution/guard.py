@@ -27,7 +27,7 @@ class Guard(Protocol):
         at_most: int | None = None,
         still_to_come: Sequence[Visit] = (),
     ) -> Choice:
-        """Which optional visit comes next. Asked again after every leg, with what is left.
+        """Choose the next optional visit. Asked again after every leg, with what is left.
 
         ``state.node`` is the optional for-each, or an optional step, which is its only candidate and is asked about
         once. ``at_most``: how many of the candidates may still be visited; None for all.
@@ -35,7 +35,7 @@ class Guard(Protocol):
         ...
 
     def ways_are(self, drives: Drives) -> None:
-        """The ways have changed: the robot found one blocked, or free again. From now on these count."""
+        """Use other drives from now on: the robot found a way blocked, or free again."""
         ...
 
 

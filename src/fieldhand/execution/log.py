@@ -78,7 +78,7 @@ class EventLog:
 
 
 def read_events(path: Path, *, whole: bool = True) -> tuple[Event, ...]:
-    """The events of a log, in order; those of types that this version does not know are left out.
+    """Return the events of a log, in order, without those of types unknown to this version.
 
     Args:
         path: The file.

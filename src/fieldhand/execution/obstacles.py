@@ -1,4 +1,4 @@
-"""What the robot does about something in its way: drive around it, wait for it to go, say what it closes off.
+"""Obstacles in the robot's way: drive around them, wait for them to go, record what they close off.
 
 A stretch that was found blocked counts as a keep-out for the rest of the mission: for the drives, the guard, the order
 of visits. Only where no other way is left the robot waits, and then tries a blocked one again.

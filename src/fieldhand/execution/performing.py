@@ -44,7 +44,7 @@ class Performer:
         self.between = False
 
     def program(self) -> Steps:
-        """The whole plan. It yields while the robot is busy, and between rounds.
+        """Carry out the whole plan; yield while the robot is busy, and between rounds.
 
         It ends with the plan, done or failed, or when :attr:`Attempt.ending` is set.
 
@@ -123,7 +123,7 @@ class Performer:
         self.between = False
 
     def _locate(self, node: Node, selector: Selector | None) -> Generator[None, None, Place]:
-        """The place with where the robot will stand there; waits where what it found in its way leaves none."""
+        """Return the place with its stand; wait if obstacles leave no way."""
         attempt, self.place = self.attempt, None
         if selector is None:
             self.place = attempt.here
@@ -168,8 +168,8 @@ class Performer:
         return found.holds
 
     def _arrange(self, node: AnyOrder) -> tuple[int, ...]:
-        """The order that drives least from here. Where a step cannot be placed the order given stands: that step will
-        say so itself."""
+        """Return the order that drives least from here. If a step cannot be placed, keep the order given: that step
+        reports it itself."""
         attempt = self.attempt
         home = home_if_last(attempt.task, attempt.site, node.id, attempt.here)
         try:

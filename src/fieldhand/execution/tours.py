@@ -108,11 +108,11 @@ class Tour:
         return self.place
 
     def undone(self) -> tuple[Place, ...]:
-        """The places of the visits that are still to be made."""
+        """Return the places of the visits still to be made."""
         return tuple(v.place for v in (*self.left, *self.cut_off))
 
     def still_to_come(self) -> list[Visit]:
-        """The visits after the one in hand, as the guard sees them."""
+        """Return the visits after the current one, as the guard sees them."""
         if self.node.at_most is None:
             return list(self.left)
         return self.left[: max(0, self.node.at_most - self._made - 1)]
@@ -132,7 +132,7 @@ class Tour:
         admit(self.attempt, visit, refused=[place, *self.undone()])
 
     def arrived(self) -> None:
-        """The robot has come to the place in hand."""
+        """Note that the robot has come to the place of the visit."""
         if self.is_last_resort:
             self.cut_off.pop(0)
 
@@ -161,7 +161,7 @@ class Tour:
         shed(self.attempt, self.node.id, places, choice, optional=optional, cause="unreachable")
 
     def _parted(self, places: Sequence[Place]) -> tuple[tuple[Place, ...], tuple[Place, ...]]:
-        """Those to which there is a way from where the robot stands, and those that what it found cuts off."""
+        """Return the places that can be reached from where the robot stands, and those that obstacles cut off."""
         gone = no_way(self.attempt, places)
         return (
             tuple(p for p, cut in zip(places, gone, strict=True) if not cut),
@@ -169,7 +169,7 @@ class Tour:
         )
 
     def _look_again(self) -> None:
-        """The ways have changed: which places are cut off, from which side the others are reached, in which order."""
+        """Update after ways have changed: places cut off, stands of the others, their order."""
         attempt, node = self.attempt, self.node
         self._ways = attempt.blockages.version
         if not attempt.blockages.stretches and not self.cut_off:
@@ -187,7 +187,7 @@ class Tour:
         self.cut_off = [replace(visits[p.kind, p.id], place=replace(p, stand=None)) for p in far]
 
     def _in_order(self) -> Place:
-        """The next visit in the order planned, if the guard permits it."""
+        """Return the next visit in the order planned, if the guard permits it."""
         visit = self.left.pop(0)
         self.place = visit.place
         admit(self.attempt, visit, refused=[visit.place, *self.undone()])

@@ -24,7 +24,7 @@ _STATUS: dict[Outcome, Status] = {"done": Status.SUCCESS, "failed": Status.FAILU
 
 
 def compile_tree(attempt: Attempt) -> MissionTree:
-    """The behavior tree of a Task.
+    """Return the behavior tree of a Task.
 
     Args:
         attempt: The state that the behaviors share. A tree serves one attempt.

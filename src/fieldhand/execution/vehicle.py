@@ -33,7 +33,7 @@ def _no_limit(write: Writer) -> Writer:
 
 @dataclass(frozen=True, kw_only=True)
 class Connection:
-    """How a robot is reached over ROS 2, beside what its profile says.
+    """Connection to a robot over ROS 2, beside what its profile says.
 
     Attributes:
         domain: ROS's domain: robots and programs hear each other within one.
@@ -75,13 +75,12 @@ class Vehicle:
 
     @property
     def simulated(self) -> bool:
-        """Whether it was made anew: for a mission that goes on it is brought to where it was by being told again what
-        it was told then. A real robot is where it is."""
+        """True for a simulation. Resuming replays the mission to a new one; a real robot is where it is."""
         return self.by is None
 
 
 def simulation(site: Site, robot: RobotProfile, world: World, *, seed: int, speed: float | None = None) -> Vehicle:
-    """The simulated robot at the start of a site.
+    """Create the simulated robot at the start of a site.
 
     Args:
         site, robot: Of the mission.

@@ -25,7 +25,7 @@ class Spot:
 
 @dataclass(frozen=True, kw_only=True)
 class Truth:
-    """What a sensor reads, exactly: at some trees, and everywhere else (None: drawn from the profile)."""
+    """Exact readings of a sensor, at some trees and everywhere else (None: drawn from the profile)."""
 
     default: float | None = None
     trees: tuple[tuple[Spot, float], ...] = ()
@@ -148,7 +148,7 @@ WorldFault = (
 
 @dataclass(frozen=True, kw_only=True)
 class World:
-    """What the simulation is told of the world; what it is not told it draws from the profile and the seed.
+    """World of a simulation; whatever it leaves open is drawn from the profile and the seed.
 
     Attributes:
         readings: By quantity.

@@ -68,7 +68,7 @@ _KINDS_OF_FAULT: dict[str, type[BaseModel]] = {
 
 
 def _of_our_time(begins: datetime) -> datetime:
-    """Any zone tells the time then, and at the end of any mission; the first and the last year end in some zones."""
+    """Require a year in which every zone has a time, at the end of any mission too."""
     if not 2000 <= begins.year <= 2999:
         raise ValueError(f"the year {begins.year} is not one from 2000 to 2999")
     return begins
@@ -182,7 +182,7 @@ def _explained(error: ValidationError, source: str) -> WorldError:
 
 
 def _meant(problems: Sequence[ErrorDetails]) -> list[ErrorDetails]:
-    """The mistakes that a person would count, those of one reading or fault together, its stray keys first.
+    """Return the mistakes that a person would count, those of one reading or fault together, stray keys first.
 
     Where a value may be of several kinds, pydantic blames it for being none of them, once for each; and a misspelt key
     for being there and the right one for missing.
@@ -207,7 +207,7 @@ def _hint(advice: str) -> str:
 
 
 def _mistake(problem: ErrorDetails) -> tuple[list[str], str, str]:
-    """Where a mistake stands, what is wrong, and what to do."""
+    """Return the place of a mistake, what is wrong, and what to do."""
     path = _path(problem)
     if problem["type"] == "missing" and path[-1].isdigit():
         return _dotted(path[:-1]), f"has {path[-1]} of its entries, and needs more", GUIDE
@@ -217,7 +217,7 @@ def _mistake(problem: ErrorDetails) -> tuple[list[str], str, str]:
 
 
 def _path(problem: ErrorDetails) -> list[str]:
-    """The keys down to a mistake, without the alternatives that pydantic tried on the way.
+    """Return the keys down to a mistake, without the alternatives that pydantic tried.
 
     What the author named may be called as such an alternative is: a key of the file itself, a reading, a stray key.
     """
@@ -234,7 +234,7 @@ def _dotted(path: list[str]) -> list[str]:
 
 
 def _is_branch(part: str) -> bool:
-    """Whether pydantic put this part of a path in to say which alternative it tried."""
+    """Return True if a part of a path names an alternative that pydantic tried."""
     return part in {"bool", "float", "int", "str", "TruthModel", *_KINDS_OF_FAULT} or "[" in part
 
 
@@ -264,7 +264,7 @@ def _words_for(problem: ErrorDetails, path: list[str]) -> tuple[str, str]:
 
 
 def _keys_at(problem: ErrorDetails, path: list[str]) -> list[str]:
-    """The keys that the mapping in which a stray key stands may have."""
+    """Return the keys that are allowed where a stray key is."""
     inner: type[BaseModel] = WorldModel
     if path[0] == "readings":
         inner = TruthModel if len(path) == 3 else TreeValueModel

@@ -28,7 +28,7 @@ NOWHERE = Ways(
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Ground:
-    """What never changes in a mission.
+    """Data of a problem that never change in a mission.
 
     Attributes:
         ways: Lengths of the legs between nodes: the vertices and the end.
@@ -68,7 +68,7 @@ class Ground:
 
 
 def ground_of(problem: Problem) -> Ground:
-    """The arrays of a problem."""
+    """Return the arrays of a problem."""
     n, end = problem.size, problem.end
     ways = _ways(problem)
     service = np.zeros((len(problem.limits), n + 1))
@@ -103,7 +103,7 @@ def _ways(problem: Problem) -> Ways:
 
 
 def _nearest(ways: Ways, problem: Problem) -> Ints:
-    """The nearest vertices of each node; the end's node is nobody's neighbour, nor is a vertex its own."""
+    """Return the nearest vertices of each node; the end's node is nobody's neighbour, nor is a vertex its own."""
     if problem.table is not None:
         near = problem.table.near
         return np.vstack([near, near[problem.end]])

@@ -1,4 +1,4 @@
-"""What is drawn of a mission on a map of its report: drives, captures, values, work left out, incidents."""
+"""Marks of a mission on a map of its report: drives, captures, values, work left out, incidents."""
 
 from __future__ import annotations
 

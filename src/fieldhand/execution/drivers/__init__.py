@@ -1,1 +1,1 @@
-"""What carries out drives and actions: a protocol and its simulated twin."""
+"""Drivers, which carry out drives and actions: the protocol and its implementations."""

@@ -1,4 +1,4 @@
-"""What the simulated robot finds: the world file bound to a site and a robot.
+"""The world of a simulation, bound to a site and a robot.
 
 What the file says is exact. What it leaves open is drawn from the profile's ``typical`` and ``spread``: a value for
 each tree and quantity that depends on the seed, the tree and the quantity alone, so that it is the same whichever
@@ -46,7 +46,7 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True, kw_only=True)
 class Hindrance:
-    """What stops a drive: how many metres along its path, which fault of the world it is, and what it is.
+    """Hindrance of a drive: metres along its path, number of the world's fault, and description.
 
     Attributes:
         for_s: Of a lost position: for how long.
@@ -89,7 +89,7 @@ class GroundTruth:
         self.stop = min((f for f in world.faults if isinstance(f, RobotStops)), key=lambda f: f.at_s, default=None)
 
     def capture(self, action: str, place: Place, *, counted: bool = True) -> tuple[dict[str, float], str]:
-        """What one attempt of an action at a place yields: readings, and why it failed (empty if it did not).
+        """Make one attempt at an action; return its readings, and why it failed (empty if it did not).
 
         Args:
             counted: Whether it may be one of those that a fault strikes which happens so many times and no more.
@@ -105,12 +105,12 @@ class GroundTruth:
         return readings, ""
 
     def drive_fails(self, place: Place) -> str:
-        """Why a drive to a place fails half-way; empty if it does not. Counts it if so."""
+        """Return why a drive to a place fails half-way, and count it; empty if it does not."""
         fails = (n for n, fault in enumerate(self._faults) if isinstance(fault, DriveFails) and self._strikes(n, place))
         return message("the drive gave an error", context="log") if next(fails, None) is not None else ""
 
     def obstacle(self, path: tuple[Point, ...], when: Callable[[float], float]) -> Hindrance | None:
-        """What stops a drive first; None if nothing does.
+        """Return the first obstacle of a drive, or None.
 
         Args:
             path: In local metres.
@@ -131,7 +131,7 @@ class GroundTruth:
         return Hindrance(at_m=at_m, number=number, what=what)
 
     def counts(self) -> tuple[tuple[tuple[str, str, int], ...], tuple[tuple[int, int], ...]]:
-        """What was counted so far: draws of each quantity at each place; how often each fault has happened."""
+        """Return the counts so far: draws of each quantity at each place, and happenings of each fault."""
         captures = tuple((quantity, place, times) for (quantity, place), times in self._captures.items())
         return captures, tuple(self._used.items())
 
@@ -142,11 +142,11 @@ class GroundTruth:
         self._used = Counter(dict(struck))
 
     def met(self, hindrance: Hindrance) -> None:
-        """The robot has come to what stops it."""
+        """Count a hindrance that the robot has met."""
         self._used[hindrance.number] += 1
 
     def lost_on(self, path: tuple[Point, ...]) -> Hindrance | None:
-        """Where along a path the robot first gets lost, if anywhere."""
+        """Return where along a path the robot first gets lost, or None."""
         found = [
             (reach, number)
             for number, fault in enumerate(self._faults)
@@ -172,7 +172,7 @@ class GroundTruth:
         )
 
     def drain(self, from_s: float, to_s: float) -> float:
-        """How many times as fast as its model the battery empties, on average between two seconds of the mission."""
+        """Return the battery's drain as a multiple of its model, on average between two seconds of the mission."""
         edges = [from_s, *(at for at, _ in self._drains if from_s < at < to_s), max(from_s, to_s)]
         paces = [math.prod(factor for at, factor in self._drains if at <= edge) for edge in edges[:-1]]
         if to_s <= from_s:
@@ -181,7 +181,7 @@ class GroundTruth:
         return sum(pace * span for pace, span in zip(paces, spans, strict=True)) / (to_s - from_s)
 
     def _said(self, number: int) -> str:
-        """Where a fault is, in words."""
+        """Return the place of a fault in words."""
         tree = self._trees.get(number)
         if tree is not None:
             return message("at tree {id}", context="log", id=tree.id)
@@ -214,7 +214,7 @@ class GroundTruth:
         return np.random.default_rng([self.seed, int.from_bytes(digest[:8], "big")])
 
     def _strikes(self, number: int, place: Place, counted: bool = True) -> bool:
-        """Whether fault ``number`` happens here and now; counts it if so. One with a number only where it counts."""
+        """Return True if fault ``number`` happens here and now, and count it; limited ones only if ``counted``."""
         fault = self._faults[number]
         tree = self._trees.get(number)
         if self._exhausted(number) or (tree is not None and (place.kind, place.id) != ("tree", tree.id)):
@@ -268,7 +268,7 @@ class GroundTruth:
                 )
 
     def _tree(self, spot: Spot, site: Site, where: str) -> Place:
-        """The tree that a spot names: by id, or the nearest if it is no farther than a spacing."""
+        """Return the tree that a spot names: by id, or the nearest within a tree spacing."""
         if spot.id is not None:
             tree = site.by_id.get(spot.id)
             if tree is None:

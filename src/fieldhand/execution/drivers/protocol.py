@@ -1,4 +1,4 @@
-"""What a robot must be able to do to carry out a mission: the contract between execution and a driver.
+"""Protocol of a driver: the contract between execution and a robot.
 
 A driver has one goal at a time, a drive or an action. Nothing blocks: ``start_*`` begins a goal, :meth:`Driver.poll`
 says how far it is, :meth:`Driver.cancel` asks for its end. That is how a ROS 2 action client works; the simulated
@@ -37,7 +37,7 @@ GoalFault = Literal["none", "failed", "blocked", "lost", "empty"]
 
 @dataclass(frozen=True, kw_only=True)
 class Position:
-    """Where the robot itself is (not the tree that it stands beside).
+    """Position of the robot itself (not of the tree that it stands beside).
 
     Attributes:
         x, y: Metres east and north in the site's projection.
@@ -80,7 +80,7 @@ class ActionGoal:
 
 @dataclass(frozen=True, kw_only=True)
 class Progress:
-    """How far the goal in hand is, and what it has cost so far.
+    """Progress of the current goal, and its cost so far.
 
     Attributes:
         metres: Driven for this goal, by the robot's odometry.
@@ -100,7 +100,7 @@ class Progress:
 
     @property
     def over(self) -> bool:
-        """Whether the robot has nothing more to do for the goal."""
+        """True if the robot has nothing more to do for the goal."""
         return self.state != "running"
 
 
@@ -121,7 +121,7 @@ class Driver(Protocol):
         ...
 
     def poll(self) -> Progress:
-        """How the last goal stands; ``idle`` before the first. Asking twice changes nothing."""
+        """Return the progress of the last goal; ``idle`` before the first. Asking twice changes nothing."""
         ...
 
     def cancel(self) -> None:
@@ -129,7 +129,7 @@ class Driver(Protocol):
         ...
 
     def next_event_in(self) -> float | None:
-        """Seconds until :meth:`poll` is worth asking again; None where no goal is running.
+        """Return seconds until :meth:`poll` is worth calling again, or None if no goal is running.
 
         The simulation knows when a goal will be over, and a simulated clock jumps there; a real robot gives its
         polling period.
@@ -137,20 +137,20 @@ class Driver(Protocol):
         ...
 
     def position(self) -> Position:
-        """Where the robot is now."""
+        """Return the robot's position now."""
         ...
 
     def charge_percent(self) -> float:
-        """Charge of the battery now, 0 to 100."""
+        """Return the charge of the battery now, 0 to 100."""
         ...
 
     def lost(self) -> str | None:
-        """Why the robot does not know where it is at this moment ("no satellite fix"); None while it does.
+        """Return why the robot does not know where it is ("no satellite fix"), or None while it does.
 
         :meth:`position` then is the last that it knew.
         """
         ...
 
     def stopped(self) -> str | None:
-        """Why the robot will not move again in this mission (emergency stop, power cut); None while it may."""
+        """Return why the robot will not move again in this mission (an emergency stop), or None while it may."""
         ...

@@ -25,7 +25,7 @@ EPSILON_S = 1e-6
 
 @dataclass(frozen=True, kw_only=True)
 class _Course:
-    """How a goal will go, decided when it starts: the simulation knows the future, the mission does not.
+    """Course of a goal, decided when it starts: the simulation knows the future, the mission does not.
 
     Attributes:
         start_s: When it started.
@@ -50,7 +50,7 @@ class _Course:
     meets: Hindrance | None = None
 
     def cut(self, part: float) -> _Course:
-        """The course, failed after this part of it."""
+        """Return the course, failed after this part of it."""
         return replace(
             self,
             lasts_s=part * self.lasts_s,
@@ -63,7 +63,7 @@ class _Course:
         )
 
     def done_at(self, now: float) -> float:
-        """The part of the course that is done, 0 to 1."""
+        """Return the part of the course that is done, 0 to 1."""
         if now >= self.start_s + self.lasts_s - EPSILON_S:
             return 1.0
         return max(0.0, now - self.start_s) / self.lasts_s
@@ -149,7 +149,7 @@ class SimulatedDriver:
         )
 
     def sense(self, action: str, place: Place) -> Mapping[str, float]:
-        """What the sensors of an action give at a place while nobody asks for a capture; nothing where they fail.
+        """Return what an action's sensors read at a place without a capture; nothing if they fail.
 
         A fault that happens so many times and no more waits for a tree: where a robot stands beside none, mostly
         nobody listens.
@@ -199,7 +199,7 @@ class SimulatedDriver:
         return left if step <= 0.0 else min(100.0, step * round(left / step))
 
     def _left(self) -> float:
-        """Charge that is in the battery, whatever its meter shows."""
+        """Return the true charge of the battery, whatever its meter shows."""
         left = self._charge
         if self._course is not None:
             left -= self._used(self._course, self._course.done_at(self._clock.now()))
@@ -221,7 +221,7 @@ class SimulatedDriver:
         return None
 
     def memory(self) -> SimulationState:
-        """What it needs to go on later from where it stands now; a goal in hand is broken off."""
+        """Return the state from which a new driver continues; a running goal is broken off."""
         here = self.position()
         captures, struck = self._truth.counts()
         return SimulationState(
@@ -274,7 +274,7 @@ class SimulatedDriver:
         self._course = course
 
     def _lasting(self, course: _Course) -> float:
-        """How much of a course the battery holds out, 0 to 1."""
+        """Return the part of a course for which the battery lasts, 0 to 1."""
         low, high = 0.0, 1.0
         for _ in range(60):
             middle = (low + high) / 2.0
@@ -298,17 +298,17 @@ class SimulatedDriver:
         return self._result
 
     def _used(self, course: _Course, done: float) -> float:
-        """Percent of the battery that a part of a course takes."""
+        """Return the percent of the battery that a part of a course takes."""
         used = self._robot.percent(done * course.metres, done * course.lasts_s, done * course.action_j)
         return self._drained(used, course.start_s, course.start_s + done * course.lasts_s)
 
     def _drained(self, percent: float, from_s: float, to_s: float) -> float:
-        """What the battery loses where its model says so many percent, between two moments of the clock."""
+        """Return the battery's loss between two times for which its model gives ``percent``."""
         return percent * self._truth.drain(from_s - self._begun_s, to_s - self._begun_s)
 
 
 def _along(path: tuple[Point, ...], part: float) -> Point:
-    """The point at a part of a path's length, 0 to 1."""
+    """Return the point at a part of a path's length, 0 to 1."""
     lengths = [math.dist(a, b) for a, b in itertools.pairwise(path)]
     left = part * sum(lengths)
     if part >= 1.0:

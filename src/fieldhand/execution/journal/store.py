@@ -370,7 +370,7 @@ def _inode(path: Path) -> tuple[int, int] | None:
 
 
 def mended(path: Path, lines: Sequence[str]) -> EventLog:
-    """The log of a mission, holding these lines and nothing else: what was cut off is completed.
+    """Return the event log of a mission, completed to hold these lines and nothing else.
 
     Raises:
         JournalError: It holds events that the journal does not: this is an older journal, and what it lacks was done.
