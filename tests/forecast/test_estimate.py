@@ -233,7 +233,7 @@ def test_a_forecast_that_exceeds_what_is_accepted_is_said_of_optional_visits_too
 
 def test_branches_that_took_the_same_share_what_is_expected_of_optional_visits(monkeypatch) -> None:
     """Which of the trees was measured twice does not matter to the visits that follow, only how many were."""
-    from fieldhand.forecast import expected, walker
+    from fieldhand.forecast import optional_work
 
     trees = ["1", "2", "3"]
     looks = [
@@ -248,16 +248,16 @@ def test_branches_that_took_the_same_share_what_is_expected_of_optional_visits(m
         SITE, Sequence(id="", steps=(*looks, replace(ROUND, optional=True))), constraints=limited("distance_m", 120.0)
     )
     asked: list[str] = []
-    real = expected.expected_visits
+    real = optional_work.expected_visits
 
     def counted(walk, node, visits, rng, before=None):
         asked.append(node.id)
         return real(walk, node, visits, rng, before)
 
-    monkeypatch.setattr(expected, "expected_visits", counted)
+    monkeypatch.setattr(optional_work, "expected_visits", counted)
     shared = estimate(task, orchard(), ROBOT)
     some, _ = len(asked), asked.clear()
-    monkeypatch.setattr(walker.Walker, "_state", lambda self: iter((object(),)))
+    monkeypatch.setattr(optional_work, "_state", lambda walker: iter((object(),)))
     alone = estimate(task, orchard(), ROBOT)
     assert some <= len(trees) + 1 < len(asked)
     assert len(shared.branches) == len(alone.branches) == 2 ** len(trees)
