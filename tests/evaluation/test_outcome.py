@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from event_logs import HOT, Paper, random_plan, task_of
 from fieldhand.evaluation.outcome import judge
 from fieldhand.places.selectors import Corners, Half, TreeIs, Trees
-from fieldhand.task.plan import Act, AnyOrder, ForEach, If, Repeat, Sequence, Stop, Try
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Repeat, Sequence, Stop, Try
 from fieldhand.task.results import Acted, Arrived, Decided, Ended, Exited, Faulted, Shed, Visiting
 
 seeds = st.integers(0, 2**32)
@@ -27,6 +27,12 @@ def only(task, events):
 
 def acted(node, status="success", attempt=1, place="1"):
     return Acted(t=1, node=node, action="a", status=status, kind="tree", place=place, lat=0, lon=0, attempt=attempt)
+
+
+def arrived(node, place):
+    return Arrived(
+        t=1, node=node, kind="tree", place=place, lat=0, lon=0, leg_m=5, travelled_m=5, charge_percent=90
+    )  # fmt: skip
 
 
 def ended(status="completed", reason=""):
@@ -264,6 +270,21 @@ def test_a_for_each_that_was_never_reached_wants_an_unknown_number():
     outcome = judge(task, [acted("n2"), ended("returned", "the battery is low")])[1]
     assert (outcome.outcome, outcome.wanted) == ("failure", None)
     assert "never reached" in outcome.why
+
+
+def test_visits_that_leave_no_trace_are_made_where_the_log_is_whole():
+    """The robot stands at the second place already, and what it drives to there is where it is."""
+    body = Try(id="", body=GoTo(id="", place=TreeIs(tree="2")), otherwise=CO2)
+    task = task_of(ForEach(id="", select=Trees(), body=body))
+    log = [Visiting(t=1, node="n1", places=("1", "2")), arrived("n1", "1"), arrived("n3", "2")]
+    whole = only(task, [*log, ended()])
+    assert (whole.outcome, whole.wanted) == ("success", 0)
+    assert only(task, log).outcome == "indeterminate"
+
+
+def test_a_repeat_that_was_cut_off_before_its_test_has_not_gone_well():
+    plan = Try(id="", body=Repeat(id="", times=2, body=PICTURE, until=HOT), otherwise=CO2)
+    assert judge(task_of(plan), [acted("n3")])[1].outcome == "indeterminate"
 
 
 def test_the_way_home_is_no_part_of_the_plan():

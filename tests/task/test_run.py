@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -11,7 +12,7 @@ from hypothesis import strategies as st
 from fieldhand.places.selectors import TreeIs, Trees
 from fieldhand.task import requests as ask
 from fieldhand.task.build import make_task
-from fieldhand.task.nodes.base import Failed, GivenUp, Stopped
+from fieldhand.task.nodes.base import Cut, Failed, GivenUp, Stopped
 from fieldhand.task.plan import (
     Act,
     AnyOrder,
@@ -26,7 +27,7 @@ from fieldhand.task.plan import (
     Try,
     walk,
 )
-from fieldhand.task.run import Run, carry_out
+from fieldhand.task.run import Frame, Run, carry_out
 
 WORD = ("", "a", "b")
 
@@ -184,6 +185,58 @@ def test_the_same_answers_give_the_same_requests(plan: Node, luck: list[int]) ->
     assert ended(once) == ended(again)
     assert [type(r) for r in once.asked] == [type(r) for r in again.asked]
     assert [r.node.id for r in once.asked] == [r.node.id for r in again.asked]
+
+
+@given(plans(), st.lists(st.integers(0, 70), max_size=60), st.integers(0, 20), st.integers(0, 5))
+def test_a_node_that_is_cut_is_over_and_what_comes_behind_it_goes_on(
+    plan: Node, luck: list[int], when: int, outwards: int
+) -> None:
+    script = Scripted(plan, luck, unlucky=False)
+    cut: list[str] = []
+
+    def answer(request: ask.Request) -> Any:
+        if len(script.asked) == when and not cut:
+            around = [frame.node for frame in script.run.outwards()]
+            node = around[min(outwards, len(around) - 1)]
+            cut.append(node.id)
+            script.must_be_in = script._after(node)
+            raise Cut(node.id)
+        return script.answer(request)
+
+    with suppress(Stopped):
+        carry_out(script.run.program(), answer)
+    assert script.run.frames == script.open == []
+    if cut:
+        first = next(k for k, (name, outcome) in enumerate(script.ended) if outcome == "cut" and name == cut[0])
+        assert {outcome for _, outcome in script.ended[first + 1 :]} <= {"done"} or any(
+            isinstance(node, Stop) for node in walk(plan)
+        )
+
+
+@given(plans(), st.lists(st.integers(0, 70), max_size=60))
+def test_a_node_goes_on_after_a_child_only_where_it_says_so(plan: Node, luck: list[int]) -> None:
+    script = Scripted(plan, luck)
+    before: dict[int, tuple[Frame, Node]] = {}
+
+    def entered(node: Node) -> None:
+        script.open.append(node)
+        if len(script.run.frames) > 1:
+            around = script.run.frames[-2]
+            _, last = before.get(id(around), (around, None))
+            assert last is None or around.node.goes_on_after(last) or last in around.node.caught
+            before[id(around)] = (around, node)
+
+    script.run.entered = entered
+    ended(script)
+
+
+@given(plans())
+def test_a_node_with_its_own_children_is_itself_and_its_parts_are_its_children(plan: Node) -> None:
+    for node in walk(plan):
+        assert node.with_children(node.children) == node
+        assert tuple(part.node for part in node.parts) == node.children
+        renamed = [replace(child, id=f"{child.id}b") for child in node.children]
+        assert [child.id for child in node.with_children(renamed).children] == [child.id for child in renamed]
 
 
 def test_a_visit_that_is_given_up_does_not_count_and_is_not_among_the_label() -> None:
