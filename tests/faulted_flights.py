@@ -40,7 +40,7 @@ from fieldhand.site.model import Site
 from fieldhand.task.build import FAULTED_EXITS, make_task
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import FaultedExit, Task
-from fieldhand.task.plan import Act, ForEach, GoTo, Node, Optional, Repeat, Sequence, Try, selector_of, walk
+from fieldhand.task.plan import Act, ForEach, GoTo, Node, Optional, Repeat, Sequence, Try, walk
 from fieldhand.task.results import Event
 from rig import authorized
 
@@ -193,7 +193,7 @@ def fly(seed: int, *, demo: bool = True) -> Flown:
     plan = random_plan(rng, open_ids)
     task = make_task(request="any", plan=plan, measures={}, nominal=nominal, faulted=faulted)  # type: ignore[arg-type]
     charge = float(rng.choice([100.0, rng.uniform(20.0, 23.0)]))
-    selectors = [s for n in walk(plan) if (s := selector_of(n)) is not None]
+    selectors = [s for n in walk(plan) if (s := n.selector) is not None]
     wanted = sorted(
         {t.tree for s in selectors for t in (s.parts if isinstance(s, Union) else (s,)) if isinstance(t, TreeIs)}
     )

@@ -31,7 +31,7 @@ from fieldhand.site.drives import Drives
 from fieldhand.site.model import Place, Site
 from fieldhand.task.codec import encode
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Node, selector_of, walk
+from fieldhand.task.plan import Node, walk
 from fieldhand.task.references import references
 from fieldhand.task.schema import validate
 
@@ -159,7 +159,7 @@ def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
     yield from _exits(task, site, drives)
     steps = {inner.id: node for node in walk(task.composition.plan) if node.is_optional_step for inner in walk(node)}
     for node in walk(task.composition.plan):
-        selector = selector_of(node)
+        selector = node.selector
         if selector is None or selector.relative:
             continue
         try:

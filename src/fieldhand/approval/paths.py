@@ -55,7 +55,7 @@ def _said(
 ) -> str:
     match kind:
         case "holds":
-            condition = plan.condition_of(node)
+            condition = node.tested
             assert condition is not None  # noqa: S101  only conditions hold
             what = say_condition(condition, taken, robot)
         case "fails":

@@ -67,7 +67,7 @@ def with_words(problem: Problem, task: Task) -> Problem:
     node = next((n for n in plan.walk(task.composition.plan) if n.id == problem.node), None) if problem.node else None
     if node is None:
         return problem
-    selector = plan.selector_of(node)
+    selector = node.selector
     return replace(
         problem,
         words=problem.words or _quoted(node, task),

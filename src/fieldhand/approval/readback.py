@@ -23,7 +23,6 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.build import FAULTED_EXITS
 from fieldhand.task.frames import Budget, FaultedExit, Task, Then
-from fieldhand.task.plan import selector_of
 
 __all__ = ["Line", "ReadBack", "Totals", "read_back"]
 
@@ -206,7 +205,7 @@ def _notes(walks: Sequence[Walk], site: Site) -> tuple[str, ...]:
     seen: set[str] = set()
     found: dict[str, None] = {}
     for step in (s for walked in walks for s in walked.steps):
-        selector = selector_of(step.node)
+        selector = step.node.selector
         if selector is None or step.node.id in seen:
             continue
         seen.add(step.node.id)

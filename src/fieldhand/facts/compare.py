@@ -23,7 +23,6 @@ from fieldhand.language.words import listed, say_name
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import selector_of
 
 #: Steps that are counted together.
 _MOST_STEPS = 40
@@ -142,7 +141,7 @@ def _sums(acts: list[Captures]) -> set[int]:
 
 def _visited(plan: Planned, sizes: Sizes) -> set[int]:
     """Return at how many places each selector comes out ("all 18 yellow trees"), and steps that follow each other."""
-    steps = [sizes.of_node(node.id) for node in plan.nodes if selector_of(node) is not None]
+    steps = [sizes.of_node(node.id) for node in plan.nodes if node.selector is not None]
     found = set(sizes.every)
     for start in range(min(len(steps), _MOST_STEPS)):
         known = takewhile(lambda n: n is not None, steps[start : start + _MOST_STEPS])

@@ -141,7 +141,7 @@ class Planned:
         """Node, attribute and value of each test of what the site records."""
         kept = [(node, x.attribute, x.value) for node, x in self.selectors if isinstance(x, s.Where)]
         for node in self.nodes:
-            condition = p.condition_of(node)
+            condition = node.tested
             for part in c.walk(condition) if condition is not None else ():
                 kept.extend([(node.id, part.attribute, part.value)] if isinstance(part, c.TreeHas) else [])
         return tuple(kept)
@@ -155,7 +155,7 @@ def planned(task: Task, size: Callable[[str], int | None]) -> Planned:
     """
     root = task.composition.plan
     nodes = tuple(p.walk(root))
-    selectors = tuple((n.id, x) for n in nodes if (top := p.selector_of(n)) is not None for x in top.walk())
+    selectors = tuple((n.id, x) for n in nodes if (top := n.selector) is not None for x in top.walk())
     return Planned(
         task=task,
         nodes=nodes,
@@ -230,7 +230,7 @@ def _tests(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], ...
                 node=node, quantity="", attribute=x.attribute, test=x.test, values=(float(x.value),), plainly=True
             )
     for one in nodes:
-        condition = p.condition_of(one)
+        condition = one.tested
         parts = tuple(c.walk(condition)) if condition is not None else ()
         straight = one.is_choice and not any(isinstance(part, c.Not) for part in parts)
         then, otherwise = (*map(_done, one.children if straight else ()), frozenset[str](), frozenset[str]())[:2]

@@ -38,7 +38,7 @@ class Sizes:
 
     def _follow(self, node: p.Node) -> None:
         """Count the places of a node, and go there."""
-        selector = p.selector_of(node)
+        selector = node.selector
         if selector is None:
             self._bind(node, (self._here,))
             return

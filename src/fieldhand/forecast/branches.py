@@ -131,7 +131,7 @@ def branches(
     looked = _Exploration(likely, root, limit, seed, by_themselves=_BY_THEMSELVES)
     coverage = looked.explore()
     further = _Exploration(told, root, MAX_TOLD, seed, by_themselves=0)
-    if any(plan.is_optional(node) for node in plan.walk(root)):
+    if any(node.is_optional for node in plan.walk(root)):
         coverage = "sampled" if further.explore() == "sampled" else coverage
     return Branches(
         walks=tuple(looked.found.values()),
@@ -271,7 +271,7 @@ def _alike(root: plan.Node) -> Iterator[dict[str, bool]]:
 
     In the last ones whatever is tried fails, and then whatever is driven to is blocked.
     """
-    asked = [n.id for n in plan.walk(root) if plan.condition_of(n) is not None or plan.is_optional(n)]
+    asked = [n.id for n in plan.walk(root) if n.tested is not None or n.is_optional]
     tried = [inner.id for n in plan.walk(root) for body in n.caught for inner in plan.walk(body)]
     some, others = asked[:_ALIKE], asked[_ALIKE:]
     for answers in _combinations(some):

@@ -16,7 +16,6 @@ from fieldhand.forecast.steps import Decision, Walk
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place
 from fieldhand.task.frames import Constraints, Fault
-from fieldhand.task.plan import is_optional
 
 Floats = NDArray[np.float64]
 
@@ -124,7 +123,7 @@ def figures_of(
     assert used is not None  # noqa: S101  estimates draw missions on every walk
     metres, seconds, percent = amounts(used, constraints, robot)
     amount = {"distance_m": metres, "duration_s": seconds, "energy_percent": percent, "reserve": percent}
-    lists = [s for s in walked.steps if is_optional(s.node) and s.kind == "visit-list"]
+    lists = [s for s in walked.steps if s.node.is_optional and s.kind == "visit-list"]
     energy = _figure(percent)
     return BranchEstimate(
         decisions=walked.decisions,

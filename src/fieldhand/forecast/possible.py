@@ -155,7 +155,7 @@ def _standing_for(root: plan.Node, robot: RobotProfile) -> Iterator[tuple[str, _
     """For each quantity values within its range: its thresholds in the plan, one between any two, and the ends."""
     thresholds: dict[str, set[float]] = {}
     for node in plan.walk(root):
-        condition = plan.condition_of(node)
+        condition = node.tested
         for part in c.walk(condition) if condition is not None else ():
             match part:
                 case Compare(quantity=name, value=value):

@@ -179,13 +179,13 @@ def _walk_rest(walker: Walker, nodes: Sequence[Node]) -> Rest:
 
 def _is_relative(following: Node) -> bool:
     """Whether places in it hang on where the robot is or has been by then."""
-    selectors = (plan.selector_of(node) for node in plan.walk(following))
+    selectors = (node.selector for node in plan.walk(following))
     return any(s is not None and s.relative for s in selectors)
 
 
 def every_answer(nodes: Sequence[Node]) -> list[Answer]:
     """Every way to answer the first few conditions of some nodes; those beyond them hold, or none of them does."""
-    asked = [n.id for node in nodes for n in plan.walk(node) if plan.condition_of(n) is not None]
+    asked = [n.id for node in nodes for n in plan.walk(node) if n.tested is not None]
     if not asked:
         return [lambda _: False]
     some = asked[:_MAX_CONDITIONS]

@@ -141,7 +141,7 @@ def first_places(node: Node, site: Site, context: Context) -> tuple[Place, ...]:
     from fieldhand.places.resolution import resolve
 
     for inner in plan.walk(node):
-        selector = plan.selector_of(inner)
+        selector = inner.selector
         if selector is None:
             continue
         try:
@@ -204,7 +204,7 @@ def way_to(root: Node, node_id: str) -> tuple[Node, ...]:
     """The nodes from the root of a plan to the one with this id, both included; empty if there is none."""
     if root.id == node_id:
         return (root,)
-    for child in plan.children(root):
+    for child in root.children:
         way = way_to(child, node_id)
         if way:
             return (root, *way)

@@ -15,7 +15,6 @@ from fieldhand.forecast.steps import Answer, Decision, DecisionKind, Step, StepK
 from fieldhand.places.context import Context, Visited
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
-from fieldhand.task import plan
 from fieldhand.task.frames import Task
 from fieldhand.task.nodes.base import Failed
 from fieldhand.task.plan import Node
@@ -153,7 +152,7 @@ class Trail:
 
     def decide(self, node: Node, kind: DecisionKind) -> bool:
         """Return the answer to what the walk cannot know, and record it as a decision."""
-        condition = plan.condition_of(node) if kind == "holds" else None
+        condition = node.tested if kind == "holds" else None
         possible: tuple[bool, ...] = (True, False)
         if condition is not None and self.readings is not None:
             possible = self.readings.answers(node.id, condition, self.context.here)

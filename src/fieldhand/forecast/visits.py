@@ -55,7 +55,7 @@ class Visits:
             )
             for place in places
         ]
-        if all(plan.selector_of(inner) is None for inner in plan.walk(node.body)):
+        if all(inner.selector is None for inner in plan.walk(node.body)):
             return tuple(visits)
         step = max(1, -(-len(visits) // _LOOKED_AT))
         looked_at = {k: self._inside(node, visits[k], context) for k in range(0, len(visits), step)}

@@ -15,8 +15,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from fieldhand.places.selector import Selector
-from fieldhand.task.conditions import Condition
 from fieldhand.task.nodes.act import Act
 from fieldhand.task.nodes.any_order import AnyOrder
 from fieldhand.task.nodes.base import Span
@@ -43,19 +41,10 @@ __all__ = [
     "Stop",
     "Try",
     "acts",
-    "children",
-    "condition_of",
-    "is_optional",
-    "selector_of",
     "walk",
 ]
 
 Node = Sequence | AnyOrder | ForEach | Repeat | If | Try | Optional | GoTo | Act | Stop
-
-
-def children(node: Node) -> tuple[Node, ...]:
-    """The nodes directly inside this one, in the order in which they stand."""
-    return node.children
 
 
 def walk(node: Node) -> Iterator[Node]:
@@ -68,18 +57,3 @@ def walk(node: Node) -> Iterator[Node]:
 def acts(node: Node) -> Iterator[Act]:
     """The actions of this node and of every one inside it, in the order in which they stand."""
     return (inner.act for inner in walk(node) if inner.act is not None)
-
-
-def is_optional(node: Node) -> bool:
-    """True if the budget guard may shed the node, or visits of it, and the mission goes on."""
-    return node.is_optional
-
-
-def selector_of(node: Node) -> Selector | None:
-    """The selector that a node names a place with, if it has one."""
-    return node.selector
-
-
-def condition_of(node: Node) -> Condition | None:
-    """The condition that a node tests, if it has one."""
-    return node.tested

@@ -22,7 +22,7 @@ from fieldhand.places.selectors import Random
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Outcome, Planned, Refused
 from fieldhand.robot.loader import load_robot
-from fieldhand.task.plan import selector_of, walk
+from fieldhand.task.plan import walk
 from vineyards import ALONG, ROWS, Vine, vines, vineyard
 
 HUSKY = load_robot("husky")
@@ -37,7 +37,7 @@ def visited(outcome: Planned) -> list[Vine]:
     """The vines that the selectors of a plan come to from the start."""
     found: list[str] = []
     for node in walk(outcome.task.composition.plan):
-        selector = selector_of(node)
+        selector = node.selector
         if selector is not None and not selector.relative:
             found += [p.id for p in resolve(selector, vineyard(), Context(here=vineyard().start))]
     return [BY_ID[one] for one in found]
@@ -134,7 +134,7 @@ def test_a_draw_is_of_the_vines_that_are_meant_and_not_of_the_nearest(
     drawn = visited(outcome)
     assert len({v.id for v in drawn}) == count
     assert all(is_meant(v) for v in drawn)
-    selectors = [selector_of(node) for node in walk(outcome.task.composition.plan)]
+    selectors = [node.selector for node in walk(outcome.task.composition.plan)]
     assert any(isinstance(part, Random) for s in selectors if s is not None for part in s.walk())
     assert outcome == outcome_of(request_)
     if count >= 10:

@@ -13,7 +13,7 @@ from fieldhand.language.words import capitalised, say_action, say_name, say_numb
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.conditions import Between, Compare, Level, walk
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Node, condition_of
+from fieldhand.task.plan import Node
 from fieldhand.task.plan import walk as walk_plan
 from fieldhand.task.results import Acted, Event, InDoubt
 
@@ -145,7 +145,7 @@ def _unit(unit: str) -> str:
 
 def _tested(node: Node, robot: RobotProfile) -> Iterator[tuple[str, str, float]]:
     """Yield reading, quantity and threshold of each test in a node's condition."""
-    condition = condition_of(node)
+    condition = node.tested
     for test in () if condition is None else walk(condition):
         match test:
             case Compare():

@@ -233,7 +233,7 @@ def _script(code: str) -> _Element:
 
 
 def _first_place(step: p.Node) -> Selector:
-    return next((s for s in map(p.selector_of, p.walk(step)) if s is not None), Here())
+    return next((node.selector for node in p.walk(step) if node.selector is not None), Here())
 
 
 def _element(kind: str, *children: _Element, **ports: str) -> _Element:

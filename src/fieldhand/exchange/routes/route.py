@@ -21,7 +21,6 @@ from fieldhand.forecast.steps import Step, Walk
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import is_optional
 from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event, Started
 
 if TYPE_CHECKING:
@@ -214,7 +213,7 @@ class _Certain:
         drives: list[tuple[LatLon, ...]] = []
         acts: set[tuple[int, str]] = set()
         for step in walked.steps:
-            if (step.kind == "visit-list" and is_optional(step.node)) or (step.kind == "decide" and not complete):
+            if (step.kind == "visit-list" and step.node.is_optional) or (step.kind == "decide" and not complete):
                 break
             if step.drive is not None:
                 drives.append(step.drive.points)

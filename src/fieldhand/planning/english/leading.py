@@ -14,7 +14,7 @@ from fieldhand.planning.planner import Answer, Outcome, Planned
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Act, ForEach, Node, Span, selector_of, walk
+from fieldhand.task.plan import Act, ForEach, Node, Span, walk
 
 #: Plans a request as it is worded, with the answers that were taken into it.
 Read = Callable[[Worded, tuple[Answer, ...]], Outcome]
@@ -54,7 +54,7 @@ def _planned(read: Read, worded: Worded, answered: tuple[Answer, ...]) -> Task |
 
 def _places(task: Task, said: Span, site: Site, robot: RobotProfile) -> tuple[Place, ...]:
     """The places of the nodes that came from some words; of all nodes where none did."""
-    nodes = [n for n in walk(task.composition.plan) if selector_of(n) is not None]
+    nodes = [n for n in walk(task.composition.plan) if n.selector is not None]
     nodes = [n for n in nodes if any(s < said[1] and said[0] < e for s, e in _words_of(n))] or nodes
     try:
         found = list(_resolved(nodes, site) or _reached(nodes, task, site, robot))
@@ -69,7 +69,7 @@ def _words_of(node: Node) -> tuple[Span, ...]:
 
 def _resolved(nodes: list[Node], site: Site) -> list[Place]:
     """The places of selectors that mean the same wherever the robot is; none if one of them does not."""
-    selectors = [s for n in nodes if (s := selector_of(n)) is not None]
+    selectors = [s for n in nodes if (s := n.selector) is not None]
     if any(s.relative for s in selectors):
         return []
     return [place for s in selectors for place in resolve(s, site, Context(here=site.start))]

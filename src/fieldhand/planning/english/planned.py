@@ -110,7 +110,7 @@ def _check(limit: Limit) -> None:
 def _impossible(plan: p.Node, site: Site) -> Iterable[Reason]:
     """Places that this site does not have, as far as it can be told before the robot drives."""
     for node in p.walk(plan):
-        selector = p.selector_of(node)
+        selector = node.selector
         for part in () if selector is None else foreseeable(selector):
             try:
                 resolve(part, site, Context(here=site.start))

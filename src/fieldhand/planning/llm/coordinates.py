@@ -58,7 +58,7 @@ def _of_node(node: Node, request: str, site: Site) -> Iterator[Problem]:
 def _parts(node: Node) -> Iterator[Any]:
     """The node itself, and every part of its selector and its condition."""
     yield node
-    selector, condition = plan.selector_of(node), plan.condition_of(node)
+    selector, condition = node.selector, node.tested
     yield from selector.walk() if selector is not None else ()
     yield from conditions.walk(condition) if condition is not None else ()
 

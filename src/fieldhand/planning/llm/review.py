@@ -116,14 +116,14 @@ def _places(root: Node, site: Site) -> Iterator[Problem]:
     """Problems with what selectors and conditions expect of the site."""
     known = {phrase(name) for name in site.attributes}
     for node in plan.walk(root):
-        selector = plan.selector_of(node)
+        selector = node.selector
         if selector is not None:
             yield from _unresolved(selector, site, node.id)
             if not node.visits_each:
                 yield from _more_than_one(selector, site, node.id)
         if node.rewarded_by and phrase(node.rewarded_by) not in known:
             yield _no_attribute(node.rewarded_by, site, node.id)
-        condition = plan.condition_of(node)
+        condition = node.tested
         for part in conditions.walk(condition) if condition is not None else ():
             if isinstance(part, TreeHas) and phrase(part.attribute) not in known:
                 yield _no_attribute(part.attribute, site, node.id)
