@@ -15,22 +15,7 @@ from typing import Literal, get_args
 
 from fieldhand.language import message
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import (
-    Act,
-    AnyOrder,
-    ForEach,
-    GoTo,
-    If,
-    Node,
-    Optional,
-    Repeat,
-    Sequence,
-    Span,
-    Stop,
-    Try,
-    acts,
-    walk,
-)
+from fieldhand.task.plan import Span, acts, walk
 from fieldhand.task.weightless import FUNCTION_WORDS, is_weightless
 
 #: What words can become. Of two ranges that are the same, the role that stands first here is shown.
@@ -47,19 +32,6 @@ NAMES: dict[Role, str] = {
     "end": message("end", context="role"),
     "no_part": message("no part in the plan", context="role"),
     "nothing": message("not in the plan", context="role"),
-}
-#: What the words of a node are, by its kind.
-_OF_NODE: dict[type[Node], Role] = {
-    Act: "action",
-    GoTo: "place",
-    ForEach: "place",
-    If: "condition",
-    Try: "condition",
-    Optional: "limit",
-    Sequence: "order",
-    AnyOrder: "order",
-    Repeat: "order",
-    Stop: "end",
 }
 _WORD = re.compile(r"\w+(?:['\u2019.,\-]\w+)*\s?[%\u00b0]?")
 
@@ -125,7 +97,7 @@ def _stem(word: str) -> str:
 def _ranges(task: Task) -> Iterator[tuple[Span, Role]]:
     """Every range of a Task with what it became."""
     for node in walk(task.composition.plan):
-        yield from ((span, _OF_NODE[type(node)]) for span in node.said)
+        yield from ((span, node.role) for span in node.said)
         yield from ((span, "place") for span in node.at_said)
     for budget in task.constraints.budgets:
         yield from ((span, "limit") for span in budget.said)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.language.words import say_action
-from fieldhand.task.nodes.base import Meaning, PlanNode, SayPlace, Span
+from fieldhand.task.nodes.base import Meaning, PlanNode, Role, SayPlace, Span
 from fieldhand.task.requests import Bind, Capture, Drive, Forget, Locate, Permit, Read
 
 if TYPE_CHECKING:
@@ -56,6 +56,10 @@ class Act(PlanNode):
     def say(self, place: SayPlace) -> str:
         there = "" if self.at is None else f" at {place(self.at)}"
         return f"{say_action(self.action, self.count)}{there}"
+
+    @property
+    def role(self) -> Role:
+        return "action"
 
     @property
     def act(self) -> Act:

@@ -8,7 +8,7 @@ from functools import reduce
 from operator import or_
 from typing import TYPE_CHECKING
 
-from fieldhand.task.nodes.base import K, Meaning, Part, PlanNode, SayPlace, Span
+from fieldhand.task.nodes.base import K, Meaning, Part, PlanNode, Role, SayPlace, Span
 from fieldhand.task.requests import Arrange
 
 if TYPE_CHECKING:
@@ -35,6 +35,10 @@ class AnyOrder(PlanNode):
 
     def say(self, place: SayPlace) -> str:  # noqa: ARG002
         return "in the best order"
+
+    @property
+    def role(self) -> Role:
+        return "order"
 
     @property
     def parts(self) -> tuple[Part, ...]:

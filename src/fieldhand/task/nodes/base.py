@@ -16,7 +16,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol, Self, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, Protocol, Self, TypeAlias, TypeVar
 
 if TYPE_CHECKING:
     from fieldhand.places.selector import Selector
@@ -29,6 +29,9 @@ if TYPE_CHECKING:
 
 #: A range of characters of the request: first, and one behind the last.
 Span: TypeAlias = tuple[int, int]
+
+#: What the words of the request that a node came from are about.
+Role: TypeAlias = Literal["condition", "limit", "end", "action", "place", "order"]
 
 #: Requests, the answers to them, and nothing at the end.
 Meaning: TypeAlias = "Generator[Request, Any, None]"
@@ -121,6 +124,11 @@ class PlanNode(ABC):
     @abstractmethod
     def say(self, place: SayPlace) -> str:
         """Return what the node does, in a few words."""
+
+    @property
+    @abstractmethod
+    def role(self) -> Role:
+        """What the words that it came from are about."""
 
     # --- the nodes inside --------------------------------------------------------------------------------------------
 

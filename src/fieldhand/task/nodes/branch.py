@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldhand.task.nodes.base import K, Meaning, Part, PlanNode, SayPlace, Span
+from fieldhand.task.nodes.base import K, Meaning, Part, PlanNode, Role, SayPlace, Span
 from fieldhand.task.requests import Decide
 
 if TYPE_CHECKING:
@@ -36,6 +36,10 @@ class If(PlanNode):
 
     def say(self, place: SayPlace) -> str:  # noqa: ARG002
         return "if"
+
+    @property
+    def role(self) -> Role:
+        return "condition"
 
     @property
     def parts(self) -> tuple[Part, ...]:

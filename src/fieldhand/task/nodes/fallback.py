@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldhand.task.nodes.base import Failed, K, Meaning, Part, PlanNode, SayPlace, Span
+from fieldhand.task.nodes.base import Failed, K, Meaning, Part, PlanNode, Role, SayPlace, Span
 
 if TYPE_CHECKING:
     from fieldhand.task.plan import Node
@@ -35,6 +35,10 @@ class Try(PlanNode):
 
     def say(self, place: SayPlace) -> str:  # noqa: ARG002
         return "try"
+
+    @property
+    def role(self) -> Role:
+        return "condition"
 
     @property
     def parts(self) -> tuple[Part, ...]:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
-from fieldhand.task.nodes.base import GivenUp, K, Meaning, Part, PlanNode, SayPlace, Span
+from fieldhand.task.nodes.base import GivenUp, K, Meaning, Part, PlanNode, Role, SayPlace, Span
 from fieldhand.task.requests import Begin, Bind, Decide, Drive, Next
 
 if TYPE_CHECKING:
@@ -70,6 +70,10 @@ class ForEach(PlanNode):
 
     def say(self, place: SayPlace) -> str:
         return f"{'as many as fit of' if self.optional else 'at each of'} {place(self.select)}"
+
+    @property
+    def role(self) -> Role:
+        return "place"
 
     @property
     def parts(self) -> tuple[Part, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldhand.task.nodes.base import Meaning, PlanNode, SayPlace, Span
+from fieldhand.task.nodes.base import Meaning, PlanNode, Role, SayPlace, Span
 from fieldhand.task.requests import Bind, Drive, Locate, Permit
 
 if TYPE_CHECKING:
@@ -31,6 +31,10 @@ class GoTo(PlanNode):
 
     def say(self, place: SayPlace) -> str:
         return f"go to {place(self.place)}"
+
+    @property
+    def role(self) -> Role:
+        return "place"
 
     @property
     def only_drives(self) -> bool:

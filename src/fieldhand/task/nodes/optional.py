@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldhand.task.nodes.base import GivenUp, K, Meaning, Part, PlanNode, SayPlace, Span
+from fieldhand.task.nodes.base import GivenUp, K, Meaning, Part, PlanNode, Role, SayPlace, Span
 from fieldhand.task.requests import Offer
 
 if TYPE_CHECKING:
@@ -40,6 +40,10 @@ class Optional(PlanNode):
 
     def say(self, place: SayPlace) -> str:  # noqa: ARG002
         return "if the budget allows"
+
+    @property
+    def role(self) -> Role:
+        return "limit"
 
     @property
     def parts(self) -> tuple[Part, ...]:

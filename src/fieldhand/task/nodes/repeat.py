@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldhand.language.words import say_times
-from fieldhand.task.nodes.base import K, Meaning, Part, PlanNode, SayPlace, Span
+from fieldhand.task.nodes.base import K, Meaning, Part, PlanNode, Role, SayPlace, Span
 from fieldhand.task.requests import Decide, Round
 
 if TYPE_CHECKING:
@@ -36,6 +36,10 @@ class Repeat(PlanNode):
 
     def say(self, place: SayPlace) -> str:  # noqa: ARG002
         return f"{'until it holds, at most ' if self.until else ''}{say_times(self.times)}"
+
+    @property
+    def role(self) -> Role:
+        return "order"
 
     @property
     def parts(self) -> tuple[Part, ...]:

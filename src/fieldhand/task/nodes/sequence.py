@@ -7,7 +7,7 @@ from collections.abc import Sequence as Sequence_
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldhand.task.nodes.base import K, Meaning, Part, PlanNode, SayPlace, Span
+from fieldhand.task.nodes.base import K, Meaning, Part, PlanNode, Role, SayPlace, Span
 
 if TYPE_CHECKING:
     from fieldhand.task.plan import Node
@@ -29,6 +29,10 @@ class Sequence(PlanNode):
 
     def say(self, place: SayPlace) -> str:  # noqa: ARG002
         return "in order"
+
+    @property
+    def role(self) -> Role:
+        return "order"
 
     @property
     def parts(self) -> tuple[Part, ...]:

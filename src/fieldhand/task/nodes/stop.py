@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from fieldhand.task.nodes.base import Meaning, PlanNode, SayPlace, Span, Stopped
+from fieldhand.task.nodes.base import Meaning, PlanNode, Role, SayPlace, Span, Stopped
 
 if TYPE_CHECKING:
     from fieldhand.task.run import Run
@@ -25,6 +25,10 @@ class Stop(PlanNode):
 
     def say(self, place: SayPlace) -> str:  # noqa: ARG002
         return f"stop ({self.exit} exit)"
+
+    @property
+    def role(self) -> Role:
+        return "end"
 
     @property
     def ends_plan(self) -> bool:
