@@ -75,6 +75,7 @@ def _around(inner: st.SearchStrategy[s.Selector]) -> st.SearchStrategy[s.Selecto
         st.builds(s.Take, count=counts, of=inner),
         st.builds(s.Random, count=counts, seed=st.integers(0, 3), of=inner),
         st.builds(s.Spread, count=counts, of=inner),
+        st.builds(s.Evenly, count=counts, out_of=st.sampled_from((0, 0, 3, 5)), of=inner),
         st.builds(s.InBlock, block=st.sampled_from(["A", "B", "z"]), of=inner),
         st.builds(s.Rows, first=row_names, last=row_names, every=counts, counted_from=counted_from, of=inner),
         st.builds(s.RowOf, origin=inner, over=st.integers(-1, 1), of=inner),

@@ -28,6 +28,7 @@ from fieldhand.places.selectors import (
     Corners,
     Edge,
     EdgeMiddle,
+    Evenly,
     Excluding,
     Extreme,
     Farthest,
@@ -40,6 +41,7 @@ from fieldhand.places.selectors import (
     Marker,
     Middle,
     Nearest,
+    Ordered,
     Other,
     Quarter,
     Random,
@@ -436,6 +438,46 @@ def test_one_that_is_spread_is_in_the_middle_and_more_than_there_are_are_refused
     assert ids(Spread(count=3), site) == [site.trees[k].place.id for k in (0, 2, 4)]
     with pytest.raises(PlaceError):
         ids(Spread(count=6), site)
+
+
+@given(st.integers(1, 40), st.data())
+def test_trees_along_a_row_are_as_even_as_whole_trees_allow_and_its_ends_are_among_them(length, data):
+    count = data.draw(st.integers(1, length))
+    shuffled = data.draw(st.permutations(range(length)))
+    site = planted([("A", 0.0, [("1", [(0.0, -4.0 * k) for k in range(length)])])], order=shuffled)
+    along = [t.place.id for t in sorted(site.trees, key=lambda t: -t.place.y)]
+    found = [along.index(name) for name in ids(Evenly(count=count), site)]
+    assert len(set(found)) == count
+    if count == 1:
+        assert abs(found[0] - (length - 1) / 2) <= 0.5
+    else:
+        assert sorted(found) == found
+        assert {0, length - 1} <= set(found)
+        assert all(abs(k - m * (length - 1) / (count - 1)) <= 0.5 for m, k in enumerate(found))
+
+
+@given(st.integers(1, 40), st.integers(1, 7), st.data())
+def test_of_every_few_along_a_row_the_same_places_are_chosen_of_the_last_ones_too(length, whole, data):
+    count = data.draw(st.integers(1, whole))
+    site, few = (site_of([(4.0 * k, 0.0) for k in range(n)]) for n in (length, whole))
+    line = Ordered(by="west_to_east")
+    pattern = {int(name) - 1 for name in ids(Evenly(count=count, of=line), few)}
+    expected = [str(k + 1) for k in range(length) if k % whole in pattern]
+    if expected:
+        assert ids(Evenly(count=count, out_of=whole, of=line), site) == expected
+    else:
+        with pytest.raises(PlaceError):
+            ids(Evenly(count=count, out_of=whole, of=line), site)
+
+
+def test_some_of_a_row_keep_the_order_in_which_they_are_given():
+    site = site_of([(4.0 * k, 0.0) for k in range(9)])
+    backwards = Ordered(by="east_to_west")
+    assert ids(Evenly(count=3, of=backwards), site) == ["9", "5", "1"]
+    assert ids(Evenly(count=2, out_of=4, of=backwards), site) == ["9", "6", "5", "2", "1"]
+    for wrong in (Evenly(count=10), Evenly(count=0), Evenly(count=4, out_of=3)):
+        with pytest.raises(PlaceError):
+            ids(wrong, site)
 
 
 def test_each_tree_is_drawn_as_often_as_any_other():

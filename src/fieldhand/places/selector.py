@@ -92,6 +92,11 @@ class Selector(ABC):
         return "site"
 
     @property
+    def keeps_order(self) -> bool:
+        """True if its places come in an order of its own, not in that of the file."""
+        return False
+
+    @property
     def measured_from(self) -> Selector | None:
         """The selector inside from which distances are measured."""
         return None
@@ -185,6 +190,10 @@ class FromGroup(Selector):
         tell.candidates = len(of)
         return self.choose(of, resolution, tell)
 
+    @property
+    def keeps_order(self) -> bool:
+        return self.of.keeps_order
+
     def ground(self, *, picks_too: bool = True) -> Selector:
         rule = self.ground_rule
         if rule == "of" or (picks_too and rule in ("pick", "group")):
@@ -210,6 +219,10 @@ class Counted(FromGroup):
     @property
     def size(self) -> Range:
         return exactly(self.count)
+
+    @property
+    def keeps_order(self) -> bool:
+        return True
 
     def need(self, candidates: Spots, resolution: Resolution) -> None:
         """Check that there are enough to choose from.

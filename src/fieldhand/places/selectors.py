@@ -24,6 +24,7 @@ from fieldhand.places.neighbours.adjacent import Adjacent
 from fieldhand.places.neighbours.farthest import Farthest
 from fieldhand.places.neighbours.nearest import Nearest
 from fieldhand.places.picks.apart import Apart
+from fieldhand.places.picks.evenly import Evenly
 from fieldhand.places.picks.first import First
 from fieldhand.places.picks.last import Last
 from fieldhand.places.picks.nth import Nth
@@ -79,6 +80,7 @@ SELECTORS: tuple[type[Selector], ...] = (
     Take,
     Random,
     Spread,
+    Evenly,
     InBlock,
     Rows,
     RowOf,

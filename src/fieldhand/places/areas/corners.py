@@ -54,6 +54,10 @@ class Corners(FromGroup):
         return many(message("the {north_west} corner trees {of_trees}", north_west=named_corners, of_trees=of))
 
     @property
+    def keeps_order(self) -> bool:
+        return True
+
+    @property
     def single(self) -> bool:
         return len(self.which) == 1
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class EdgeMiddle(Counted):
-    """The ``count`` trees on one edge of ``of`` that are nearest to the middle of that edge."""
+    """The ``count`` trees on one edge of ``of`` nearest to its middle."""
 
     side: Side
     count: int = 1

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Quarter(FromGroup):
-    """Trees of ``of`` in one quarter of its ground, which is as for a half."""
+    """Trees of ``of`` in one quarter of its ground."""
 
     quarter: CornerName
     of: Selector = Trees()

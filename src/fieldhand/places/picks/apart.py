@@ -51,6 +51,10 @@ class Apart(FromGroup):
         return many(message("{trees}, about {distance} m from each other", trees=trees, distance=distance))
 
     @property
+    def keeps_order(self) -> bool:
+        return True
+
+    @property
     def single(self) -> bool:
         return self.count == 1
 

@@ -86,6 +86,10 @@ class Ordered(FromGroup):
         return replace(saying.phrase(self.of), order=self._order())
 
     @property
+    def keeps_order(self) -> bool:
+        return True
+
+    @property
     def size(self) -> Range:
         return self.of.size
 

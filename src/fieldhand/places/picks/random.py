@@ -53,6 +53,10 @@ class Random(Counted):
         said = message("{count} of {trees}, drawn at random (seed {seed})", count=self.count, trees=group, seed=seed)
         return many(said)
 
+    @property
+    def keeps_order(self) -> bool:
+        return False
+
 
 def _drawn(spots: Spots, count: int, seed: int) -> Spots:
     """Return ``count`` of the places, each as likely as any other, in the order of the file.

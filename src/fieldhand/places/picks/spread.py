@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Spread(Counted):
-    """``count`` of ``of``, spread over where they stand: far from each other."""
+    """``count`` of ``of``, spread far from each other."""
 
     count: int
     of: Selector = Trees()
@@ -45,3 +45,7 @@ class Spread(Counted):
         if self.count == 1:
             return one(message("of {trees} the one nearest to their middle", trees=group))
         return many(message("{count} of {trees}, spread far from each other", count=self.count, trees=group))
+
+    @property
+    def keeps_order(self) -> bool:
+        return False

@@ -25,8 +25,7 @@ if TYPE_CHECKING:
 @dataclass(frozen=True, kw_only=True)
 class Spaced(FromGroup):
     """``count`` free points ``apart_m`` metres apart, else as many as fit, on a line beside the row of ``of`` nearest
-    to ``near``, from its end nearer to that; without rows, or inside a ``zone``, on a straight line. Points are no
-    trees."""
+    to ``near``, from its end nearer to that; without rows, or inside a ``zone``, on a straight line."""
 
     apart_m: float
     count: int = 0
@@ -55,6 +54,10 @@ class Spaced(FromGroup):
         return many(
             message("{points} {where}, beginning at the end nearer to {place}", points=points, where=where, place=near)
         )
+
+    @property
+    def keeps_order(self) -> bool:
+        return True
 
     @property
     def single(self) -> bool:

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Successive(Counted):
-    """``count`` trees of one row, one after the other: of the rows that have as many the nearest to ``near``, where it
-    is nearest, from the end that is nearer to it."""
+    """``count`` trees of one row, one after the other: of the nearest row that has as many those nearest to ``near``,
+    from their nearer end."""
 
     count: int
     near: Selector = Here()

@@ -47,5 +47,9 @@ class Bound(Selector):
         return one(saying.names.get(self.label) or message("the place called “{label}”", label=self.label))
 
     @property
+    def keeps_order(self) -> bool:
+        return True
+
+    @property
     def depends_on(self) -> DependsOn:
         return "mission"

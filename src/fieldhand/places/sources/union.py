@@ -48,6 +48,10 @@ class Union(Selector):
         return many(said or message("no place at all"))
 
     @property
+    def keeps_order(self) -> bool:
+        return True
+
+    @property
     def single(self) -> bool:
         return len(self.parts) == 1 and self.parts[0].single
 
