@@ -112,7 +112,7 @@ class _Replay:
     def _shed(self, node: Node) -> bool:
         """Read that places of the node itself were given up, if that comes next."""
         event = self._skim(node)
-        if not isinstance(event, Shed) or event.node != node.id:
+        if not isinstance(event, Shed):
             return False
         self._next += 1
         visits = self._run.frame.tour
@@ -128,10 +128,10 @@ class _Replay:
         return event is not None and any(event.node in self._inside[node.id] for node in nodes)
 
     def _skim(self, node: Node) -> Event | None:
-        """The next event, drives and faults of the node itself passed over."""
-        while isinstance(self._peek_own(node), Driving | Arrived | Faulted):
+        """The next event if it belongs to the node itself, its drives and faults passed over."""
+        while isinstance(event := self._peek_own(node), Driving | Arrived | Faulted):
             self._next += 1
-        return self._peek()
+        return event
 
     def _is_whole(self) -> bool:
         """Whether the log was not cut off here."""
@@ -219,7 +219,7 @@ class _Replay:
 
     def _decide(self, node: Node) -> bool:
         event = self._skim(node)
-        if isinstance(event, Decided) and event.node == node.id:
+        if isinstance(event, Decided):
             self._next += 1
             if node.is_choice:
                 for tally in self._tallies.under(*(node.children[1:] if event.holds else node.children[:1])):
@@ -227,7 +227,7 @@ class _Replay:
             return event.holds
         if node.is_choice:
             raise self._absent(node)
-        if event is None and self._run.frame.left:
+        if self._peek() is None and self._run.frame.left:
             raise self._lost()
         return False
 
@@ -243,16 +243,16 @@ class _Replay:
         """Begin the next visit, if the log has one."""
         while self._shed(node):
             pass
-        if visits.to_come > 0:
-            seen = self._comes(node.children) or isinstance(self._peek_own(node), Decided)
-            if seen or (self._is_whole() and _is_silent(node)):
-                visits.begun += 1
-                visits.before = self._tallies.copies(node)
-                return True
+        if visits.to_come <= 0:
+            if not node.is_optional:
+                self._miss_visits(node, visits)
+            return None
+        seen = self._comes(node.children) or isinstance(self._peek_own(node), Decided)
+        if not seen and not (self._is_whole() and _is_silent(node)):
             raise self._lost()
-        if not node.is_optional:
-            self._miss_visits(node, visits)
-        return None
+        visits.begun += 1
+        visits.before = self._tallies.copies(node)
+        return True
 
     def _offer(self, node: Node) -> bool:
         self._skim(node)
