@@ -36,6 +36,7 @@ FORMAT, WITHOUT_CHECKSUMS = 2, 1
 #: SQLite waits for the disk at every commit. Less is for tests, which do not pull the plug of the machine.
 SYNCHRONOUS = "FULL"
 
+#: The table of records is called ``tape``.
 _TABLES = (
     "CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
     "CREATE TABLE tape (n INTEGER PRIMARY KEY, kind TEXT NOT NULL, body TEXT NOT NULL, sha256 BLOB NOT NULL)",
@@ -103,7 +104,7 @@ class Journal:
             stack.enter_context(_locked(path.parent))
             self._db = stack.enter_context(closing(_open(path, mission)))
             opened = _take_over(self._db, path)
-            self._tape, self.before, self._epoch = opened.tape, opened.lines, opened.epoch
+            self._recorded, self.before, self._epoch = opened.records, opened.lines, opened.epoch
             self._heads: dict[str, Head] = opened.heads
             self._log = stack.enter_context(closing(mended(log, self.before)))
             self._mark = stack.enter_context(closing(HighWaterMarkFile(mark_path(path))))
@@ -118,10 +119,10 @@ class Journal:
         self._failed = False
 
     def next(self) -> Record | None:
-        if self._read >= len(self._tape):
+        if self._read >= len(self._recorded):
             return None
         self._read += 1
-        return self._tape[self._read - 1]
+        return self._recorded[self._read - 1]
 
     def append(self, record: Record) -> None:
         self._records.append((record.kind, record.body))
@@ -158,9 +159,9 @@ class Journal:
         try:
             db.execute("BEGIN IMMEDIATE")
             self._require_own_epoch()
-            tape, heads["tape"] = _numbered(heads["tape"], self._records)
+            records, heads["tape"] = _numbered(heads["tape"], self._records)
             events, heads["events"] = _numbered(heads["events"], self._events)
-            db.executemany("INSERT INTO tape VALUES (?, ?, ?, ?)", tape)
+            db.executemany("INSERT INTO tape VALUES (?, ?, ?, ?)", records)
             db.executemany("INSERT INTO events VALUES (?, ?, ?, ?)", events)
             about = {"rows": _rows(heads)} | ({"heard": str(order)} if order != self._order else {})
             db.executemany("INSERT OR REPLACE INTO about VALUES (?, ?)", list(about.items()))
@@ -228,7 +229,7 @@ class Journal:
 class _Opened:
     """The contents of a journal when it was opened for writing."""
 
-    tape: list[Record]
+    records: list[Record]
     lines: tuple[str, ...]
     heads: dict[str, Head]
     epoch: int
@@ -249,13 +250,13 @@ def _take_over(db: sqlite3.Connection, path: Path) -> _Opened:
         if about.get("format") == str(WITHOUT_CHECKSUMS):
             _add_checksums(db, path)
             about = dict(db.execute("SELECT key, value FROM about"))
-        tape, tape_heads = _checked(db, "tape", path)
+        records, record_heads = _checked(db, "tape", path)
         events, event_heads = _checked(db, "events", path)
-        heads = {"tape": tape_heads[-1], "events": event_heads[-1]}
+        heads = {"tape": record_heads[-1], "events": event_heads[-1]}
         if about.get("rows") != _rows(heads):
             raise JournalError("rows are missing at its end", where=str(path), advice=_ANEW)
         epoch = int(about.get("epoch", ""))
-        _require_mark(read_mark(mark_path(path)), epoch, {"tape": tape_heads, "events": event_heads}, path)
+        _require_mark(read_mark(mark_path(path)), epoch, {"tape": record_heads, "events": event_heads}, path)
         db.execute("UPDATE about SET value = ? WHERE key = 'epoch'", [str(epoch + 1)])
         db.execute("COMMIT")
     except BaseException:
@@ -263,7 +264,7 @@ def _take_over(db: sqlite3.Connection, path: Path) -> _Opened:
             db.execute("ROLLBACK")
         raise
     return _Opened(
-        tape=[Record(kind=kind, body=body) for kind, body in tape],
+        records=[Record(kind=kind, body=body) for kind, body in records],
         lines=tuple(line for _, line in events),
         heads=heads,
         epoch=epoch + 1,
