@@ -109,7 +109,7 @@ PLANNED = [
         "picture @ TreeIs(4) = r1; if r1 < 33 degC: [co2] else [air]",
     ),
     ("husky", "Two CO2 readings at two trees that neighbour each other.", "for Adjacent(Here): [co2]"),
-    ("husky", "Ride past 5 trees in a row and photograph 3 of those.", "for Take(3, of Successive(5)): [picture]"),
+    ("husky", "Ride past 5 trees in a row and photograph 3 of those.", "for Evenly(3, of Successive(5)): [picture]"),
     (
         "husky",
         "Photograph yellow trees, northern half of the farm only.",

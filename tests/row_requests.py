@@ -156,7 +156,7 @@ PLANNED = [
     (
         "husky",
         "Drive along a row of 5 trees and take a picture at 3 of them.",
-        "for Take(3, of Successive(5)): [picture]",
+        "for Evenly(3, of Successive(5)): [picture]",
     ),
     ("husky", "drive down row 3 and take a picture of every tree", "for Rows(3, 3): [picture]"),
     ("husky", "walk along row 2 taking a picture every 10 meters", "for Spaced(10, of Rows(2, 2)): [picture]"),

@@ -43,7 +43,7 @@ def plan_of(request: str, robot: str = "husky") -> str:
         ("Our focus is the northern half. The yellow trees in it are what I want pictures of.", "husky", "for Where(leaf_color, eq, yellow, of Half(north)): [picture]"),
         ("In the east of the orchard the nitrate of the soil matters; four trees will do, measure it there.", "amiga", "for Take(4, of Half(east)): [nitrate]"),
         ("The driving distance must stay at or below 150 m, and pictures of as many trees as possible are the goal.", "husky", "for Trees optional: [picture]"),
-        ("Out of a row of six trees that you pass along, two should have their picture taken.", "husky", "for Take(2, of Successive(6)): [picture]"),
+        ("Out of a row of six trees that you pass along, two should have their picture taken.", "husky", "for Evenly(2, of Successive(6)): [picture]"),
         ("Separate your soil moisture measurements by 12 metres, and carry out four in all.", "amiga", "for Spaced(12, 4): [moisture]"),
         ("The farm has four corners. No order is required, but a picture of each is.", "husky", "for Corners: [picture]"),
     ],

@@ -18,7 +18,7 @@ import pytest
 from fieldhand.approval.account import unaccounted
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
-from fieldhand.places.selectors import Random
+from fieldhand.places.selectors import Evenly, Random, Successive
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Outcome, Planned, Refused
 from fieldhand.robot.loader import load_robot
@@ -139,6 +139,40 @@ def test_a_draw_is_of_the_vines_that_are_meant_and_not_of_the_nearest(
     assert outcome == outcome_of(request_)
     if count >= 10:
         assert max(v.y for v in drawn) - min(v.y for v in drawn) > 20.0
+
+
+@pytest.mark.parametrize(
+    ("request_", "count", "whole"),
+    [
+        ("Take a picture of 3 of every 5 vines in row 2 of the north block.", 3, 5),
+        ("Measure CO2 at two out of every four vines of row 2 of the north block.", 2, 4),
+    ],
+)
+def test_some_of_every_few_vines_are_taken_evenly_along_the_row(request_: str, count: int, whole: int) -> None:
+    outcome = outcome_of(request_)
+    assert isinstance(outcome, Planned), outcome
+    row = sorted((v for v in vines() if (v.block, v.row) == ("North", 2)), key=lambda v: v.place)
+    taken = {v.place for v in visited(outcome)}
+    assert taken <= {v.place for v in row}
+    for begin in range(0, len(row) - whole + 1, whole):
+        few = [v.place for v in row[begin : begin + whole]]
+        assert len(taken & set(few)) == count
+        assert {few[0], few[-1]} <= taken
+
+
+@pytest.mark.parametrize(
+    ("request_", "count", "whole"),
+    [
+        ("Drive along 5 vines and take a picture of 3 of them.", 3, 5),
+        ("Of the next 6 vines measure CO2 at any 2.", 2, 6),
+        ("Take pictures of 3 of the next 5 vines down the row.", 3, 5),
+    ],
+)
+def test_some_of_a_run_of_vines_are_taken_evenly_along_it(request_: str, count: int, whole: int) -> None:
+    outcome = outcome_of(request_)
+    assert isinstance(outcome, Planned), outcome
+    (selector,) = [node.selector for node in walk(outcome.task.composition.plan) if node.selector is not None]
+    assert selector == Evenly(count=count, of=Successive(count=whole))
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
-from fieldhand.planning.english.sets import Group, nested
+from fieldhand.planning.english.sets import Group, nested, some_of
 from fieldhand.planning.english.syntax import NounPhrase
 from fieldhand.planning.english.tokens import Term
 
@@ -50,5 +50,5 @@ def quantity_alone(bag: Bag, group: Group, phrase: NounPhrase, relations: list[T
     if partitive and bag.each and not bag.count:
         return Found(selector=selector, many=True, each=True)  # "all but the yellow trees"
     if partitive and bag.count and not group.single:
-        return Found(selector=s.Take(count=bag.count, of=selector), many=bag.count > 1, counted=bag.count)
+        return Found(selector=some_of(selector, bag.count), many=bag.count > 1, counted=bag.count)
     return Found(selector=selector, object_only=True, counted=number, each=bag.each, many=True, region=group.region)

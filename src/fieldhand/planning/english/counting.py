@@ -9,6 +9,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.asking import each_or_in_all, every_or_how_many
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.sets import some_of
 from fieldhand.planning.english.syntax import Object, Part
 
 Wanted = tuple[tuple[str, int | None], ...]
@@ -76,7 +77,7 @@ def counted(found: Found, part: Part, wanted: Wanted) -> Found:
     if isinstance(selector, s.Corners | s.Union):
         size = len(selector.which) if isinstance(selector, s.Corners) else len(selector.parts)
         return found if size == count else _either(part, count, size)
-    return Found(selector=s.Take(count=count, of=selector), many=True, counted=count)
+    return Found(selector=some_of(selector, count), many=True, counted=count)
 
 
 def _either(part: Part, count: int, size: int) -> Found:
@@ -124,7 +125,7 @@ def _in_rows(found: Found, part: Part, count: int | None, plural: bool) -> Found
         raise each_or_in_all(
             part, asked, (message("one in each of them", context="answer"), message("one in all", context="answer")), 1
         )
-    return Found(selector=s.Take(count=number, of=found.selector), many=number > 1, counted=number)
+    return Found(selector=some_of(found.selector, number), many=number > 1, counted=number)
 
 
 def _says_one(part: Part) -> bool:
@@ -147,4 +148,4 @@ def _in_area(found: Found, part: Part, count: int | None, plural: bool) -> Found
     if count is None and (found.selector == s.Trees() or of_it):  # "a picture of the northern half"
         raise every_or_how_many(part)
     number = count or 1
-    return Found(selector=s.Take(count=number, of=found.selector), many=number > 1, counted=number)
+    return Found(selector=some_of(found.selector, number), many=number > 1, counted=number)

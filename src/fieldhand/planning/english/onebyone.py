@@ -23,7 +23,7 @@ MOST_ONE_BY_ONE = 60
 #: Selectors that pick from all that is left: said of each row, they are said once for each.
 _PICKS = (
     s.Top, s.Extreme, s.AmongExtreme, s.Middle, s.EdgeMiddle, s.Nearest, s.Farthest, s.Adjacent, s.Take, s.Successive,
-    s.Random, s.Spread, s.First, s.Last, s.Corners, s.Nth, s.Spaced, s.Edge, s.Half, s.Quarter, s.Ordered,
+    s.Random, s.Spread, s.Evenly, s.First, s.Last, s.Corners, s.Nth, s.Spaced, s.Edge, s.Half, s.Quarter, s.Ordered,
 )  # fmt: skip
 
 

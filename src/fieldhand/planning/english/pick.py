@@ -18,7 +18,7 @@ from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.inrow import ends_of_rows, every_nth, next_in_row, opposite, ranked_in_rows, stepped
 from fieldhand.planning.english.onebyone import distributed
 from fieldhand.planning.english.regions import corners, extremes, middle, region
-from fieldhand.planning.english.sets import Group
+from fieldhand.planning.english.sets import Group, some_of
 from fieldhand.planning.english.tokens import Term
 from fieldhand.site.model import Site
 from fieldhand.terms import CornerName, MarkerName
@@ -300,6 +300,8 @@ def _some_of(bag: Bag, of: s.Selector, *, plural: bool, site: Site, single: bool
         raise how_many(bag.phrase, ("2", "4"), of_all=True)
     if bag.spread:
         return _spread(bag, of, plural=plural)
+    if bag.count is not None and (share := bag.take("SHARE")) is not None:
+        return Found(selector=s.Evenly(count=bag.count, out_of=int(share.value), of=of), many=True)
     if (drawn := bag.take("RANDOM")) is not None:
         return _drawn(bag, of, int(drawn.value or 0), plural=plural)
     bare = of == s.Trees()
@@ -314,7 +316,7 @@ def _some_of(bag: Bag, of: s.Selector, *, plural: bool, site: Site, single: bool
     if plural and count is None:
         return Found(selector=of, many=True)
     number = count or 1
-    return Found(selector=s.Take(count=number, of=of), many=number > 1, counted=number)
+    return Found(selector=some_of(of, number), many=number > 1, counted=number)
 
 
 def _drawn(bag: Bag, of: s.Selector, seed: int, *, plural: bool) -> Found:
@@ -359,7 +361,7 @@ def _every(bag: Bag, of: s.Selector, plural: bool, site: Site) -> Found:
     if claimed == 1:
         return Found(selector=s.Take(count=1, of=of))
     if claimed is not None and there is None and not bag.each:
-        return Found(selector=s.Take(count=claimed, of=of), many=True, counted=claimed)
+        return Found(selector=some_of(of, claimed), many=True, counted=claimed)
     return Found(selector=of, many=True, each=bag.each, counted=claimed)
 
 

@@ -106,6 +106,12 @@ def _numbers(v: Mapping[str, Any]) -> Iterator[tuple[str, str, Any]]:
         yield word, "LAST", None
     for word, count in v["counts"].items():
         yield word, "COUNT", count
+    names = {number: word for word, number in v["numbers"].items()}
+    for lead in v["shares"]["of"]:
+        for number in range(2, v["shares"]["most"] + 1):
+            yield f"{lead} {number}", "SHARE", number
+            if number in names:
+                yield f"{lead} {names[number]}", "SHARE", number
 
 
 def _compass(v: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
