@@ -85,10 +85,11 @@ def roads_of(layout: Layout, places: tuple[Place, ...]) -> Roads:
         layout.graph.ways(len(spots)),
         (off, node[off], np.array([spots[k].spur for k in off.tolist()])),
     ]
-    for i, j in _neighbours(layout, np.array([spot.xy for spot in feet])):
-        metres = layout.straight(feet, i, j)
-        i, j, metres = i[np.isfinite(metres)], j[np.isfinite(metres)], metres[np.isfinite(metres)]
-        found.append((node[i], node[j], metres))
+    pairs = list(_neighbours(layout, np.array([spot.xy for spot in feet])))
+    i, j = (np.concatenate(part) for part in zip(*pairs, strict=True))
+    metres = layout.straight(feet, i, j)
+    there = np.isfinite(metres)
+    found.append((node[i[there]], node[j[there]], metres[there]))
     one, two, metres = (np.concatenate(part) for part in zip(*found, strict=True))
     return Roads(
         places=places,

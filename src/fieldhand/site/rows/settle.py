@@ -17,8 +17,6 @@ _BESIDE, _BEYOND = 0.42, 2.6
 _ROOM, _ON_IT = 0.5, 0.2
 #: Trees next to the place that say where a row runs there.
 _NEXT_TO = 8
-#: A tree farther than this from its row, in tree spacings, may rather be of another.
-_DOUBTFUL = 1.4
 #: Pieces in line are one row up to this gap, in tree spacings; up to the longer one where one is on its own.
 _JOINED, _JOINED_ALONE = 1.65, 3.6
 _ONE_WAY = np.cos(np.radians(9.0))
@@ -76,7 +74,6 @@ class Settling:
     def settled(self) -> list[SeenBlock]:
         """The blocks afterwards; those left without a row are gone."""
         self._take_in_the_lone()
-        self._hand_over_the_doubtful()
         self._join()
         self._fill_gaps()
         self._take_in_the_lone()
@@ -104,8 +101,8 @@ class Settling:
         beside = abs(float(middle[0] * way[1] - middle[1] * way[0]))
         return beside / block.tree_spacing, float(np.abs(off @ way).min()) / block.tree_spacing
 
-    def _homes(self, tree: int, near: Indices) -> list[tuple[float, int]]:
-        """Rows that a tree could be of, the best first, with what speaks against each."""
+    def _home(self, tree: int, near: Indices) -> int | None:
+        """Return the row that a tree fits best; None where it fits none."""
         found = []
         for row in {int(self._row_of[k]) for k in near} - {-1}:
             if len(self._rows[row]) < 2:
@@ -113,21 +110,13 @@ class Settling:
             beside, gap = self._fit(row, tree)
             if beside < _BESIDE and gap < _BEYOND and (gap > _ROOM or beside < _ON_IT):
                 found.append(((beside / 0.2) ** 2 + 2 * max(gap - 1.0, 0.0) ** 2, row))
-        return sorted(found)
+        return min(found)[1] if found else None
 
     def _near(self, trees: Indices) -> list[Indices]:
         from scipy.spatial import cKDTree
 
         size = min(24, len(self._xy))
         return list(np.asarray(cKDTree(self._xy).query(self._xy[trees], k=size)[1]).reshape(len(trees), size))
-
-    def _move(self, tree: int, row: int) -> None:
-        old = int(self._row_of[tree])
-        if old >= 0:
-            self._rows[old] = self._rows[old][self._rows[old] != tree]
-        way = self._blocks[self._block_of[row]].way
-        self._rows[row] = self._ordered(np.append(self._rows[row], tree), way)
-        self._row_of[tree] = row
 
     def _take_in_the_lone(self) -> None:
         """Trees in no row go to the row that they are in line with; those that this makes a way for follow."""
@@ -136,34 +125,13 @@ class Settling:
         for _ in range(4):
             moved = False
             for tree, near in zip(lone.tolist(), around, strict=True):
-                if self._row_of[tree] < 0 and (homes := self._homes(tree, near)):
-                    self._move(tree, homes[0][1])
+                if self._row_of[tree] < 0 and (row := self._home(tree, near)) is not None:
+                    way = self._blocks[self._block_of[row]].way
+                    self._rows[row] = self._ordered(np.append(self._rows[row], tree), way)
+                    self._row_of[tree] = row
                     moved = True
             if not moved:
                 return
-
-    def _hand_over_the_doubtful(self) -> None:
-        """Trees at a row's end, beyond a gap, that another row's end fits better go there."""
-        doubtful: list[int] = []
-        for row, trees in enumerate(self._rows):
-            block = self._blocks[self._block_of[row]]
-            steps = np.diff(self._xy[trees] @ block.way) > _DOUBTFUL * block.tree_spacing
-            if len(trees) <= 2:
-                doubtful.extend(trees.tolist())
-                continue
-            for end, ordered in ((steps[:3], trees), (steps[::-1][:3], trees[::-1])):
-                gaps = np.flatnonzero(end)
-                if len(gaps):
-                    doubtful.extend(ordered[: int(gaps[-1]) + 1].tolist())
-        if not doubtful:
-            return
-        for tree, near in zip(doubtful, self._near(np.array(doubtful)), strict=True):
-            own = int(self._row_of[tree])
-            beside, gap = self._fit(own, tree)
-            cost = (beside / 0.2) ** 2 + 2 * max(gap - 1.0, 0.0) ** 2 if np.isfinite(gap) else 9.0
-            homes = [h for h in self._homes(tree, near) if h[1] != own]
-            if homes and homes[0][0] < 0.6 * cost and len(self._rows[homes[0][1]]) > 2:
-                self._move(tree, homes[0][1])
 
     def _join(self) -> None:
         """Pieces of rows of different blocks that carry each other on are one row."""
