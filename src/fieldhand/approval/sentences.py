@@ -9,10 +9,10 @@ from fieldhand.approval.clauses import say_act, say_condition
 from fieldhand.approval.resolved import Found
 from fieldhand.approval.visits import in_order, say_expected, say_expected_visits, say_ids
 from fieldhand.language import counted, message, shaped
-from fieldhand.language.words import CORNERS, say_marker, say_name, say_number, say_times, say_tree
+from fieldhand.language.words import say_marker, say_name, say_number, say_times, say_tree
 from fieldhand.places.saying import say_places, say_selector
 from fieldhand.places.selector import Selector
-from fieldhand.places.selectors import Corners, Marker, TreeIs, Trees, Union
+from fieldhand.places.selectors import Trees, Union
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.conditions import Condition
@@ -169,11 +169,8 @@ class _Writer:
         one = found.one if found else None
         if one is not None:
             place = say_place(one)
-            return (
-                place
-                if isinstance(selector, TreeIs | Marker)
-                else message("{place} ({words})", place=place, words=_aside(selector, said))
-            )
+            aside = selector.aside(said)
+            return message("{place} ({words})", place=place, words=aside) if aside else place
         if found is None:
             return said
         if found.known:
@@ -237,7 +234,7 @@ class _Writer:
         whole = node.optional or node.at_most is None
         count = len(places) if found and found.known and places and whole else None
         said = say_selector(node.select, self._names, count)
-        if isinstance(node.select, Trees):
+        if node.select == Trees():
             said = counted("the {count} tree", "the {count} trees", count) if count else message("all trees")
         if node.optional:
             return self._optional_visits(node, said, found)
@@ -314,10 +311,3 @@ class _Writer:
 def _one_line(text: str) -> str:
     """Names of zones and trees come from files and may hold line ends."""
     return " ".join(text.split())
-
-
-def _aside(selector: Selector, said: str) -> str:
-    """What stands in brackets after a place: "north-west corner", "the tree farthest from tree 3"."""
-    if isinstance(selector, Corners) and len(selector.which) == 1 and isinstance(selector.of, Trees):
-        return message("{north_west} corner", north_west=CORNERS[selector.which[0]])
-    return said

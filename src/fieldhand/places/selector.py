@@ -158,6 +158,14 @@ class Selector(ABC):
         """Return in words what something is near to or far from: a zone itself, not the trees in it."""
         return say_zone(self.whole_zone) if self.whole_zone else self.it(saying)
 
+    def aside(self, said: str) -> str:
+        """Return what stands in brackets behind the name of the one place, empty where the name is all of it.
+
+        Args:
+            said: The selector in words.
+        """
+        return said
+
     def nth_phrase(self, number: int, saying: Saying) -> Phrase:
         """Return the place of a number among those of this selector in words; -1 is the last."""
         group = saying.phrase(self)

@@ -57,6 +57,12 @@ class Corners(FromGroup):
     def keeps_order(self) -> bool:
         return True
 
+    def aside(self, said: str) -> str:
+        """Return "north-west corner"."""
+        if self.single and self.of == Trees():
+            return message("{north_west} corner", north_west=CORNERS[self.which[0]])
+        return said
+
     @property
     def single(self) -> bool:
         return len(self.which) == 1

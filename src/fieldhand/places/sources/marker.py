@@ -36,6 +36,9 @@ class Marker(Selector):
     def phrase(self, saying: Saying) -> Phrase:
         return one(say_marker(self.name))
 
+    def aside(self, said: str) -> str:
+        return ""
+
     @property
     def single(self) -> bool:
         return True

@@ -37,6 +37,9 @@ class TreeIs(Selector):
     def phrase(self, saying: Saying) -> Phrase:
         return one(say_tree(self.tree))
 
+    def aside(self, said: str) -> str:
+        return ""
+
     @property
     def single(self) -> bool:
         return True
