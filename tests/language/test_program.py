@@ -26,9 +26,9 @@ KNOWN = {
 }
 #: Commands, as advice names them.
 COMMANDS = re.compile(r"fieldhand (?:approve|plan|run|resume|report|keys trust|keys confirm|status|inspect)\b")
-#: Paths, options, variables, fingerprints, names of missions, files and nodes.
+#: Paths, options, variables, fingerprints, names of missions, files, nodes and quantities.
 NAMES = re.compile(
-    r"\S*/\S*|--[a-z-]+|[A-Z]+_[A-Z_]+|\b[0-9a-f]{8,}\S*|\S*\d{8}\S*|\b\w+_\w+\b|[\w-]+\.(?=\w)\w+|/dev/null\S*"
+    r"\bco2\b|\S*/\S*|--[a-z-]+|[A-Z]+_[A-Z_]+|\b[0-9a-f]{8,}\S*|\S*\d{8}\S*|\b\w+_\w+\b|[\w-]+\.(?=\w)\w+|/dev/null\S*"
 )
 
 
