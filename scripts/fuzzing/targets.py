@@ -28,7 +28,6 @@ from fieldhand.execution.log import read_events
 from fieldhand.execution.world_file import load_world
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import builtin_names, parse_profile, profile_bytes
-from fieldhand.site.content import content_sha256
 from fieldhand.site.formats.document import site_document
 from fieldhand.site.formats.files import SiteFiles
 from fieldhand.site.formats.geojson import geojson_records
@@ -138,7 +137,7 @@ def _site(name: str) -> Callable[[bytes, Path], None]:
         with suppress(FieldhandError):
             site_of(files, lenient=True)
         site = site_of(files)
-        content_sha256(site)
+        _ = site.content_sha256
         document = json.dumps(site_document(site), allow_nan=False).encode()
         geojson_records(document, "again")
 
