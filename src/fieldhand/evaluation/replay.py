@@ -65,12 +65,12 @@ class _Visits:
 
     @property
     def unmade(self) -> int:
-        """How many of them were not begun."""
+        """The number of visits that were not begun."""
         return max(0, self.most - self.begun)
 
     @property
     def to_come(self) -> int:
-        """How many visits the log can still have."""
+        """The number of visits that the log can still have."""
         return min(self.most, len(self.listed) - self.shed) - self.begun
 
 
@@ -123,7 +123,7 @@ class _Replay:
         return True
 
     def _comes(self, nodes: Iterable[Node]) -> bool:
-        """Whether the next event belongs to one of these nodes, or to one inside."""
+        """Return True if the next event belongs to one of these nodes, or to one inside."""
         event = self._peek()
         return event is not None and any(event.node in self._inside[node.id] for node in nodes)
 
@@ -134,11 +134,11 @@ class _Replay:
         return event
 
     def _is_whole(self) -> bool:
-        """Whether the log was not cut off here."""
+        """Return True if the log was not cut off here."""
         return self._orderly or self._peek() is not None
 
     def _is_unseen(self, node: Node) -> bool:
-        """Whether a node may be done although the log has nothing of it."""
+        """Return True if a node may be done although the log has nothing of it."""
         return _is_silent(node) and (self._is_whole() or not any(acts(node)))
 
     def _when(self, node: Node) -> int:
@@ -301,7 +301,7 @@ class _Replay:
         return Cut(root.node.id)
 
     def _onward(self, around: Frame, child: Node) -> Exception | None:
-        """What to throw where the log goes on behind a child of a node in hand; None where it does not."""
+        """Return what to throw where the log goes on behind a child of a node in hand; None where it does not."""
         node, visits = around.node, around.tour
         if isinstance(visits, _Visits) and self._given_up(around):
             # What the visit or the step lacks is left out, not failed.
@@ -316,7 +316,7 @@ class _Replay:
         return Cut(child.id) if self._comes(later) else None
 
     def _given_up(self, frame: Frame) -> bool:
-        """Whether the log goes on with optional work of a node in hand that was given up; of a step that is read."""
+        """Return True if the log goes on with optional work of the node that was given up; of a step, read that."""
         node, event = frame.node, self._peek_own(frame.node)
         if not isinstance(event, Shed) or not event.optional or not node.is_optional:
             return False

@@ -1,4 +1,4 @@
-"""What an event log says about the actions of a plan."""
+"""Tallies of the actions of a plan in an event log."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from fieldhand.task.results import Acted, Event, InDoubt, Shed
 
 @dataclass(kw_only=True)
 class Tally:
-    """What the log says about one action of the plan.
+    """A count of one action of the plan in an event log.
 
     Attributes:
         wanted: Captures to be made on the branch that was taken, as far as that is known.

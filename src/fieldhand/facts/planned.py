@@ -202,7 +202,7 @@ def _captures(node: p.Node, around: _Around, size: Callable[[str], int | None]) 
 
 
 def _visited(node: p.Node, select: Selector, around: _Around, size: int | None, *, loose: bool) -> _Around:
-    """What stands around the body of a node that visits each place of a selector."""
+    """Return what holds inside a node that visits each place: how many places, and the numbers that stand in it."""
     inside = select.size if size is None else exactly(size)
     most = frozenset({node.at_most} if node.at_most is not None else ())
     if node.at_most is not None:

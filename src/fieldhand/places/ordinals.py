@@ -11,7 +11,7 @@ Ranked = Literal["tree", "row", "one"]
 
 
 def say_ordinal(number: int, of: Ranked = "tree") -> str:
-    """Which in a count: "third", "12th", and from the other end "last", "second last"."""
+    """Return an ordinal: "third", "12th", and from the other end "last", "second last"."""
     if number == -1:
         return message("last", context=of)
     if number < 0:

@@ -69,5 +69,5 @@ def picked(group: Phrase, count: int, which: str, *, that_is: bool = True) -> Ph
 
 
 def the_most(word: str) -> str:
-    """What those are that come first, in a note: "the northernmost"."""
+    """Return the name, in a note, of those that come first: "the northernmost"."""
     return message("the {northernmost}", northernmost=superlative(word, 1))

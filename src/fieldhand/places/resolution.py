@@ -71,7 +71,7 @@ class Resolution:
         self._told: set[str] = set()
 
     def spots(self, selector: Selector) -> Spots:
-        """What the selector leaves; never nothing."""
+        """Return the places that the selector leaves, at least one."""
         key = repr(selector)  # not the selector: one that says 1.0 is equal to one that says True
         if key not in self._known:
             tell = Tell()
@@ -85,7 +85,7 @@ class Resolution:
         return self._known[key].found
 
     def one(self, selector: Selector) -> Spots:
-        """What the selector leaves, where that is to be one place."""
+        """Return the one place that the selector leaves."""
         found = self.spots(selector)
         if len(found) > 1:
             raise PlaceError(

@@ -88,7 +88,7 @@ class Selector(ABC):
 
     @property
     def depends_on(self) -> DependsOn:
-        """What decides to which places this part comes, beside the parts inside it."""
+        """The state that its places depend on, beside the parts inside it."""
         return "site"
 
     @property

@@ -32,5 +32,5 @@ def say_block(block: str) -> str:
 
 
 def is_named_block(block: str) -> bool:
-    """Whether its name says already that it is a block."""
+    """Return True if its name says already that it is a block."""
     return phrase(block).startswith("block ")

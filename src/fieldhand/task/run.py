@@ -97,7 +97,7 @@ class Run:
 
     @property
     def is_caught(self) -> bool:
-        """Whether a ``Try`` goes on if the node in hand fails."""
+        """Return True if a ``Try`` goes on when the node in hand fails."""
         return any(frame.instead for frame in self.frames)
 
 

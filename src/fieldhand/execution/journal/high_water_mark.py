@@ -26,7 +26,7 @@ _EMPTY = b" " * (2 * _SLOT)
 
 @dataclass(frozen=True, kw_only=True)
 class HighWaterMark:
-    """How far a journal had come.
+    """The last record that a journal had reached.
 
     Attributes:
         epoch: Number of the opening that wrote it.

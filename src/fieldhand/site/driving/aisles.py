@@ -122,7 +122,7 @@ class Aisle:
 
     @property
     def entries(self) -> Points:
-        """Where it opens onto the headlands, in metres east and north, shape (2, 2)."""
+        """Its openings onto the headlands, in metres east and north, shape (2, 2)."""
         return self.frame.world(self.middle_line[[0, -1]])
 
     @cached_property

@@ -95,7 +95,7 @@ class Part:
 
 
 class Known(Protocol):
-    """What is known at some point of a plan; ``|`` is what may be known where two ways meet."""
+    """The knowledge at some point of a plan; ``|`` joins that of two ways that meet."""
 
     def __or__(self, other: Self, /) -> Self: ...
 
@@ -128,7 +128,7 @@ class PlanNode(ABC):
     @property
     @abstractmethod
     def role(self) -> Role:
-        """What the words that it came from are about."""
+        """The subject of the words that it came from."""
 
     # --- the nodes inside --------------------------------------------------------------------------------------------
 
