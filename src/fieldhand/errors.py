@@ -15,7 +15,8 @@
     │   │   ├── JournalError        a mission's folder or journal that cannot be gone on with
     │   │   └── StoreError          where missions wait: the robot's store, the sender's outbox
     │   ├── ProblemError            an orienteering problem that contradicts itself or has no solution
-    │   └── ModelError              the language model: key, endpoint, answer
+    │   ├── ModelError              the language model: key, endpoint, answer
+    │   └── PluginError             an extension of another distribution, named with its distribution
     ├── NotApprovedError            a check failed or the operator said no
     │   ├── NotConfirmedError       there are warnings that nobody has confirmed
     │   └── NotTrustedError         nobody whom this robot trusts has signed
@@ -56,6 +57,7 @@ __all__ = [
     "NotTrustedError",
     "OutputError",
     "PlaceError",
+    "PluginError",
     "ProblemError",
     "ProfileError",
     "RequestError",
@@ -182,6 +184,10 @@ class ProblemError(InputError):
 
 class ModelError(InputError):
     """The language model could not be reached, or did not give an answer that can be used."""
+
+
+class PluginError(InputError):
+    """An extension that another distribution registers cannot be loaded, or is not what its group requires."""
 
 
 class NotApprovedError(FieldhandError):

@@ -1,0 +1,91 @@
+"""Entry points of other distributions: found in a fixed order, loaded on demand, named when they are broken."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from fieldhand.errors import InputError, PluginError
+from fieldhand.plugins import GROUPS, active, found
+
+
+@pytest.fixture
+def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder on the path that distributions are installed into."""
+    monkeypatch.syspath_prepend(tmp_path)
+    return tmp_path
+
+
+def install(folder: Path, distribution: str, entries: str, **modules: str) -> None:
+    """Install a distribution that registers entry points in ``fieldhand.planners``."""
+    info = folder / f"{distribution.replace('-', '_')}-2.5.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {distribution}\nVersion: 2.5\n")
+    (info / "entry_points.txt").write_text(f"[fieldhand.planners]\n{entries}\n")
+    for name, source in modules.items():
+        (folder / f"{name}.py").write_text(source)
+
+
+def test_a_plugin_is_imported_when_it_is_loaded_and_not_before(installed: Path) -> None:
+    install(installed, "acme-plan", "acme = acme_lazy:make", acme_lazy="def make():\n    return 7\n")
+    (plugin,) = [p for p in found("fieldhand.planners") if p.name == "acme"]
+    assert (plugin.distribution, plugin.version, plugin.value) == ("acme-plan", "2.5", "acme_lazy:make")
+    assert "acme_lazy" not in sys.modules
+    made = plugin.load()
+    assert callable(made)
+    assert made() == 7
+
+
+@pytest.mark.parametrize(
+    ("value", "source", "reason"),
+    [
+        ("acme_broken:make", "import nothing_of_this_name", "ModuleNotFoundError: No module named"),
+        ("acme_broken:make", "raise SystemExit(3)", "SystemExit: 3"),
+        ("acme_broken:make", "def make(:", "SyntaxError"),
+        ("acme_broken:make", "made = 1", "AttributeError"),
+        ("acme_broken:make", "raise KeyError", "KeyError"),
+        ("acme broken!", "", "not of the form module:attribute"),
+        ("", "", "not of the form module:attribute"),
+    ],
+)
+def test_whatever_fails_the_error_names_plugin_and_distribution(
+    installed: Path, monkeypatch: pytest.MonkeyPatch, value: str, source: str, reason: str
+) -> None:
+    install(installed, "acme-plan", f"acme = {value}", acme_broken=source)
+    monkeypatch.delitem(sys.modules, "acme_broken", raising=False)
+    plugin = active("fieldhand.planners")["acme"]
+    with pytest.raises(PluginError) as raised:
+        plugin.load()
+    said = str(raised.value)
+    assert reason in said
+    assert "'acme' of acme-plan 2.5" in said
+    assert "fieldhand.planners: acme" in said
+    assert "uninstall acme-plan" in said
+    assert isinstance(raised.value, InputError)
+
+
+def test_of_one_name_the_first_distribution_is_used_and_the_others_are_listed(installed: Path) -> None:
+    install(installed, "zebra", "acme = zebra:make")
+    install(installed, "acme-plan", "acme = acme:make\nother = acme:other")
+    listed = [p for p in found("fieldhand.planners") if p.distribution in {"zebra", "acme-plan"}]
+    assert [(p.name, p.distribution, p.overridden_by) for p in listed] == [
+        ("acme", "acme-plan", ""),
+        ("acme", "zebra", "acme-plan"),
+        ("other", "acme-plan", ""),
+    ]
+    assert active("fieldhand.planners")["acme"].distribution == "acme-plan"
+
+
+def test_no_plugin_overrides_what_is_built_in(installed: Path) -> None:
+    install(installed, "acme-plan", "english = acme:make")
+    (plugin,) = [p for p in found("fieldhand.planners", built_in=["english"]) if p.name == "english"]
+    assert plugin.overridden_by == "fieldhand"
+    assert not plugin.is_active
+    assert "english" not in active("fieldhand.planners", built_in=["english"])
+
+
+def test_a_group_holds_what_is_registered_in_it_alone(installed: Path) -> None:
+    install(installed, "acme-plan", "acme = acme:make")
+    assert [g for g in GROUPS if "acme" in active(g)] == ["fieldhand.planners"]
