@@ -18,13 +18,13 @@ from fieldhand.forecast.rest import Rest, everything, optional_runs, rest_after
 from fieldhand.forecast.state import Spent, Visit
 from fieldhand.forecast.steps import Outlook
 from fieldhand.forecast.ways import Way, chances_short, cost_model, way_of
-from fieldhand.orienteering.preview import Preview
 from fieldhand.places.context import Context
 from fieldhand.site.model import Place
 from fieldhand.task.plan import ForEach, Optional
 
 if TYPE_CHECKING:
     from fieldhand.forecast.walker import Walker
+    from fieldhand.orienteering.preview import Preview
 
 Floats = NDArray[np.float64]
 
@@ -132,6 +132,8 @@ def _several(
 
 def _one(walker: Walker, visit: Visit, rest: Rest, share: float, used: Floats, rng: np.random.Generator) -> Preview:
     """Missions that make the only visit that there is, where it adds no more than its share."""
+    from fieldhand.orienteering.preview import Preview
+
     here, costs = walker.context.here, cost_model(walker.robot)
     there = _length(walker, here, visit.place)
     back, home = (0.0 if rest.first is None else _length(walker, at, rest.first) for at in (visit.end, here))

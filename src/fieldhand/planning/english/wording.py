@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
 from importlib.resources import files
 from typing import Any
 
+from fieldhand.planning.english.rule_cache import cached
 from fieldhand.planning.english.runon import with_stops
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.english.triggers import Triggers, may_match, triggers
@@ -189,40 +190,48 @@ def _end_at(made: list[Word], put: int, end: int) -> None:
 
 
 @cache
-def _books() -> tuple[dict[str, Any], ...]:
-    """The files of rules, in their order."""
+def _texts() -> tuple[str, ...]:
+    """Return the files of rules, in their order."""
     folder = files("fieldhand.planning.english") / "wordings"
     names = sorted(file.name for file in folder.iterdir() if file.name.endswith(".toml"))
-    return tuple(tomllib.loads((folder / name).read_text(encoding="utf-8")) for name in names)
-
-
-def _shorts() -> Iterator[tuple[str, str]]:
-    """Abbreviations and what they stand for; each may hold those before it."""
-    return (pair for book in _books() for pair in book.get("short", {}).items())
+    return tuple((folder / name).read_text(encoding="utf-8") for name in names)
 
 
 @cache
 def _rules() -> tuple[tuple[Triggers, str, str], ...]:
     """What a text must hold for a rule to match, what the rule matches, and what that means."""
+    return tuple(
+        (tuple(frozenset(pieces) for pieces in needed), written, means) for needed, written, means in _record()["rules"]
+    )
+
+
+@cache
+def _record() -> dict[str, Any]:
+    return cached(_texts(), _worked_out)
+
+
+def _worked_out() -> dict[str, Any]:
+    """Return all rules, and the abbreviations written out, each of which may hold those before it."""
+    books = [tomllib.loads(text) for text in _texts()]
     short: dict[str, Triggers] = {}
-    for name, pattern in _shorts():
+    spelt: dict[str, str] = {}
+    for name, pattern in (pair for book in books for pair in book.get("short", {}).items()):
         short[name] = triggers(pattern, short)
-    rules = (rule for book in _books() for rule in book["rule"])
-    return tuple((triggers(written, short), written, rule["means"]) for rule in rules for written in rule["said"])
+        spelt[name] = _spelt_out(pattern, spelt)
+    rules = [
+        ([sorted(pieces) for pieces in triggers(written, short)], written, rule["means"])
+        for book in books
+        for rule in book["rule"]
+        for written in rule["said"]
+    ]
+    return {"rules": rules, "shorts": spelt}
 
 
 @cache
 def _compiled(written: str) -> re.Pattern[str]:
     """A rule between whole words. Few of them are ever needed, so each is made ready when it is."""
-    return re.compile(rf"(?:(?<=\s)|^)(?:{_spelt_out(written, _spelt_shorts())})(?:(?=\s|$)|(?<=\s))")
-
-
-@cache
-def _spelt_shorts() -> dict[str, str]:
-    spelt: dict[str, str] = {}
-    for name, pattern in _shorts():
-        spelt[name] = _spelt_out(pattern, spelt)
-    return spelt
+    spelt = _spelt_out(written, _record()["shorts"])
+    return re.compile(rf"(?:(?<=\s)|^)(?:{spelt})(?:(?=\s|$)|(?<=\s))")
 
 
 def _spelt_out(pattern: str, short: dict[str, str]) -> str:
