@@ -245,7 +245,7 @@ def _ends(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
         return
     wanted = f"return_to_{said.returns}"
     driven = any(
-        n.only_drives and isinstance(n.selector, s.Marker) and n.selector.name == said.returns for n in plan.nodes
+        n.only_drives and n.selector is not None and n.selector.named_marker == said.returns for n in plan.nodes
     )
     if plan.task.composition.nominal != wanted and not driven:
         yield Mismatch(kind="return", message=f"the request ends at the {said.returns}, and the plan does not")

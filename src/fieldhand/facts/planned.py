@@ -104,7 +104,7 @@ class Planned:
     @cached_property
     def markers(self) -> frozenset[str]:
         """Markers that are named."""
-        return frozenset(x.name for _, x in self.selectors if isinstance(x, s.Marker))
+        return frozenset(x.named_marker for _, x in self.selectors if x.named_marker)
 
     @cached_property
     def areas(self) -> tuple[tuple[str, str], ...]:

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from fieldhand.places.spots import Spots
     from fieldhand.places.tell import Tell
     from fieldhand.site.model import Site
-    from fieldhand.terms import Side
+    from fieldhand.terms import MarkerName, Side
 
 #: What decides which places a selector comes to: the site alone; how near they are to the robot, which does not decide
 #: whether there are any; or the mission so far.
@@ -110,6 +110,31 @@ class Selector(ABC):
     def named_tree(self) -> str:
         """The id of the one tree that it names, else empty."""
         return ""
+
+    @property
+    def named_marker(self) -> MarkerName | Literal[""]:
+        """Return the name of the site's marker that it is, else an empty one."""
+        return ""
+
+    @property
+    def members(self) -> tuple[Selector, ...]:
+        """Return the selectors whose places it joins: the parts of a union; of every other selector itself alone."""
+        return (self,)
+
+    @property
+    def any_of(self) -> Selector | None:
+        """Return the group of which it takes any few, those that make a short drive; None if it takes none so."""
+        return None
+
+    @property
+    def row_of(self) -> Selector | None:
+        """Return the place whose row it selects, or a row so many from that row; None for every other selector."""
+        return None
+
+    @property
+    def central(self) -> bool:
+        """Return True if it picks the trees nearest to a middle: that of an area, or of an edge."""
+        return False
 
     @property
     def from_start(self) -> Selector:

@@ -57,3 +57,7 @@ class EdgeMiddle(Counted):
     @property
     def sides(self) -> tuple[Side, ...]:
         return (self.side,)
+
+    @property
+    def central(self) -> bool:
+        return True

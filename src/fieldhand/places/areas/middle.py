@@ -44,3 +44,7 @@ class Middle(Counted):
         else:
             near = message("nearest to the middle of their area")
         return picked(saying.phrase(self.of), self.count, near)
+
+    @property
+    def central(self) -> bool:
+        return True

@@ -52,3 +52,7 @@ class Take(Counted):
     @property
     def depends_on(self) -> DependsOn:
         return "nearness"
+
+    @property
+    def any_of(self) -> Selector:
+        return self.of

@@ -42,6 +42,10 @@ class RowOf(FromGroup):
     def phrase(self, saying: Saying) -> Phrase:
         return saying.phrase(self.of).of_rows(_row_of(self.over, self.origin.from_it(saying)), one=True)
 
+    @property
+    def row_of(self) -> Selector:
+        return self.origin
+
 
 def _row_of(over: int, origin: str) -> str:
     """Return the row of a place, or a row near it; of the place in hand where no origin is given."""

@@ -43,6 +43,10 @@ class Marker(Selector):
     def single(self) -> bool:
         return True
 
+    @property
+    def named_marker(self) -> MarkerName:
+        return self.name
+
     def _place(self, resolution: Resolution) -> Place:
         """A missing start is the first tree of the file, a missing end is the start; a charger has no stand-in."""
         site = resolution.site

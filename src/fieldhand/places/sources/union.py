@@ -56,6 +56,10 @@ class Union(Selector):
         return len(self.parts) == 1 and self.parts[0].single
 
     @property
+    def members(self) -> tuple[Selector, ...]:
+        return self.parts
+
+    @property
     def size(self) -> Range:
         """The sum of the parts at most; all of it where each part is a tree of its own."""
         sizes = [part.size for part in self.parts]

@@ -85,7 +85,7 @@ def _merged(lead: Part, part: Part, site: Site) -> Part | None:
     if lead.places is None:
         return whole if lead.spacing is not None else None
     found = find(lead.places, site)
-    edge = isinstance(found.selector, s.Edge) and lead.relation is not None and lead.relation.kind == "ALONG"
+    edge = found.line and not found.rows and lead.relation is not None and lead.relation.kind == "ALONG"
     if lead.kind != "lead" and not (found.rows or edge):
         return None
     if part.places is None:

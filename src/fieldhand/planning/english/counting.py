@@ -9,6 +9,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.asking import each_or_in_all, every_or_how_many
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.selections import are_several_rows, named_places
 from fieldhand.planning.english.sets import some_of
 from fieldhand.planning.english.syntax import Object, Part
 
@@ -74,9 +75,8 @@ def counted(found: Found, part: Part, wanted: Wanted) -> Found:
     selector = found.selector
     if isinstance(selector, s.Nearest):
         return replace(found, selector=replace(selector, count=count), counted=count)
-    if isinstance(selector, s.Corners | s.Union):
-        size = len(selector.which) if isinstance(selector, s.Corners) else len(selector.parts)
-        return found if size == count else _either(part, count, size)
+    if named := named_places(selector):
+        return found if len(named) == count else _either(part, count, len(named))
     return Found(selector=some_of(selector, count), many=True, counted=count)
 
 
@@ -120,7 +120,7 @@ def _in_rows(found: Found, part: Part, count: int | None, plural: bool) -> Found
             ),
             (message("{number} in each row", context="answer", number=number),),
         )
-    if count is None and _are_several(found.selector):
+    if count is None and are_several_rows(found.selector):
         asked = message("'{said}': one in each of them, or one in all?", context="question", said=text)
         raise each_or_in_all(
             part, asked, (message("one in each of them", context="answer"), message("one in all", context="answer")), 1
@@ -131,11 +131,6 @@ def _in_rows(found: Found, part: Part, count: int | None, plural: bool) -> Found
 def _says_one(part: Part) -> bool:
     """Whether the command says that it wants one ("a picture")."""
     return bool(part.objects) and any(t.text.lower() in ("a", "an", "one") for t in part.objects[0].quantity)
-
-
-def _are_several(rows: s.Selector) -> bool:
-    """Whether the words name several rows."""
-    return isinstance(rows, s.Union) or (isinstance(rows, s.Rows) and (rows.first != rows.last or not rows.first))
 
 
 def _in_area(found: Found, part: Part, count: int | None, plural: bool) -> Found:

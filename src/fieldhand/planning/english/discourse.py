@@ -28,6 +28,7 @@ from fieldhand.planning.english.hand import ACTS as _ACTS
 from fieldhand.planning.english.hand import said_of_places
 from fieldhand.planning.english.lines import as_stops, points_over, stops_of
 from fieldhand.planning.english.places import find
+from fieldhand.planning.english.selections import says_how_many
 from fieldhand.planning.english.syntax import Part
 from fieldhand.planning.english.tokens import Term
 from fieldhand.task.plan import Span
@@ -202,7 +203,8 @@ class Discourse(Elliptic):
             return
         if part.places is not None and part.relation is not None and find(part.places, self._site).region:
             last = [step for step, _ in d.walk(self.told.root) if isinstance(step, d.Capture)]
-            if self._loop is not None or not (last and isinstance(last[-1].at, s.Take)):  # "... and of row 4"
+            at = last[-1].at if last else None
+            if self._loop is not None or at is None or at.any_of is None:  # "... and of row 4"
                 raise every_or_how_many(part)
         self._act(part, self._objects)
 
@@ -285,7 +287,7 @@ class Discourse(Elliptic):
         if self._loop is not None and self._loop.optional:
             self._loop.said += part.said  # each tree is visited once anyway
             return
-        if not isinstance(select, s.Take | s.Top | s.Extreme | s.Nearest | s.Adjacent | s.Corners | s.Union):
+        if select is None or not says_how_many(select):
             raise unclear(
                 part.terms, message("it is not clear how many trees that are"), message("say how many trees, and where")
             )

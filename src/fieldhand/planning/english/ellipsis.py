@@ -16,6 +16,7 @@ from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.hand import ACTS
 from fieldhand.planning.english.leaving import Leaving
 from fieldhand.planning.english.places import find
+from fieldhand.planning.english.selections import may_be_listed
 from fieldhand.planning.english.syntax import Part
 
 
@@ -69,7 +70,7 @@ class Elliptic(Leaving):
         ):
             return False
         found = find(part.places, self._site)
-        if isinstance(found.selector, s.Marker) or found.here or found.region or found.many:
+        if found.selector.named_marker or found.here or found.region or found.many:
             return False
         same = [step.at for step, _ in d.walk(self.told.root) if isinstance(step, d.Capture) and step.at is not None]
         same += [step.place for step, _ in d.walk(self.told.root) if isinstance(step, d.Go)]
@@ -102,15 +103,14 @@ class Elliptic(Leaving):
         loop = self._loop
         if loop is None or loop not in self._sentence_steps or part.places is None:
             return False
-        if part.listed and isinstance(loop.select, s.Corners | s.Take):
+        if part.listed and may_be_listed(loop.select):
             self._listing, loop.select = loop, s.Union(parts=())
-        if self._listing is not loop or not isinstance(loop.select, s.Union):
+        if self._listing is not loop or loop.select.members == (loop.select,):
             return False
         found = self._related(part)
         if found.here or found.object_only or found.optional or found.at_most is not None:
             raise unclear(part.terms, message("is that one of the places?"), message("name the places in one list"))
-        named = found.selector.parts if isinstance(found.selector, s.Union) else (found.selector,)
-        loop.select = s.Union(parts=(*loop.select.parts, *named))
+        loop.select = s.Union(parts=(*loop.select.members, *found.selector.members))
         loop.said += part.said
         if part.then:
             loop.order = "given"

@@ -41,3 +41,8 @@ class Found:
     one_by_one: tuple[s.Selector, ...] = ()
     assumed: tuple[str, ...] = ()
     object_only: bool = False
+
+    @property
+    def line(self) -> bool:
+        """Return True if one can go along it: rows, or an edge."""
+        return self.rows or isinstance(self.selector, s.Edge)

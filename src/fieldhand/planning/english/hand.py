@@ -14,8 +14,8 @@ from fieldhand.planning.english.faults import Question, spans_of, text_of, uncle
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.english.onebyone import counted_from
-from fieldhand.planning.english.pick import is_spot
 from fieldhand.planning.english.places import are_several, beyond, find
+from fieldhand.planning.english.selections import is_spot, skips_rows, so_many_nearby, starts_here
 from fieldhand.planning.english.spacing import Ranking
 from fieldhand.planning.english.syntax import Object, Part
 from fieldhand.planning.english.tokens import Term
@@ -31,16 +31,11 @@ _PLAIN = ("OF", "AT", "FROM", "FOR", "INSIDE", "ALONG", "SPREAD")
 ACTS = ("act_on_objects", "act_on_places", "act_bare", "more_objects", "more_places")
 
 
-def starts_here(selector: s.Selector) -> bool:
-    """Whether a selector is a way along or across rows from the place in hand."""
-    return isinstance(selector, s.RowOf | s.AlongRow | s.Across) and selector.origin == s.Here()
-
-
 def _counts(selector: s.Selector, side: str) -> bool:
     """Whether it takes every so many of a row or of the rows: where the count begins matters."""
     if isinstance(selector, s.EveryNth):
         return selector.counted_from != side
-    return isinstance(selector, s.Rows) and selector.every > 1
+    return skips_rows(selector)
 
 
 def said_of_places(part: Part) -> tuple[Span, ...]:
@@ -148,8 +143,8 @@ class Hand:
     def _add_loop(self, found: Found, part: Part) -> d.Loop:
         given = any(t.kind == "INORDER" for t in part.tails)
         select = found.selector
-        if isinstance(select, s.Take) and isinstance(select.of, s.Nearest) and select.of.count == 1:
-            select = replace(select.of, count=select.count)  # "go to trees nearby | and take two pictures"
+        if taken := so_many_nearby(select.any_of, select.size.low):
+            select = taken  # "go to trees nearby | and take two pictures"
         loop = d.Loop(
             select=select,
             body=d.Block(),
@@ -173,15 +168,16 @@ class Hand:
         loop = self._loop
         if loop is None or block is not loop.body or loop.body.steps or captures < 2:
             return False
-        if not isinstance(loop.select, s.Nearest) or loop.select.count != 1:
+        nearby = so_many_nearby(loop.select, captures)
+        if nearby is None:
             return False
-        loop.select = replace(loop.select, count=captures)
+        loop.select = nearby
         return True
 
     def _one_after_the_other(self, loop: d.Loop) -> None:
         """Visit the places of a loop as they are named; those of "the row" from where the robot is."""
         loop.order = "given"
-        if isinstance(loop.select, s.RowOf) and loop.select.origin == s.Here():
+        if loop.select.row_of == s.Here():
             loop.select = s.Ordered(by="nearest_first", of=loop.select)
 
     def _in_order(self, loop: d.Loop, term: Term) -> None:
@@ -197,7 +193,7 @@ class Hand:
             raise unclear([term], message("two orders cannot be kept"), message("say one"))
         side: Side = "south" if str(by).startswith("south") else "east" if str(by).startswith("east") else "north"
         if side in ("south", "east") and any(_counts(part, side) for part in loop.select.walk()):
-            if not any(isinstance(part, s.Rows) and part.every > 1 for part in loop.select.walk()):
+            if not any(skips_rows(part) for part in loop.select.walk()):
                 loop.select = counted_from(loop.select, side)
                 counts = message("'{said}': they are counted from there, too.", context="assumption", said=term.text)
                 self.told.assumptions.append(counts)
@@ -268,7 +264,7 @@ class Hand:
             found = replace(found, selector=nearest)
         relation = part.relation
         self._check_rows(found, part)
-        if relation is not None and relation.kind == "ALONG" and not (found.rows or isinstance(found.selector, s.Edge)):
+        if relation is not None and relation.kind == "ALONG" and not found.line:
             raise unclear(part.terms, message("along which row?"), message("name the row: 'along row 3'"))
         if relation is not None and relation.kind == "FROM" and found.rows:
             raise unclear(
@@ -307,7 +303,7 @@ class Hand:
         spoken: list[s.Selector] = []
         for step, _ in d.walk(self.told.root):
             place = step.place if isinstance(step, d.Go) else step.at if isinstance(step, d.Capture) else None
-            known = place is None or isinstance(place, s.Marker) or place in spoken
+            known = place is None or place.named_marker or place in spoken
             if place is not None and not known and place.single and not place.relative:
                 spoken.append(place)
         if len(spoken) < 2:
@@ -349,7 +345,7 @@ class Hand:
     def _at_one_place(self) -> bool:
         """Whether the last step went to one place, of which "a tree there" can be said."""
         last = self._scope.steps[-1] if self._scope.steps else None
-        return isinstance(last, d.Go) and not isinstance(last.place, s.Marker)
+        return isinstance(last, d.Go) and not last.place.named_marker
 
     def _fresh(self) -> str:
         self._readings += 1

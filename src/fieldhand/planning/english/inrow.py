@@ -192,7 +192,7 @@ def ranked_in_rows(bag: Bag, of: s.Selector, group: Group, site: Site) -> Found:
         )
     if tree.plural and bag.count is None and number == 1:
         raise how_many(bag.phrase)
-    if group.along and rank is not None and isinstance(group.rows, s.RowOf) and start == From():
+    if group.along and rank is not None and group.rows is not None and group.rows.row_of and start == From():
         text = text_of(bag.phrase.terms)
         raise Question(
             message("'{said}': counted from the end of the row, or from here?", context="question", said=text),
@@ -292,8 +292,8 @@ def parted(area: s.Selector) -> tuple[s.Selector, list[s.Where]]:
     if isinstance(area, s.Where):
         inner, tests = parted(area.of)
         return inner, [area, *tests]
-    if isinstance(area, s.Union):
-        found = [parted(part) for part in area.parts]
+    if area.members != (area,):
+        found = [parted(part) for part in area.members]
         if all(one[1] == found[0][1] for one in found):
             return s.Union(parts=tuple(one[0] for one in found)), found[0][1]
     of = getattr(area, "of", None)
@@ -331,7 +331,8 @@ def _side(towards: Towards) -> CountedFrom:
 def next_in_row(bag: Bag, group: Group) -> Found | None:
     """ "The next tree in the row", "the next three trees of the row"."""
     row = group.rows
-    if not isinstance(row, s.RowOf) or row.over or row.of != s.Trees() or group.area != row or not group.plain_rows:
+    origin = None if row is None else row.row_of
+    if origin is None or row != s.RowOf(origin=origin) or group.area != row or not group.plain_rows:
         return None
     if bag.has("ATTRVAL") or bag.compared:
         return None
@@ -341,7 +342,7 @@ def next_in_row(bag: Bag, group: Group) -> Found | None:
         return None
     number = bag.count or 1
     towards: Towards = "up" if group.upwards else "down"
-    parts = tuple(s.AlongRow(trees=k, towards=towards, origin=row.origin) for k in range(1, number + 1))
+    parts = tuple(s.AlongRow(trees=k, towards=towards, origin=origin) for k in range(1, number + 1))
     if number == 1:
         return Found(selector=parts[0], counted=1)
     return Found(selector=s.Union(parts=parts), many=True, counted=number)
@@ -376,5 +377,5 @@ def successive_trees(bag: Bag, group: Group) -> Found:
 
 
 def _check_origin(bag: Bag, origin: s.Selector) -> None:
-    if isinstance(origin, s.Marker | s.PointsIn | s.Spaced):
+    if origin.named_marker or isinstance(origin, s.PointsIn | s.Spaced):
         raise bag.fault(message("a marker stands in no row"), message("name the tree to count from"))

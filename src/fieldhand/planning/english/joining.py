@@ -10,6 +10,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.bag import bag_of
 from fieldhand.planning.english.faults import Question, text_of
 from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.selections import starts_here
 from fieldhand.planning.english.syntax import Chain, NounPhrase, Places
 from fieldhand.planning.english.tokens import Term
 
@@ -34,8 +35,8 @@ def of_the_other(places: Places, found: list[Found]) -> Chain | None:
     """ "Row 4, the easternmost tree": with a comma alone, an area says where the other is; None if that is not said."""
     if len(found) != 2 or set(places.joins[0].text) - set(", "):
         return None
-    areas = [f.region or f.rows or isinstance(f.selector, s.Edge) for f in found]
-    middles = [isinstance(f.selector, s.Middle | s.EdgeMiddle) for f in found]
+    areas = [f.region or f.line for f in found]
+    middles = [f.selector.central for f in found]
     if not any(areas):
         areas = middles
     if areas[0] == areas[1]:
@@ -47,7 +48,7 @@ def of_the_other(places: Places, found: list[Found]) -> Chain | None:
     if named or any(t.kind in ("EXCEPT", "OUTSIDE") for t in inner.terms):
         return None
     relation = replace(places.joins[0], kind="OF", text="of", value="OF")
-    if isinstance(found[areas.index(True)].selector, s.Middle | s.EdgeMiddle):
+    if found[areas.index(True)].selector.central:
         relation = replace(relation, kind="AT", text="at", value="AT")
     return Chain(phrases=(*inner.phrases, *area.phrases), relations=(*inner.relations, relation, *area.relations))
 
@@ -80,8 +81,7 @@ def from_each_other(found: list[Found]) -> list[Found]:
     made = found[:1]
     for one in found[1:]:
         selector: Any = one.selector
-        steps = isinstance(selector, s.AlongRow | s.Across | s.RowOf) and selector.origin == s.Here()
-        if steps and not made[-1].many and not made[-1].here:
+        if starts_here(selector) and not made[-1].many and not made[-1].here:
             one = replace(one, selector=replace(selector, origin=made[-1].selector))
         made.append(one)
     return made

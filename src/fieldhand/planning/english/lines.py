@@ -84,8 +84,8 @@ def stops_of(found: Found | None, part: Part, wanted: Wanted, site: Site) -> Fou
             )
         return _found(s.Spaced(apart_m=apart, count=count), count)
     selector = found.selector
-    if isinstance(selector, s.InZone) and selector.of == s.Trees() and not selector.outside:
-        return _found(s.Spaced(apart_m=apart, count=count, zone=selector.zone), count)
+    if zone := selector.whole_zone:
+        return _found(s.Spaced(apart_m=apart, count=count, zone=zone), count)
     if found.rows:
         return _in_rows(found, part, s.Spaced(apart_m=apart, count=count, of=selector), site)
     if selector.single and not found.many and count:
@@ -97,7 +97,7 @@ def stops_of(found: Found | None, part: Part, wanted: Wanted, site: Site) -> Fou
         raise unclear(
             part.terms, message("how many trees are that?"), message("say 'three trees 15 m apart', for example")
         )
-    area = selector.of if isinstance(selector, s.Take) else selector
+    area = selector.any_of or selector
     return Found(
         selector=s.Apart(apart_m=apart, count=number, least=spacing.value.least, of=area), many=True, counted=number
     )
@@ -130,10 +130,10 @@ def _found(selector: s.Selector, count: int) -> Found:
 
 def points_over(found: Found, part: Part, wanted: Wanted) -> Found:
     """ "5 soil samples spread over the wet corner": free points of a zone, as many as there are captures."""
-    zone = found.selector
-    if isinstance(zone, s.PointsIn):
+    if isinstance(found.selector, s.PointsIn):
         return found
-    if not (isinstance(zone, s.InZone) and zone.of == s.Trees() and not zone.outside):
+    zone = found.selector.whole_zone
+    if not zone:
         raise unclear(
             part.terms,
             message("only over a zone of the site can points be spread"),
@@ -145,4 +145,4 @@ def points_over(found: Found, part: Part, wanted: Wanted) -> Found:
         raise Question(
             message("'{said}': at how many points?", context="question", said=text_of(part.terms)), ("3", "5")
         )
-    return Found(selector=s.PointsIn(zone=zone.zone, count=count), many=count > 1, counted=count)
+    return Found(selector=s.PointsIn(zone=zone, count=count), many=count > 1, counted=count)

@@ -42,9 +42,7 @@ class Motion(Until):
             found = Found(selector=s.Take(count=found.counted or 1, of=s.Other()), many=(found.counted or 1) > 1)
         if found.region and part.kind != "visit":
             self._area_gone_to = text_of(part.places.terms)
-            found = Found(
-                selector=found.selector if isinstance(found.selector, s.Marker) else self._one_of(found.selector)
-            )
+            found = Found(selector=found.selector if found.selector.named_marker else self._one_of(found.selector))
         if (
             found.selector == s.Marker(name="start")
             and not self.told.root.steps
@@ -119,8 +117,8 @@ class Motion(Until):
 
     def _marker_spoken_of(self) -> str:
         """The marker that the request named last; empty if it named none."""
-        names = [part.name for step, _ in d.walk(self.told.root) for at in (repeating.selects(step),) if at is not None
-                 for part in at.walk() if isinstance(part, s.Marker)]  # fmt: skip
+        places = [at for step, _ in d.walk(self.told.root) if (at := repeating.selects(step)) is not None]
+        names = [part.named_marker for at in places for part in at.walk() if part.named_marker]
         return names[-1] if names else ""
 
     def _home(self, part: Part) -> tuple[Then, s.Selector | None]:

@@ -14,6 +14,7 @@ from fieldhand.places.resolution import resolve
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question, text_of
 from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.selections import names_several_rows
 from fieldhand.planning.english.sets import Group
 from fieldhand.site.model import Site
 from fieldhand.terms import Side
@@ -36,7 +37,7 @@ def one_by_one(selector: s.Selector, site: Site) -> tuple[s.Selector, ...]:
     planting = site.planting
     index = [site.by_id[place.id].index for place in places if place.id in site.by_id]
     numbers = sorted({int(k) for k in planting.row_of[index] if k >= 0})
-    parts = selector.parts if isinstance(selector, s.Union) else (selector,)
+    parts = selector.members
     inner_most = {part.of for part in parts if isinstance(part, s.Rows)}
     plain = len(inner_most) == 1 and all(isinstance(part, s.Rows) for part in parts)
     of = next(iter(inner_most)) if plain else selector
@@ -57,8 +58,8 @@ def distributed(found: Found, group: Group, bag: Bag) -> Found:
             message("up to so many in each row cannot be said yet"),
             message("say how many in each row, or up to how many in all"),
         )
-    one = isinstance(found.selector, s.Take) and found.selector.count == 1 and not found.many
-    if one and group.rows is not None and not group.one_by_one and _are_several(group.rows):
+    one = found.selector.any_of is not None and found.selector.single and not found.many
+    if one and group.rows is not None and not group.one_by_one and names_several_rows(group.rows):
         text = text_of(bag.phrase.terms)
         choices = (
             message("{said} in each of the rows", context="answer", said=text),
@@ -76,11 +77,6 @@ def distributed(found: Found, group: Group, bag: Bag) -> Found:
         )
     parts = tuple(swapped(found.selector, group.rows, one) for one in group.one_by_one)
     return Found(selector=s.Union(parts=parts), many=True, each=True, assumed=found.assumed)
-
-
-def _are_several(rows: s.Selector) -> bool:
-    """Whether several rows or blocks were named one by one or as a range."""
-    return isinstance(rows, s.Union) or (isinstance(rows, s.Rows) and rows.first != rows.last)
 
 
 def spread_over(selector: s.Selector, area: s.Selector, ones: Iterable[s.Selector]) -> s.Selector:

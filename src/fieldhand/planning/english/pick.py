@@ -18,6 +18,7 @@ from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.inrow import ends_of_rows, every_nth, next_in_row, opposite, ranked_in_rows, stepped
 from fieldhand.planning.english.onebyone import distributed
 from fieldhand.planning.english.regions import corners, extremes, middle, region
+from fieldhand.planning.english.selections import is_about_rows, is_spot
 from fieldhand.planning.english.sets import Group, some_of
 from fieldhand.planning.english.tokens import Term
 from fieldhand.site.model import Site
@@ -61,7 +62,7 @@ def picked(bag: Bag, group: Group, site: Site) -> Found:
 
 def _whole_rows(bag: Bag, group: Group) -> None:
     """Halves and edges are those of the orchard or of a block, never of a row."""
-    rows = group.rows is not None and any(isinstance(part, s.Rows | s.RowOf) for part in group.rows.walk())
+    rows = group.rows is not None and is_about_rows(group.rows)
     if rows and group.rows_of and bag.has("EDGE", "HALF", "QUARTER", "SIDE"):
         advice = message("say 'trees 1 to 9 of row 3', or 'the trees of row 3 in the northern half of the orchard'")
         raise bag.fault(message("a row has no halves or edges"), advice)
@@ -197,16 +198,16 @@ def _is_ranked(bag: Bag, group: Group, superlative: Term | None) -> bool:
 
 def _points(bag: Bag, group: Group) -> Found | None:
     """ "Four spots in the wet corner": free points of a zone, not trees."""
-    zone = group.area
+    zone = group.area.whole_zone
     points = all(t.text.lower() not in ("one", "ones") for t in bag.words("PLACE"))
-    if not (points and isinstance(zone, s.InZone) and zone.of == s.Trees() and not zone.outside):
+    if not (points and zone):
         return None
     if bag.has("RANDOM"):
         raise bag.fault(
             message("points are spread evenly over a zone, not at random"),
             message("say 'at 3 points', or '3 random trees'"),
         )
-    if not bag.only("PLACE", "OTHER") or group.anchor is not None or group.kept(zone) != zone:
+    if not bag.only("PLACE", "OTHER") or group.anchor is not None or group.kept(group.area) != group.area:
         return None
     bag.take("OTHER")
     place = bag.take("PLACE")
@@ -220,18 +221,13 @@ def _points(bag: Bag, group: Group) -> Found | None:
         )
     bag.any = False
     count = bag.count or 1
-    return Found(selector=s.PointsIn(zone=zone.zone, count=count), many=count > 1, counted=count)
+    return Found(selector=s.PointsIn(zone=zone, count=count), many=count > 1, counted=count)
 
 
 def _following(bag: Bag, group: Group) -> Found | None:
     """ "The next tree in the row" is the next along it; "a nearby tree in the row" is not."""
     said = bag.words("NEARBY")
     return next_in_row(bag, group) if said and said[0].text.lower() == "next" else None
-
-
-def is_spot(place: s.Selector) -> bool:
-    """Whether a place is a spot of the ground: the tree nearest to a corner or a middle is the one there."""
-    return place.single and isinstance(place, s.Corners | s.Middle | s.EdgeMiddle)
 
 
 def _ranked(bag: Bag, of: s.Selector, plural: bool, pick: Callable[[int, s.Selector], s.Selector]) -> Found:

@@ -32,6 +32,7 @@ from fieldhand.planning.english.joining import (
 from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.english.pick import picked
 from fieldhand.planning.english.rows import rows_meant, some_block, speaks_of_rows, unnamed_block
+from fieldhand.planning.english.selections import are_meant_each, measures_from_here
 from fieldhand.planning.english.sets import Group
 from fieldhand.planning.english.syntax import Chain, NounPhrase, Places
 from fieldhand.planning.english.tokens import Term
@@ -143,9 +144,7 @@ def _after(found: Found, before: Found | None, places: Places) -> Found:
     Raises:
         Unclear: Several places were named before.
     """
-    far_or_near = [part for part in found.selector.walk() if isinstance(part, s.Nearest | s.Farthest)]
-    of_it = [part for part in far_or_near if s.Here() in part.inner]
-    if before is None or not of_it:
+    if before is None or not measures_from_here(found.selector):
         return found
     if before.many or before.here or before.selector.relative:
         raise unclear(places.terms, message("it is not clear next to what"), message("say it in a sentence of its own"))
@@ -359,7 +358,7 @@ def _describe(
         _row_of(bag, group, relation, behind, inner)
         return
     anchored = bag.has(*_ANCHORED) and not group.anchor
-    if kind == "NEAR" and isinstance(behind.selector, s.Middle | s.EdgeMiddle):
+    if kind == "NEAR" and behind.selector.central:
         kind = "AT"  # "somewhere near the middle" is the middle
     if kind == "FROM" and not anchored:
         raise unclear(
@@ -367,7 +366,7 @@ def _describe(
             message("from there, but what?"),
             message("say 'nearest to', or 'within 20 m of'"),
         )
-    spot = bag.has("ADJACENT") and isinstance(behind.selector, s.Middle | s.EdgeMiddle) and not group.anchor
+    spot = bag.has("ADJACENT") and behind.selector.central and not group.anchor
     match kind:
         case "FROM":
             group.anchor = _single(behind, inner)
@@ -409,17 +408,17 @@ def _row_of(bag: Bag, group: Group, relation: Term, behind: Found, inner: _Part)
 def _among(bag: Bag, group: Group, relation: Term, behind: Found, inner: _Part) -> None:
     """ "... in the northern half", "... of row 3", "... along row 3", "... spread over the wet corner"."""
     kind, terms = relation.kind, [relation, *inner.phrase.terms]
-    if kind == "SPREAD" and bag.has("PLACE") and not isinstance(behind.selector, s.InZone):
+    if kind == "SPREAD" and bag.has("PLACE") and not behind.selector.whole_zone:
         raise unclear(terms, message("free points are spread over a zone"), _SPREAD_ADVICE)
     if kind == "SPREAD" and not bag.has("PLACE"):
         bag.spread = (relation,)
-    if kind == "ALONG" and not (behind.rows or isinstance(behind.selector, s.Edge)):
+    if kind == "ALONG" and not behind.line:
         raise unclear(terms, message("along which row?"), message("name the row: 'along row 3'"))
     way = relation.text.lower().split() if kind == "ALONG" else []
     group.upwards = "up" in way and "down" not in way
     group.along = group.along or kind == "ALONG"
     group.rows_of = group.rows_of or (behind.rows and kind == "OF")
-    at_each = behind.each or (isinstance(behind.selector, s.Corners) and bool(bag.article))
+    at_each = behind.each or (are_meant_each(behind.selector) and bool(bag.article))
     if at_each and behind.many and not (behind.region or bag.as_many or bag.up_to):
         if bag.count not in (None, 1):
             raise unclear(

@@ -83,12 +83,11 @@ def _which(bag: Bag) -> tuple[CornerName, ...]:
 def middle(bag: Bag, of: s.Selector) -> Found:
     """The trees nearest to the middle of an area or of an edge."""
     bag.take("MIDDLE")
-    zone = of
     treeless = bag.only("PLACE", "PLOT") and bag.count in (None, 1) and not (bag.another or bag.plural or bag.each)
-    if treeless and isinstance(zone, s.InZone) and zone.of == s.Trees() and not zone.outside:
+    if treeless and of.whole_zone:
         bag.take("PLACE")
         bag.any = False
-        return Found(selector=s.PointsIn(zone=zone.zone))
+        return Found(selector=s.PointsIn(zone=of.whole_zone))
     tree = bag.take("TREE", "PLACE")
     bag.take("PLOT")
     bag.take("SIDE")

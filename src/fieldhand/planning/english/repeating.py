@@ -11,6 +11,7 @@ from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.onebyone import swapped
+from fieldhand.planning.english.selections import names_here
 from fieldhand.planning.english.syntax import Part
 
 
@@ -26,7 +27,7 @@ def as_many_as(steps: list[d.Step], found: Found) -> Found:
         return found
     last = next((s_ for s_ in reversed(steps) if selects(s_) is not None), None)
     before = None if last is None else selects(last)
-    if isinstance(before, s.Union) and any(isinstance(part, s.Here) for part in before.inner):
+    if before is not None and names_here(before):
         # "Photograph it and the one beside it": the place was come to before.
         before = next((at for step in reversed(steps) if isinstance(at := selects(step), s.Take)), before)
     if not isinstance(before, s.Take):
@@ -107,7 +108,7 @@ def without_place(passage: d.Block, part: Part) -> None:
             first.select = replace(select, near=s.Here())
         case d.Loop(select=s.Nearest() as select):
             first.select = replace(select, to=s.Here())
-        case d.Loop(select=s.Union() as select) if any(isinstance(part, s.Here) for part in select.inner):
+        case d.Loop(select=select) if names_here(select):
             pass  # "it and the one beside it": of the new place now
         case d.Loop(body=body):
             passage.steps = [*body.steps, *passage.steps[1:]]

@@ -64,7 +64,7 @@ def rows_meant(bag: Bag, group: Group, size: int | None, site: Site) -> Found:
     tested = filtered(bag, found.selector, site)
     bag.compared = [terms for terms in compared if terms[0].start < head.start]
     bag.finish()
-    if group.row_of is not None and not any(isinstance(part, s.RowOf) for part in found.selector.walk()):
+    if group.row_of is not None and all(part.row_of is None for part in found.selector.walk()):
         raise bag.fault(message("which row is meant is said in two ways"), _WHICH)
     found = replace(found, assumed=(*found.assumed, *group.assumed))
     kept = group.kept(tested)
@@ -200,8 +200,7 @@ def _numbered(bag: Bag, of: s.Selector, site: Site) -> Found:
         raise bag.fault(
             message("every how many of which rows?"), message("say 'every third row starting with row 2', for example")
         )
-    blocks = isinstance(of, s.Union) and all(isinstance(part, s.InBlock) for part in of.parts)
-    areas = of.parts if isinstance(of, s.Union) and blocks else (of,)
+    areas = of.members if all(isinstance(part, s.InBlock) for part in of.members) else (of,)
     parts = tuple(s.Rows(first=first, last=last, every=nth, of=area) for area in areas for first, last in ranges)
     selector = parts[0] if len(parts) == 1 else s.Union(parts=parts)
     return _area(selector, bag, site, several=(named is not None and named.plural) or len(areas) > 1)

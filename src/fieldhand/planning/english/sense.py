@@ -12,6 +12,7 @@ from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import PLAINLY, Question, Unclear
+from fieldhand.planning.english.selections import may_be_near, names_here
 from fieldhand.planning.planner import Reason
 from fieldhand.task.conditions import readings
 from fieldhand.task.plan import Span
@@ -87,7 +88,7 @@ def _blocks(root: d.Block) -> Iterator[d.Block]:
 def _leads_nowhere(step: d.Step) -> bool:
     """Whether a step drives to a place, and does nothing there."""
     if isinstance(step, d.Go):
-        return not isinstance(step.place, s.Marker) and not _is_near(step.place)
+        return not step.place.named_marker and not may_be_near(step.place)
     return isinstance(step, d.Loop) and not step.body.steps
 
 
@@ -97,11 +98,7 @@ def _is_elsewhere(step: d.Step | None) -> bool:
         return False
     place = step.place if isinstance(step, d.Go) else step.select if isinstance(step, d.Loop) else None
     place = step.at if isinstance(step, d.Capture) else place
-    return place is not None and not isinstance(place, s.Marker) and not _is_near(place)
-
-
-def _is_near(place: s.Selector) -> bool:
-    return any(isinstance(part, s.Here | s.Take | s.Other | s.RowOf | s.Nearest) for part in place.walk())
+    return place is not None and not place.named_marker and not may_be_near(place)
 
 
 def _is_of_all(step: d.Step, after: d.Step | None) -> bool:
@@ -121,15 +118,14 @@ def _between(step: d.Step, after: d.Step | None, request: str) -> str:
 
 
 def _is_mixed(step: d.Step) -> bool:
-    if not isinstance(step, d.Loop) or not isinstance(step.select, s.Union):
-        return False
-    return any(isinstance(part, s.Here) for part in step.select.parts) and bool(step.body.steps)
+    return isinstance(step, d.Loop) and names_here(step.select) and bool(step.body.steps)
 
 
 def _is_far_for_nothing(step: d.Step, after: d.Step | None) -> bool:
     """ "Move as far away as possible for a picture of another tree": that tree is meant to be far away."""
     far = isinstance(step, d.Go) and isinstance(step.place, s.Farthest)
-    return far and isinstance(after, d.Capture) and isinstance(after.at, s.Take) and isinstance(after.at.of, s.Other)
+    at = after.at if isinstance(after, d.Capture) else None
+    return far and at is not None and isinstance(at.any_of, s.Other)
 
 
 def _is_tested_twice(step: d.Step, after: d.Step | None) -> bool:
@@ -141,7 +137,7 @@ def _is_tested_twice(step: d.Step, after: d.Step | None) -> bool:
 def _is_announced(root: d.Block) -> bool:
     """ "Two trees get a picture": nothing says which trees, and what is said behind it takes pictures too."""
     first = root.steps[0] if root.steps else None
-    if not isinstance(first, d.Loop) or not isinstance(first.select, s.Take) or first.select.of != s.Trees():
+    if not isinstance(first, d.Loop) or first.select.any_of != s.Trees():
         return False
     taken = {step.action for step in first.body.steps if isinstance(step, d.Capture)}
     later = [step for step, _ in d.walk(root) if isinstance(step, d.Capture) and step not in first.body.steps]

@@ -72,7 +72,7 @@ class Group:
 
     def add(self, found: Found, phrase: NounPhrase) -> None:
         """Only trees of an area, or of those that another phrase selects."""
-        if found.here or isinstance(found.selector, s.Marker | s.TreeIs):
+        if found.here or found.selector.named_marker or found.selector.named_tree:
             raise unclear(
                 phrase.terms, message("there are no trees in one place"), message("say 'the tree nearest to' it")
             )
@@ -130,8 +130,8 @@ def inside(outer: s.Selector, inner: s.Selector) -> s.Selector:
     """An expression with its innermost "every tree" replaced."""
     if outer == s.Trees():
         return inner
-    if isinstance(outer, s.Union):
-        return s.Union(parts=tuple(inside(part, inner) for part in outer.parts))
+    if outer.members != (outer,):
+        return s.Union(parts=tuple(inside(part, inner) for part in outer.members))
     return outer.around(inside(outer.of, inner)) if isinstance(outer, FromGroup) else outer
 
 
@@ -156,8 +156,7 @@ def both(first: s.Selector, second: s.Selector, phrase: NounPhrase) -> s.Selecto
 
 
 def _by_rows(selector: s.Selector) -> bool:
-    parts = selector.parts if isinstance(selector, s.Union) else (selector,)
-    return all(isinstance(part, BY_ROWS) for part in parts)
+    return all(isinstance(part, BY_ROWS) for part in selector.members)
 
 
 def _checked(selector: s.Selector, outer: s.Selector, phrase: NounPhrase) -> s.Selector:

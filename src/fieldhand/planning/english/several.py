@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import combinations
 
 from fieldhand.errors import PlaceError, TaskError
@@ -13,6 +13,7 @@ from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import unclear
+from fieldhand.planning.english.selections import named_places
 from fieldhand.planning.english.tokens import Term
 from fieldhand.site.model import Site
 from fieldhand.task import conditions as c
@@ -143,14 +144,12 @@ def _places_of(loop: d.Loop, site: Site) -> list[s.Selector] | None:
     select = loop.select
     if loop.optional or loop.at_most is not None or loop.until is not None:
         return None
-    match select:
-        case s.Union(parts=parts) if all(part.single for part in parts):
-            return list(parts)
-        case s.Corners(which=which) if len(which) > 1:
-            return [replace(select, which=(corner,)) for corner in which]
-        case s.Take(count=count, of=of):
-            fresh = s.Other(of=of)
-            return [s.Take(count=1, of=of if k == 0 and of.relative else fresh) for k in range(count)]
+    named = named_places(select)
+    if named and named != (select,) and all(part.single for part in named):
+        return list(named)
+    if isinstance(select, s.Take):
+        of, fresh = select.of, s.Other(of=select.of)
+        return [s.Take(count=1, of=of if k == 0 and of.relative else fresh) for k in range(select.count)]
     if select.relative:
         return None
     try:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 from fieldhand.errors import PlaceError, TaskError
 from fieldhand.places.context import Context
 from fieldhand.places.selector import Selector
-from fieldhand.places.selectors import Bound, InRow, RowOf
+from fieldhand.places.selectors import Bound, InRow
 from fieldhand.planning.foreseen import foreseeable
 from fieldhand.planning.llm.quotes import place_quotes
 from fieldhand.site.kinds import phrase
@@ -156,7 +156,7 @@ def _more_than_one(selector: Selector, site: Site, where: str) -> Iterator[Probl
 def _one_of_a_row(selector: Selector) -> bool:
     """One tree by its number, of the row of one place."""
     of = selector.of if isinstance(selector, InRow) and selector.first == selector.last else None
-    return isinstance(of, RowOf) and of.origin.single
+    return of is not None and of.row_of is not None and of.row_of.single
 
 
 def _resolve(selector: Selector, site: Site) -> tuple[Place, ...]:
