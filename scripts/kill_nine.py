@@ -38,7 +38,6 @@ import numpy as np
 
 from fieldhand import mission
 from fieldhand.approval.authorize import EveryWarning, approve
-from fieldhand.bench.draw import Draft, draw
 from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.errors import NotApprovedError
 from fieldhand.evaluation.failsafe import BudgetFailsafe
@@ -52,6 +51,7 @@ from fieldhand.forecast.routes import drives_for
 from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.event_lines import from_json
 from fieldhand.task.results import Acted, Ended, InDoubt, Started
+from fieldhand_bench.draw import Draft, draw
 
 #: What a driver and a clock are asked over the line.
 ASKED = (

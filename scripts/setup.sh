@@ -37,7 +37,7 @@ if [ ! -x "$venv/bin/python" ] || ! "$venv/bin/python" -m pip --version >/dev/nu
 fi
 
 echo "Setting up Fieldhand in $venv (about a minute the first time)"
-"$venv/bin/python" -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[dev]"
+"$venv/bin/python" -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[dev]" -e "./benchmarks[dask]"
 # Modules and the solver's inner loops are compiled once, here, so that no mission waits for it.
-"$venv/bin/python" -m compileall -q src
+"$venv/bin/python" -m compileall -q src benchmarks/src
 "$venv/bin/python" -c "from fieldhand.orienteering.policy import compile_ahead; compile_ahead()"

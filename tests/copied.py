@@ -22,8 +22,12 @@ def load() -> None:
     import matplotlib.backends.backend_agg  # noqa: F401
 
     import fieldhand
+    import fieldhand_bench
 
-    for module in pkgutil.walk_packages(fieldhand.__path__, "fieldhand."):
+    for module in (
+        *pkgutil.walk_packages(fieldhand.__path__, "fieldhand."),
+        *pkgutil.walk_packages(fieldhand_bench.__path__, "fieldhand_bench."),
+    ):
         # What needs a ROS that is sourced is loaded by whoever asks for it.
         if not module.name.endswith("__main__") and ".ros2.rclpy." not in module.name:
             importlib.import_module(module.name)

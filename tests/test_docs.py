@@ -15,7 +15,7 @@ from command import fieldhand, in_background
 from ros2.conftest import LOOPBACK
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", ROOT / "benchmarks" / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 SHELL = re.compile(r"^```sh\n(.*?)^```", re.MULTILINE | re.DOTALL)
 #: Commands that serve until they are stopped have tests of their own, and so has the page that needs a robot.
 SERVERS = ("fieldhand serve",)
@@ -24,13 +24,18 @@ ROBOT = "delivery"
 SIM_ROBOT, OVER_DDS = "fieldhand sim-robot", ("--on dds", "--live")
 
 
+def page_name(page: Path) -> str:
+    """The page without its ending, as its test is called."""
+    return page.stem if page.parent.name != "benchmarks" else f"benchmarks/{page.stem}"
+
+
 def commands(page: Path) -> list[str]:
     """The ``fieldhand`` commands of a page's shell blocks, in their order."""
     lines = [line for block in SHELL.findall(page.read_text()) for line in block.replace("\\\n", " ").splitlines()]
     return [line.strip() for line in lines if line.strip().startswith("fieldhand ")]
 
 
-@pytest.mark.parametrize("page", [page for page in PAGES if page.stem != ROBOT], ids=lambda p: p.stem)
+@pytest.mark.parametrize("page", [page for page in PAGES if page.stem != ROBOT], ids=page_name)
 def test_every_command_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("FIELDHAND_CONFIG", str(tmp_path / "config"))
     monkeypatch.setenv("CYCLONEDDS_URI", LOOPBACK)
@@ -45,12 +50,12 @@ def test_every_command_runs(page: Path, tmp_path: Path, monkeypatch: pytest.Monk
                 if dds:
                     robots.enter_context(in_background(*words, out=tmp_path / "robot"))
                 continue
-            fresh = page.stem == "README" and not any(needs in command for needs in OVER_DDS)
+            fresh = page.parent == ROOT and not any(needs in command for needs in OVER_DDS)
             run = fieldhand(*words, cwd=tmp_path, fresh=fresh)
             assert run.status == 0, f"{command}\n{run.out[-2000:]}\n{run.err[-2000:]}"
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda p: p.stem)
+@pytest.mark.parametrize("page", PAGES, ids=page_name)
 def test_every_link_leads_somewhere(page: Path) -> None:
     for target in re.findall(r"\]\(([^)#\s]+)", page.read_text()):
         if not target.startswith(("http://", "https://", "mailto:")):

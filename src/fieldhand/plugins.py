@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass, replace
-from importlib.metadata import EntryPoint, entry_points
 from typing import Final, Literal, get_args
 
 from fieldhand.errors import PluginError
@@ -74,6 +73,8 @@ class Plugin:
         Raises:
             PluginError: It cannot be imported, whatever the import raised.
         """
+        from importlib.metadata import EntryPoint
+
         try:
             return EntryPoint(name=self.name, value=self.value, group=self.group).load()
         except (Exception, SystemExit) as error:  # a plugin's import may raise anything
@@ -106,6 +107,8 @@ def found(group: Group, *, built_in: Collection[str] = ()) -> tuple[Plugin, ...]
         group: Kind of extension.
         built_in: Names that this package provides without an entry point; no plugin overrides them.
     """
+    from importlib.metadata import entry_points  # slow to import, and most commands need no plugin
+
     registered = [
         Plugin(
             group=group,

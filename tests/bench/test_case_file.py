@@ -9,10 +9,10 @@ from typing import Any
 import pytest
 import yaml
 
-from fieldhand.bench.missions.case_file import load_cases
-from fieldhand.bench.missions.case_form import EndForm, ExpectForm
-from fieldhand.bench.missions.places import Near, Positions
 from fieldhand.errors import CaseError, InputError
+from fieldhand_bench.missions.case_file import load_cases
+from fieldhand_bench.missions.case_form import EndForm, ExpectForm
+from fieldhand_bench.missions.places import Near, Positions
 
 STEP = {"do": "take_thermal_picture"}
 WORLD = {"expect": {"steps": [STEP]}}

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from fieldhand.bench.draw import PF, draw, family_of
-from fieldhand.bench.families import FAMILIES
-from fieldhand.bench.fly import Trial, fly, fly_all
-from fieldhand.bench.summary import Summary, summarize, wrongs
 from fieldhand.task.event_lines import to_json
+from fieldhand_bench.draw import PF, draw, family_of
+from fieldhand_bench.families import FAMILIES
+from fieldhand_bench.fly import Trial, fly, fly_all
+from fieldhand_bench.summary import Summary, summarize, wrongs
 
 MISSIONS, TREES = 12, 30
 

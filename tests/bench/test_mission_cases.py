@@ -11,14 +11,14 @@ from pathlib import Path
 import pytest
 import yaml
 
-from fieldhand.bench.missions.case_file import BUILTIN, load_cases
-from fieldhand.bench.missions.case_form import PlaceForm
-from fieldhand.bench.missions.cases import Case
-from fieldhand.bench.missions.ground import load_ground
-from fieldhand.bench.missions.judge import judge
-from fieldhand.bench.missions.log import read_log
-from fieldhand.bench.missions.trial import Range, try_all
 from fieldhand.planning.english.planner import EnglishPlanner
+from fieldhand_bench.missions.case_file import BUILTIN, load_cases
+from fieldhand_bench.missions.case_form import PlaceForm
+from fieldhand_bench.missions.cases import Case
+from fieldhand_bench.missions.ground import load_ground
+from fieldhand_bench.missions.judge import judge
+from fieldhand_bench.missions.log import read_log
+from fieldhand_bench.missions.trial import Range, try_all
 from outside_referee import HERE, SHARED, ground, referee
 from tampered import tampered
 

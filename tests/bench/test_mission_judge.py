@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fieldhand.bench.missions.case_form import ExpectForm
-from fieldhand.bench.missions.cases import Expected, Step
-from fieldhand.bench.missions.ground import Ground
-from fieldhand.bench.missions.judge import judge
-from fieldhand.bench.missions.log import read_log
-from fieldhand.bench.missions.places import Place, Positions
 from fieldhand.errors import CaseError
+from fieldhand_bench.missions.case_form import ExpectForm
+from fieldhand_bench.missions.cases import Expected, Step
+from fieldhand_bench.missions.ground import Ground
+from fieldhand_bench.missions.judge import judge
+from fieldhand_bench.missions.log import read_log
+from fieldhand_bench.missions.places import Place, Positions
 from orchards import at as lon_lat
 from tampered import tampered
 

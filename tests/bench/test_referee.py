@@ -9,14 +9,14 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from examples import examples
-from fieldhand.bench.draw import Draft
-from fieldhand.bench.fly import fly
-from fieldhand.bench.referee import Ruling, judge
 from fieldhand.execution.world import ActionFails, Spot, World
 from fieldhand.places.selectors import TreeIs, Trees, Union
 from fieldhand.task.frames import Budget, Constraints, Task
 from fieldhand.task.plan import Act, AnyOrder, ForEach, Node, Repeat, Sequence, Try, walk
 from fieldhand.task.results import Acted, Arrived, Decided, Ended, Event, Exited, Shed, Visiting
+from fieldhand_bench.draw import Draft
+from fieldhand_bench.fly import fly
+from fieldhand_bench.referee import Ruling, judge
 from rig import BudgetOf, Rig, husky, of_type, orchard, task_for
 
 PICTURE = Act(id="", action="take_thermal_picture")

@@ -7,14 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fieldhand.bench.repeated import Mission, compare, summarized
-from fieldhand.bench.scenes import made_block
 from fieldhand.errors import SiteError
 from fieldhand.forecast.estimate import estimate
 from fieldhand.places.selectors import Trees
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach
+from fieldhand_bench.repeated import Mission, compare, summarized
+from fieldhand_bench.scenes import made_block
 from orchards import husky, orchard, task_for
 
 SITE, ROBOT = orchard(), husky()

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 import shapely
 
-from fieldhand.bench.site import benchmark_orchard, measure_site, samples
 from fieldhand.errors import InputError
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
 from fieldhand.places.selectors import SELECTORS
 from fieldhand.places.sources.bound import EXAMPLE_LABEL
 from fieldhand.site.geojson import parse_site
+from fieldhand_bench.site import benchmark_orchard, measure_site, samples
 
 
 @pytest.mark.parametrize("trees", [20, 137, 1000, 4000])

@@ -10,9 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import binom
 
-from fieldhand.bench.fly import Forecast, Trial
-from fieldhand.bench.referee import Ruling, Use
-from fieldhand.bench.summary import most_failures, summarize, worth_looking_at
+from fieldhand_bench.fly import Forecast, Trial
+from fieldhand_bench.referee import Ruling, Use
+from fieldhand_bench.summary import most_failures, summarize, worth_looking_at
 
 KEPT = Ruling(
     status="completed",

@@ -16,6 +16,7 @@ from command import fieldhand
 from fieldhand.cli.app import assemble
 from fieldhand.cli.outputs import require_folder
 from fieldhand.errors import OutputError
+from fieldhand_bench.commands.app import bench
 
 #: Each asks for what needs a plan, a mission or a log, none of which is there.
 COMMANDS: dict[str, tuple[str, ...]] = {
@@ -58,7 +59,7 @@ def commands(app: typer.Typer, before: str = "") -> Iterator[tuple[str, Callable
 def outputs() -> list[tuple[str, str]]:
     """Every option that names a file or folder and is not read."""
     found = []
-    for name, command in commands(assemble()):
+    for name, command in (*commands(assemble()), *commands(bench, "bench ")):
         for hint in get_type_hints(command, include_extras=True).values():
             kind, *more = get_args(hint) or (hint,)
             if Path in (kind, *get_args(kind)) and more and isinstance(more[0], OptionInfo):

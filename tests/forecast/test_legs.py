@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from fieldhand.bench.site.orchard import benchmark_orchard
 from fieldhand.forecast.legs import legs_between
 from fieldhand.forecast.limits import resources_of
 from fieldhand.forecast.optional import policy_for, visits_problem
@@ -14,6 +13,7 @@ from fieldhand.orienteering.policy import State
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import parse_site
 from fieldhand.task.frames import Budget, Constraints
+from fieldhand_bench.site.orchard import benchmark_orchard
 from orchards import orchard
 
 ROBOT = load_robot("husky")

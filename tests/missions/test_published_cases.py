@@ -14,11 +14,6 @@ from typing import Any
 import pytest
 import yaml
 
-from fieldhand.bench.missions.case_file import load_cases
-from fieldhand.bench.missions.cases import Expected
-from fieldhand.bench.missions.ground import load_ground
-from fieldhand.bench.missions.judge import judge
-from fieldhand.bench.missions.log import read_log
 from fieldhand.execution.world import World
 from fieldhand.execution.world_file import parse_world
 from fieldhand.planning.llm.replay import replay
@@ -27,6 +22,11 @@ from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
 from fieldhand.task.frames import Task
+from fieldhand_bench.missions.case_file import load_cases
+from fieldhand_bench.missions.cases import Expected
+from fieldhand_bench.missions.ground import load_ground
+from fieldhand_bench.missions.judge import judge
+from fieldhand_bench.missions.log import read_log
 from flights import fly_request, fly_task
 from outside_referee import CASES, HERE, ground, referee
 from tampered import tampered

@@ -23,10 +23,6 @@ from typer.testing import CliRunner
 from command import fieldhand, in_background
 from fieldhand import mission, missions
 from fieldhand.approval.authorize import EveryWarning
-from fieldhand.bench.missions.case_file import load_cases
-from fieldhand.bench.missions.ground import load_ground
-from fieldhand.bench.missions.judge import judge
-from fieldhand.bench.missions.log import read_log
 from fieldhand.cli.app import assemble
 from fieldhand.cli.demo import REQUEST
 from fieldhand.errors import Ros2Error
@@ -43,6 +39,10 @@ from fieldhand.site.geojson import open_site, site_files
 from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.results import Acted, Arrived, Ended, Event, InDoubt, Paused, Resumed, Shed
+from fieldhand_bench.missions.case_file import load_cases
+from fieldhand_bench.missions.ground import load_ground
+from fieldhand_bench.missions.judge import judge
+from fieldhand_bench.missions.log import read_log
 from outside_referee import CASES, HERE, ground, referee
 from patience import until
 from rig import of_type

@@ -8,12 +8,6 @@ from typing import Annotated
 import typer
 
 from fieldhand.cli.approve import approve
-from fieldhand.cli.bench import bench
-from fieldhand.cli.bench_forecast import bench_forecast
-from fieldhand.cli.bench_guard import bench_guard
-from fieldhand.cli.bench_missions import bench_missions
-from fieldhand.cli.bench_orienteering import bench_orienteering
-from fieldhand.cli.bench_planning import bench_planning
 from fieldhand.cli.check import check
 from fieldhand.cli.demo import demo
 from fieldhand.cli.export import export
@@ -24,6 +18,7 @@ from fieldhand.cli.missions import missions
 from fieldhand.cli.order import order
 from fieldhand.cli.outbox import outbox
 from fieldhand.cli.plan import plan
+from fieldhand.cli.plugin_commands import CommandsWithPlugins
 from fieldhand.cli.replay import replay
 from fieldhand.cli.report import report
 from fieldhand.cli.resume import resume
@@ -38,9 +33,10 @@ from fieldhand.cli.watch import watch
 
 
 def assemble(*others: Callable[..., None]) -> typer.Typer:
-    """The commands of this room, and then ``others``."""
+    """Return the commands of this room, then ``others``, then those of plugins."""
     app = typer.Typer(
         name="fieldhand",
+        cls=CommandsWithPlugins,
         help="Say in plain words what a field robot should do; get a checked mission, approve it, have it carried out.",
         no_args_is_help=True,
         pretty_exceptions_enable=False,
@@ -74,13 +70,7 @@ def assemble(*others: Callable[..., None]) -> typer.Typer:
     app.command("import")(import_tree)
     app.command("return")(come_home)
     app.add_typer(robot)
-    bench.command("orienteering")(bench_orienteering)
-    bench.command("guard")(bench_guard)
-    bench.command("forecast")(bench_forecast)
-    bench.command("missions")(bench_missions)
-    bench.command("planning")(bench_planning)
     app.add_typer(keys)
-    app.add_typer(bench)
     app.callback()(_top)
     return app
 

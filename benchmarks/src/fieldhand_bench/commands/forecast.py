@@ -1,0 +1,87 @@
+"""``fieldhand bench forecast``: one request flown many times, to see whether its forecast comes true."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from fieldhand.cli.options import JsonOption, MissionSiteOption, RobotOption, SeedOption
+
+if TYPE_CHECKING:
+    from fieldhand_bench.repeated import Compared, Mission
+
+
+def bench_forecast(
+    request: Annotated[str, typer.Argument(help="What the robot should do, in plain words; a Task (.xml).")],
+    site: MissionSiteOption = None,
+    made: Annotated[
+        str | None, typer.Option("--made", help="In place of a site a generated one: straight:2000, curved:5000.")
+    ] = None,
+    robot: RobotOption = "husky",
+    missions: Annotated[int, typer.Option("--missions", min=1, help="How many are flown.")] = 28,
+    seed: SeedOption = 1,
+    jobs: Annotated[int, typer.Option("--jobs", help="Processes; -1 for one on each processor.")] = 1,
+    json: JsonOption = False,
+) -> None:
+    """Plan a request once, fly it with many seeds, and compare what happened with the forecast and what is accepted."""
+    from dataclasses import asdict
+
+    from fieldhand.cli import show
+    from fieldhand.cli.asking import Replies, plan_or_read
+    from fieldhand.cli.bundles import require_site
+    from fieldhand.cli.inputs import Ground, open_ground
+    from fieldhand.errors import InputError
+    from fieldhand.robot.loader import load_robot
+    from fieldhand_bench.commands.machine import machine
+    from fieldhand_bench.repeated import compare
+    from fieldhand_bench.scenes import made_block
+
+    if made is None:
+        ground = open_ground(require_site(site), robot)
+    else:
+        kind, _, trees = made.partition(":")
+        if not (trees.isdecimal() and 20 <= int(trees) <= 20_000):
+            raise InputError(f"'{made}' is no generated site", where="--made", advice="give straight:2000, for one")
+        ground = Ground(site=made_block(kind, int(trees)), robot=load_robot(robot))
+    task, _, _ = plan_or_read(request, ground, "english", None, Replies(given=(), assume=True, ask=False))
+    flown: list[Mission] = []
+
+    def tell(one: Mission) -> None:
+        flown.append(one)
+        if not json:
+            over = f", exceeded {', '.join(one.exceeded)}" if one.exceeded else ""
+            show.out.print(f"seed {one.seed}: {one.visits} visits, {one.metres:.1f} m, {one.seconds:.0f} s{over}")
+
+    on = machine()
+    found = compare(task, ground.site, ground.robot, range(seed, seed + missions), jobs=jobs, tell=tell)
+    if json:
+        each = [asdict(one) for one in flown]
+        show.print_json({"machine": on, "kept": found.is_kept, "agrees": found.agrees} | asdict(found) | {"each": each})
+    else:
+        _show(found)
+        where = f"{on['machine']}, {on['cpu']}, {on['cores']} cores, load {on['load']}"
+        show.out.print(f"Processor time measured on {where}; {on['software']}.")
+    raise SystemExit(0 if found.is_kept and found.agrees else 1)
+
+
+def _show(found: Compared) -> None:
+    from fieldhand.cli import show
+
+    low, high = found.interval
+    for warning in found.warnings:
+        show.out.print(f"warning: {warning}")
+    show.out.print(
+        f"exceeded: {found.failures} of {found.missions} = {found.failures / found.missions:.1%}"
+        f" ({low:.1%} to {high:.1%}); forecast {found.forecast:.1%}, accepted {found.accepted:.1%}"
+    )
+    show.out.print(
+        f"visits: {found.visits:.1f} on average (standard deviation {found.visits_spread:.1f}), forecast"
+        f" {found.visits_forecast:.1f}; {found.kept:.1f} counting those of missions within the limits alone"
+    )
+    for name, median, high_part in found.within:
+        show.out.print(f"{name}: {median:.0%} of the missions within the forecast median, {high_part:.0%} within p90")
+    show.out.print(f"checks and forecast {found.review_s:.1f} s, a mission {found.mission_s:.1f} s")
+    kept = "kept" if found.is_kept else "exceeded more often than accepted"
+    agrees = "agrees" if found.agrees else "does not agree"
+    show.out.print(f"The limits were {kept}; the forecast {agrees} with what happened.")

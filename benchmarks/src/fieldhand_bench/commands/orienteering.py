@@ -1,0 +1,157 @@
+"""``fieldhand bench orienteering``: the published experiment on stochastic orienteering, run again."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from fieldhand.cli.options import JsonOption, SeedOption
+from fieldhand.cli.outputs import to_picture
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from fieldhand_bench.orienteering.certain import Certain
+    from fieldhand_bench.orienteering.run import Row
+
+
+def bench_orienteering(
+    graphs: Annotated[Path, typer.Option("--graphs", help="Folder of graphs (JSON), or one graph.")],
+    budget: Annotated[list[float] | None, typer.Option("--budget", help="Budget; several may be given. 2.")] = None,
+    pf: Annotated[
+        list[float] | None, typer.Option("--pf", help="Accepted failure probability; several may be given. 0.1.")
+    ] = None,
+    trials: Annotated[int, typer.Option("--trials", min=1, help="Missions for each graph and solver.")] = 1000,
+    solvers: Annotated[
+        str, typer.Option("--solvers", help="Of online, fixed, greedy, mcts, milp, perfect; commas between.")
+    ] = "online,fixed,greedy",
+    milp_time: Annotated[float, typer.Option("--milp-time", min=0.1, help="Seconds that the MILP has.")] = 60.0,
+    daring: Annotated[
+        float, typer.Option("--daring", min=0.0, max=1.0, help="0 is best over all missions, 1 over successful ones.")
+    ] = 0.6,
+    learn: Annotated[
+        int, typer.Option("--learn", min=0, help="Missions from which 'online' learns its price of a failure.")
+    ] = 400,
+    certain: Annotated[
+        float, typer.Option("--certain", min=0.0, help="Also compare with PyVRP without chance, seconds for each.")
+    ] = 0.0,
+    plot: Annotated[
+        Path | None, typer.Option("--plot", callback=to_picture, help="Draw reward by failures to this file.")
+    ] = None,
+    engine: Annotated[str, typer.Option("--engine", help="local, or dask://HOST:PORT of a scheduler.")] = "local",
+    jobs: Annotated[int, typer.Option("--jobs", help="Processes; -1 for one on each processor.")] = -1,
+    seed: SeedOption = 0,
+    json: JsonOption = False,
+) -> None:
+    """Drive missions with every solver on every graph: reward, failures, time of a decision; published rows beside."""
+    from dataclasses import asdict
+
+    from fieldhand.cli import show
+    from fieldhand.errors import ProblemError
+    from fieldhand_bench.commands.machine import machine
+    from fieldhand_bench.orienteering.graphs import load_graphs
+    from fieldhand_bench.orienteering.run import run
+    from fieldhand_bench.orienteering.solvers import NAMES, Options
+
+    names = [name.strip() for name in solvers.split(",") if name.strip()]
+    unknown = [name for name in names if name not in NAMES]
+    if unknown or not names:
+        raise ProblemError(f"no solver is called '{', '.join(unknown)}'", advice=f"use some of {', '.join(NAMES)}")
+    loaded = load_graphs(graphs)
+    options = Options(seed=seed, milp_s=milp_time, daring=daring, missions=learn)
+    on = machine()
+    rows: list[Row] = []
+    compared: list[dict[str, Any]] = []
+    for b in budget or [2.0]:
+        for p in pf or [0.1]:
+            for row in run(
+                loaded, budget=b, failure_probability=p, trials=trials, solvers=names, options=options,
+                engine=engine, jobs=jobs,
+            ):  # fmt: skip
+                rows.append(row)
+                show.note(f"{row.graph}, budget {b:g}, Pf {p:g}, {row.solver}: done")
+        if certain > 0.0:
+            compared += _compared(loaded, b, seed, certain)
+    if json:
+        show.print_json(
+            {"machine": on, "seed": seed, "rows": [asdict(r) for r in rows], "published": _published(rows),
+             "certain": compared}
+        )  # fmt: skip
+    else:
+        _say(rows, compared, trials, certain, on)
+    # Last, so that a picture that cannot be written takes no figures with it.
+    if plot is not None:
+        from fieldhand_bench.orienteering.plot import plot as draw
+
+        draw(rows, plot)
+
+
+def _say(
+    rows: Sequence[Row], compared: Sequence[dict[str, Any]], trials: int, certain: float, on: dict[str, Any]
+) -> None:
+    """Tables, what they mean, and where they were measured."""
+    from fieldhand.cli import show
+
+    for setting in dict.fromkeys((row.graph, row.budget, row.failure_probability) for row in rows):
+        show.out.print(_table([r for r in rows if (r.graph, r.budget, r.failure_probability) == setting]))
+    show.out.print_lines(
+        "R: mean reward of the missions within budget; R all: of all missions, a failed one counts 0;",
+        "ms, p99: median and 99th percentile of a decision; *: published.",
+    )
+    for line in compared:
+        ours, other = line["solvers"]
+        show.out.print(
+            f"{line['graph']}, budget {line['budget']:g}, no chance: {ours['solver']} {ours['reward']:.3f}, "
+            f"{other['solver']} {other['reward']:.3f}, {certain:g} s each"
+        )
+    show.out.print(f"{trials:,} missions a row, on {on['machine']}, {on['cpu']}, load {on['load']}; {on['software']}.")
+
+
+def _compared(graphs: Sequence[Any], budget: float, seed: int, seconds: float) -> list[dict[str, Any]]:
+    from dataclasses import asdict
+
+    from fieldhand_bench.orienteering.certain import compare
+
+    def one(graph: Any) -> dict[str, Any]:
+        found: tuple[Certain, Certain] = compare(graph.problem(budget, 0.1), seed, seconds)
+        return {"graph": graph.name, "budget": budget, "solvers": [asdict(c) for c in found]}
+
+    return [one(graph) for graph in graphs]
+
+
+def _published(rows: Sequence[Row]) -> list[dict[str, Any]]:
+    from dataclasses import asdict
+
+    from fieldhand_bench.orienteering.published import published_for
+
+    settings = dict.fromkeys((row.graph, row.budget, row.failure_probability) for row in rows)
+    return [asdict(found) for setting in settings for found in published_for(*setting)]
+
+
+def _table(rows: Sequence[Row]) -> Table:
+    """One graph's rows, narrow enough for 80 columns, the published ones below."""
+    from rich.box import SIMPLE_HEAD
+    from rich.table import Table
+
+    from fieldhand_bench.orienteering.published import published_for
+
+    first = rows[0]
+    setting = (first.graph, first.budget, first.failure_probability)
+    title = f"{first.graph}, budget {first.budget:g}, failures accepted {first.failure_probability:.0%}"
+    table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
+    for head in ("solver", "R", "R all", "failed %", "ms", "p99", "plan s", "MB"):
+        table.add_column(head, justify="left" if head == "solver" else "right", no_wrap=True)
+    for row in rows:
+        half = (row.reward_interval[1] - row.reward_interval[0]) / 2
+        low, high = row.failures_interval
+        table.add_row(
+            row.solver, f"{row.reward:.3f}±{half:.3f}", f"{row.reward_over_all:.3f}",
+            f"{100 * row.failures:.1f} ({100 * low:.0f}-{100 * high:.0f})", f"{row.median_ms:.2f}",
+            f"{row.p99_ms:.1f}", f"{row.plan_s:.1f}", f"{row.peak_mb:.0f}",
+        )  # fmt: skip
+    for other in published_for(*setting):
+        table.add_row(f"{other.solver}*", f"{other.reward:.3f}", "", f"{100 * other.failures:.0f}", "", "", "", "")
+    return table

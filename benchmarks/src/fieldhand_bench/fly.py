@@ -1,0 +1,273 @@
+"""The mission of a seed, approved, flown in simulation and judged."""
+
+from __future__ import annotations
+
+import time
+from collections import defaultdict, deque
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from datetime import UTC, datetime
+from functools import cache
+from typing import TYPE_CHECKING, Literal
+
+from fieldhand import mission
+from fieldhand.approval.authorize import EveryWarning
+from fieldhand.errors import FieldhandError, NotApprovedError
+from fieldhand.execution.guard import Guard
+from fieldhand.execution.world import World
+from fieldhand.forecast.estimate import estimate, mandatory_part
+from fieldhand.forecast.service import reward_of
+from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
+from fieldhand.forecast.steps import Answer, Step
+from fieldhand.forecast.walk import walk
+from fieldhand.robot.model import LegCost, RobotProfile
+from fieldhand.task import plan
+from fieldhand.task.authorization import AuthorizedTask
+from fieldhand.task.frames import Task, Then
+from fieldhand.task.plan import Node
+from fieldhand.task.results import Decided, Event
+from fieldhand_bench.draw import Draft, draw
+from fieldhand_bench.referee import Ruling, judge
+from fieldhand_bench.scenes import MOST_TREES
+
+if TYPE_CHECKING:
+    from fieldhand.site.drives import Drives
+
+#: How safe a mission was at approval: what must be done is within the accepted probability; it is not, so that the
+#: approval came with a warning; not even driving home at once is.
+Promise = Literal["within", "warned", "hopeless"]
+
+_APPROVED_AT = datetime(2026, 1, 1, tzinfo=UTC)
+#: Draws of a seed before it is given up; one in three or so is approved.
+_DRAWS = 60
+_FEW_TREES = 20
+
+
+@dataclass(frozen=True, kw_only=True)
+class Forecast:
+    """Optional visits and their reward, as a walk along the branch that the mission took has them."""
+
+    visits: int
+    reward: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Trial:
+    """A mission that was flown and judged. It can be sent to another process.
+
+    Attributes:
+        seed, family, limited, factor, failure_probability: Of its draft.
+        trees: Of the site.
+        alpha: The certain part of a leg's cost.
+        then: Where the mission was to end.
+        refused: Why earlier draws of its seed were not approved, one sentence each.
+        promise: How safe it was at approval, seen with the charge that it really had.
+        ruling: What came of it.
+        forecast: What the approval expected of its optional visits.
+        certain: The same were every leg's cost its mean: more than chance allows.
+        first_s: Seconds of processor time of the guard's first decision.
+        choices_s: Of each later choice of an optional visit.
+        admissions_s: Of each later answer about mandatory work; much of it was granted with the visit before it.
+    """
+
+    seed: int
+    family: str
+    limited: str
+    factor: float
+    failure_probability: float
+    trees: int
+    alpha: float
+    then: Then
+    refused: tuple[str, ...]
+    promise: Promise
+    ruling: Ruling
+    forecast: Forecast
+    certain: Forecast
+    first_s: float
+    choices_s: tuple[float, ...]
+    admissions_s: tuple[float, ...]
+
+    @property
+    def failed(self) -> bool:
+        """Whether a budget or the reserve was exceeded."""
+        return bool(self.ruling.exceeded)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Flight:
+    """A trial with its draft and its event log."""
+
+    trial: Trial
+    draft: Draft
+    events: tuple[Event, ...]
+
+
+@dataclass
+class TimedGuard:
+    """A guard that notes how much processor time another takes to answer: other programs do not count."""
+
+    guard: Guard
+    first_s: list[float] = field(default_factory=list)
+    choices_s: list[float] = field(default_factory=list)
+    admissions_s: list[float] = field(default_factory=list)
+
+    def admit(self, state: MissionState, visit: Visit, still_to_come: Sequence[Visit] = ()) -> Verdict:
+        began = time.thread_time()
+        verdict = self.guard.admit(state, visit, still_to_come)
+        (self.admissions_s if self.first_s else self.first_s).append(time.thread_time() - began)
+        return verdict
+
+    def choose(
+        self,
+        state: MissionState,
+        candidates: Sequence[Visit],
+        *,
+        at_most: int | None = None,
+        still_to_come: Sequence[Visit] = (),
+    ) -> Choice:
+        began = time.thread_time()
+        choice = self.guard.choose(state, candidates, at_most=at_most, still_to_come=still_to_come)
+        (self.choices_s if self.first_s else self.first_s).append(time.thread_time() - began)
+        return choice
+
+    def ways_are(self, drives: Drives) -> None:
+        self.guard.ways_are(drives)
+
+
+def fly(seed: int, most_trees: int = MOST_TREES) -> Flight:
+    """Draw the mission of a seed until it is approved, fly it, judge it.
+
+    Args:
+        seed: Of everything in it.
+        most_trees: Of its site.
+
+    Raises:
+        FieldhandError: Nothing that is drawn for the seed is approved.
+    """
+    refused: list[str] = []
+    for attempt in range(_DRAWS):
+        draft = draw(seed, attempt, most_trees)
+        if draft is None:
+            continue
+        try:
+            approved = mission.authorize(
+                draft.task, draft.site, draft.robot, by="the experiment", at=_APPROVED_AT, confirmed=EveryWarning()
+            )
+        except NotApprovedError as error:
+            refused.append(error.what)
+            continue
+        return _flown(draft, approved, tuple(refused))
+    raise FieldhandError(f"no mission of seed {seed} is approved", advice="take another seed")
+
+
+def _flown(draft: Draft, approved: AuthorizedTask, refused: tuple[str, ...]) -> Flight:
+    timed: list[TimedGuard] = []
+    events: list[Event] = []
+
+    def watched(guard: Guard) -> Guard:
+        timed.append(TimedGuard(guard))
+        return timed[-1]
+
+    mission.simulate(
+        approved,
+        draft.site,
+        draft.robot,
+        world=World(charge_percent=draft.charge_percent),
+        seed=draft.flight_seed,
+        speed=None,
+        emit=events.append,
+        watched=watched,
+    )
+    return Flight(trial=_trial(draft, refused, events, timed[0]), draft=draft, events=tuple(events))
+
+
+def fly_all(seeds: Sequence[int], *, most_trees: int = MOST_TREES, jobs: int = 1) -> Iterator[Trial]:
+    """Fly many missions; each as it is done, in the order of the seeds.
+
+    Args:
+        seeds: Of the missions.
+        most_trees: Of each site.
+        jobs: Processes; -1 for one on each processor.
+    """
+    from joblib import Parallel, delayed
+
+    yield from Parallel(n_jobs=jobs, return_as="generator")(delayed(_fly_one)(seed, most_trees) for seed in seeds)
+
+
+def _fly_one(seed: int, most_trees: int) -> Trial:
+    """At the top of the module so that other processes find it."""
+    _warm_up()
+    return fly(seed, most_trees).trial
+
+
+@cache
+def _warm_up() -> None:
+    """Load what is compiled, once in a process, so that no decision is timed with it."""
+    for family in range(2):
+        fly(family, _FEW_TREES)
+
+
+def _trial(draft: Draft, refused: tuple[str, ...], events: Sequence[Event], timed: TimedGuard) -> Trial:
+    certain = replace(draft.robot, leg_cost=LegCost(alpha=1.0))
+    return Trial(
+        seed=draft.seed,
+        family=draft.family,
+        limited=draft.limited,
+        factor=draft.factor,
+        failure_probability=draft.failure_probability,
+        trees=len(draft.site.trees),
+        alpha=draft.robot.leg_cost.alpha,
+        then=draft.task.composition.nominal,
+        refused=refused,
+        promise=_promise(draft),
+        ruling=judge(draft.task, draft.site, draft.robot, events),
+        forecast=_forecast(draft, draft.robot, events),
+        certain=_forecast(draft, certain, events),
+        first_s=sum(timed.first_s),
+        choices_s=tuple(timed.choices_s),
+        admissions_s=tuple(timed.admissions_s),
+    )
+
+
+def _promise(draft: Draft) -> Promise:
+    """What must be done, and the way home alone, against the limits, from the charge that the mission begins with."""
+    if not _exceeds(draft, mandatory_part(draft.task)):
+        return "within"
+    nothing = replace(draft.task.composition, plan=plan.Sequence(id=draft.task.composition.plan.id, steps=()))
+    return "hopeless" if _exceeds(draft, replace(draft.task, composition=nothing)) else "warned"
+
+
+def _exceeds(draft: Draft, task: Task) -> bool:
+    found = estimate(task, draft.site, draft.robot, charge_percent=draft.charge_percent)
+    return any(chance.exceeded for chance in found.worst.chances)
+
+
+def _forecast(draft: Draft, robot: RobotProfile, events: Sequence[Event]) -> Forecast:
+    walked = walk(draft.task, draft.site, robot, holds=_as_it_went(events), charge_percent=draft.charge_percent)
+    lists = [
+        (step.node, place)
+        for number, step in enumerate(walked.steps)
+        if step.kind == "visit-list" and step.node.is_optional and step.node.visits_each
+        for place in step.places[: _until(walked.steps[number:], step.node)]
+    ]
+    return Forecast(visits=len(lists), reward=sum(reward_of(node, place, draft.site) for node, place in lists))
+
+
+def _until(steps: Sequence[Step], node: Node) -> int:
+    """Visits of a loop's places before it found what it was to stop at."""
+    tests = (s.answer for s in steps if s.kind == "decide" and s.node is node)
+    return next((number for number, found in enumerate(tests, start=1) if found), len(steps))
+
+
+def _as_it_went(events: Sequence[Event]) -> Answer:
+    """Every condition as it was found; beyond what was tested, as it was found last."""
+    answers: dict[str, deque[bool]] = defaultdict(deque)
+    for event in events:
+        if isinstance(event, Decided):
+            answers[event.node].append(event.holds)
+
+    def holds(node_id: str) -> bool:
+        known = answers[node_id]
+        return (known.popleft() if len(known) > 1 else known[0]) if known else False
+
+    return holds

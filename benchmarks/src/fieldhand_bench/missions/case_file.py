@@ -1,0 +1,248 @@
+"""Cases from YAML files, and what is wrong with a file in words."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from fieldhand.errors import CaseError
+from fieldhand.execution.world_file import parse_world
+from fieldhand.files import FileFault, read_file
+from fieldhand.robot.loader import load_robot
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.geojson import demo_path
+from fieldhand.strict_yaml import YamlFault, read_yaml
+from fieldhand_bench.missions.case_form import (
+    BookForm,
+    CaseForm,
+    EndForm,
+    ExpectForm,
+    Form,
+    OffsetForm,
+    PlaceForm,
+    StepForm,
+    WorldForm,
+)
+from fieldhand_bench.missions.cases import Case, CaseWorld, Expected
+from fieldhand_bench.missions.ground import Ground, load_ground
+from fieldhand_bench.missions.places import Attributes, Place, Positions
+
+BUILTIN = "builtin"
+#: A case is twenty lines; a file beyond this is something else.
+MAX_BYTES = 5_000_000
+GUIDE = "see docs/bench-missions.md"
+
+_SITES = {"builtin:demo": demo_path}
+#: Forms by the key that holds them.
+_FORMS: dict[str, type[Form]] = {
+    "cases": CaseForm,
+    "worlds": WorldForm,
+    "expect": ExpectForm,
+    "steps": StepForm,
+    "at": PlaceForm,
+    "at_all": PlaceForm,
+    "end": EndForm,
+    "offset": OffsetForm,
+}
+
+
+def load_cases(names: Sequence[str]) -> tuple[Case, ...]:
+    """The cases of some files, in their order.
+
+    Args:
+        names: Paths of YAML files; ``builtin`` for the cases on the built-in orchard.
+
+    Raises:
+        CaseError: A file cannot be read or used, or a case fits no robot or site; says which case and which key.
+        WorldError: The readings of a world cannot be used.
+        ProfileError: There is no such robot.
+    """
+    around = _Around(ground=cache(load_ground), robot=cache(load_robot))
+    cases = [case for name in names for path in _files(name) for case in _cases(path, around)]
+    seen: dict[str, str] = {}
+    for case in cases:
+        if case.id in seen:
+            raise CaseError(
+                f"two cases are called '{case.id}'" + (f", the other in {seen[case.id]}" if seen[case.id] else ""),
+                where=case.source,
+                advice="give each an id of its own",
+            )
+        seen[case.id] = case.source
+    return tuple(cases)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Around:
+    """Sites and robots, each read once however many cases name it."""
+
+    ground: Callable[[Path], Ground]
+    robot: Callable[[str], RobotProfile]
+
+
+def _files(name: str) -> list[Path]:
+    if name != BUILTIN:
+        return [Path(name)]
+    folder = Path(str(resources.files("fieldhand_bench.missions"))) / BUILTIN
+    return sorted(folder.glob("*.yaml"))
+
+
+def _cases(path: Path, around: _Around) -> list[Case]:
+    content = _content(path)
+    try:
+        book = BookForm.model_validate(content)
+    except ValidationError as error:
+        raise _explained(error, path, content) from None
+    return [_case(form, book, path, around) for form in book.cases]
+
+
+def _case(form: CaseForm, book: BookForm, path: Path, around: _Around) -> Case:
+    where = f"{path}, case '{form.id}'"
+    named, robot_name = form.site or book.site, form.robot or book.robot
+    if named is None:
+        raise CaseError("has no site", where=where, advice="give 'site' for the case or for the whole file")
+    if robot_name is None:
+        raise CaseError("has no robot", where=where, advice="give 'robot' for the case or for the whole file")
+    site = _site(named, path, where)
+    ground, robot = around.ground(site), around.robot(robot_name)
+    worlds = []
+    for number, world in enumerate(form.worlds or ()):
+        at = f"{where}: worlds[{number}]"
+        _know_actions(world.expect.actions, robot, at)
+        expected = world.expect.expected()
+        _fits(expected, ground, at)
+        read = parse_world({"readings": world.readings}, source=at)
+        worlds.append(CaseWorld(world=read, expected=expected))
+    return Case(
+        id=form.id,
+        request=form.request,
+        site=site,
+        robot=robot_name,
+        worlds=tuple(worlds),
+        asks=form.ask,
+        source=str(path),
+    )
+
+
+def _site(named: str, path: Path, where: str) -> Path:
+    if named.startswith("builtin:"):
+        if named not in _SITES:
+            raise CaseError(
+                f"there is no built-in site '{named}'", where=where, advice=f"use {' or '.join(_SITES)}, or a file"
+            )
+        return _SITES[named]()
+    site = (path.parent / named).resolve()
+    if not site.is_file():
+        raise CaseError(
+            f"there is no site file '{named}'", where=where, advice=f"name it as seen from {path.parent or Path()}"
+        )
+    return site
+
+
+def _know_actions(actions: Iterable[str], robot: RobotProfile, where: str) -> None:
+    known = list(robot.action)
+    for action in actions:
+        if action not in known:
+            raise CaseError(
+                f"the robot {robot.name} has no action '{action}'", where=where, advice=_hint(action, known)
+            )
+
+
+def _fits(expected: Expected, ground: Ground, where: str) -> None:
+    """Whether the site has the trees, the attributes and the markers that are expected."""
+    if isinstance(expected.end, str) and expected.end not in ground.markers:
+        raise CaseError(f"the site has no {expected.end} marker", where=where, advice="expect another end")
+    ends = (expected.end,) if isinstance(expected.end, Place) else ()
+    for place in (*(step.at for step in expected.steps or ()), expected.at_all, *ends):
+        for demand in place.demands:
+            match demand:
+                case Positions(positions=positions) if max(positions) >= len(ground.xy):
+                    raise CaseError(
+                        f"ids: there is no tree {max(positions)}",
+                        where=where,
+                        advice=f"the site's {len(ground.xy)} trees are counted from 0",
+                    )
+                case Attributes(values=values):
+                    there = {key for said in ground.properties for key in said}
+                    for key in values:
+                        if key not in there:
+                            raise CaseError(
+                                f"no tree has the attribute '{key}'", where=where, advice=_hint(key, sorted(there))
+                            )
+
+
+def _content(path: Path) -> dict[Any, Any]:
+    try:
+        text = read_file(path, MAX_BYTES).decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise CaseError("is not UTF-8 text", where=str(path), advice="save it as UTF-8") from None
+    except FileFault as fault:
+        advice = "is it a file of cases?" if fault.kind == "too large" else f"give a YAML file of cases, or '{BUILTIN}'"
+        raise CaseError(fault.what, where=str(path), advice=advice) from None
+    try:
+        content = read_yaml(text, aliases=True)
+    except YamlFault as fault:
+        where = f"{path}, line {fault.line}" if fault.line else str(path)
+        advice = "correct that line" if fault.line else "save it as plain text"
+        raise CaseError(f"is not YAML: {fault.what}", where=where, advice=advice) from None
+    if not isinstance(content, dict):
+        raise CaseError("holds no cases", where=str(path), advice=f"begin with site:, robot: and cases:; {GUIDE}")
+    return content
+
+
+def _explained(error: ValidationError, path: Path, content: dict[Any, Any]) -> CaseError:
+    """The first mistake, a stray key before others, as one line: file, case, key, what is wrong, what to do."""
+    problems = error.errors(include_url=False)
+    first = min(problems, key=lambda p: p["type"] != "extra_forbidden")
+    loc = list(first["loc"])
+    if first["type"] in ("missing", "extra_forbidden"):
+        *loc, key = loc
+        where = _where(path, content, loc)
+        if first["type"] == "missing":
+            return CaseError(f"the key '{key}' is missing", where=where, advice=GUIDE)
+        return CaseError(f"there is no key '{key}' here", where=where, advice=_hint(str(key), _keys(loc)))
+    return CaseError(_words(first), where=_where(path, content, loc), advice=GUIDE)
+
+
+def _where(path: Path, content: dict[Any, Any], loc: list[int | str]) -> str:
+    """The place of a mistake: a case by its id, what is inside it by keys and numbers."""
+    said = str(path)
+    if len(loc) > 1 and loc[0] == "cases" and isinstance(loc[1], int):
+        case = content["cases"][loc[1]]
+        named = case.get("id") if isinstance(case, dict) else None
+        said += f", case '{named}'" if isinstance(named, str) else f", case {loc[1] + 1} of the list"
+        loc = loc[2:]
+    inner = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in loc).lstrip(".")
+    return f"{said}: {inner}" if inner else said
+
+
+def _keys(loc: list[int | str]) -> list[str]:
+    """The keys that may stand where a stray one stood."""
+    named = [part for part in loc if isinstance(part, str)]
+    return list((_FORMS.get(named[-1], BookForm) if named else BookForm).keys())
+
+
+def _words(problem: ErrorDetails) -> str:
+    given = problem["input"]
+    shown = f"'{given}'" if isinstance(given, str | int | float) else "something else"
+    match problem["type"]:
+        case "value_error":
+            return problem["msg"].removeprefix("Value error, ")
+        case "model_type" | "dict_type" | "model_attributes_type":
+            return f"must hold keys and values, is {shown}"
+        case "tuple_type":
+            return f"must be a list, is {shown}"
+        case _:
+            return f"{problem['msg'].replace('Input should be', 'must be')}, is {shown}"
+
+
+def _hint(given: str, known: list[str]) -> str:
+    near = difflib.get_close_matches(given, known, n=1)
+    return f"did you mean '{near[0]}'?" if near else f"known here: {', '.join(known)}"

@@ -1,0 +1,299 @@
+"""The form of a case file: what keys it has and what they may hold, as pydantic models of its YAML."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, Literal
+
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    StrictBool,
+    StrictInt,
+    model_validator,
+)
+
+from fieldhand_bench.missions import places
+from fieldhand_bench.missions.cases import Expected, MarkerName, Step
+from fieldhand_bench.missions.ground import CornerName
+from fieldhand_bench.missions.places import ANYWHERE, Demand, Place, Side
+
+
+def _number(value: object) -> object:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise ValueError("must be a number")
+    return value
+
+
+def _rising(value: tuple[float, float]) -> tuple[float, float]:
+    if value[0] > value[1]:
+        raise ValueError("the least comes first, then the most")
+    return value
+
+
+def _plain(value: object) -> object:
+    if not isinstance(value, str | bool | int | float):
+        raise ValueError("must be a text, a number, true or false")
+    return value
+
+
+def _listed(value: object) -> object:
+    return [value] if isinstance(value, str) else value
+
+
+Number = Annotated[float, BeforeValidator(_number), Field(allow_inf_nan=False)]
+Above0 = Annotated[Number, Field(gt=0)]
+Least1 = Annotated[StrictInt, Field(ge=1)]
+Text = Annotated[str, Field(min_length=1, strict=True)]
+Bounds = Annotated[tuple[Annotated[Number, Field(ge=0)], Annotated[Number, Field(ge=0)]], AfterValidator(_rising)]
+
+_QUARTERS: Mapping[str, tuple[Side, Side]] = {
+    "nw": ("north", "west"),
+    "ne": ("north", "east"),
+    "sw": ("south", "west"),
+    "se": ("south", "east"),
+}
+#: What says more about another key, and how much it is where it is left out.
+_NEXT_TO, _NEAR, _FAR, _MOST_M = 4, 8, 0.8, 6.0
+_MORE_ABOUT = {"rank": ("next_to", "near"), "fraction": ("far",), "tol_m": ("most",), "toward": ("offset",)}
+
+
+class Form(BaseModel):
+    """A part of the file: it has the keys that are declared and no others."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    @classmethod
+    def keys(cls) -> tuple[str, ...]:
+        """The keys that it may have."""
+        return tuple(field.alias or name for name, field in cls.model_fields.items())
+
+
+class OffsetForm(Form):
+    """``{from: A, trees: 5}``."""
+
+    from_: Text = Field(alias="from")
+    trees: Above0
+
+
+class PlaceForm(Form):
+    """A place: every key in it must hold."""
+
+    any: Literal[True] | None = None
+    corner: CornerName | Literal["any"] | None = None
+    half: Side | None = None
+    quarter: CornerName | None = None
+    most: Side | None = None
+    tol_m: Above0 | None = None
+    center: Above0 | None = None
+    mid_edge: Side | None = None
+    same: Text | None = None
+    not_: Annotated[tuple[Text, ...], BeforeValidator(_listed), Field(min_length=1)] | None = Field(None, alias="not")
+    next_to: Text | None = None
+    near: Text | None = None
+    rank: Least1 | None = None
+    far: Text | None = None
+    fraction: Annotated[Above0, Field(le=1)] | None = None
+    offset: OffsetForm | None = None
+    toward: Side | None = None
+    ids: Annotated[tuple[Annotated[StrictInt, Field(ge=0)], ...], Field(min_length=1)] | None = None
+    first: Literal[True] | None = None
+    last: Literal[True] | None = None
+    attribute: Annotated[dict[str, Annotated[Any, AfterValidator(_plain)]], Field(min_length=1)] | None = None
+
+    @model_validator(mode="after")
+    def _whole(self) -> PlaceForm:
+        for more, about in _MORE_ABOUT.items():
+            if more in self.model_fields_set and not self.model_fields_set & set(about):
+                raise ValueError(f"'{more}' says more about '{' or '.join(about)}', which is not here")
+        return self
+
+    def place(self) -> Place:
+        """As the judge uses it."""
+        return Place(demands=tuple(self._demands()), words=self.words())
+
+    def words(self) -> str:
+        """As the file says it, on one line."""
+        said = self.model_dump(by_alias=True, exclude_none=True)
+        return "{" + ", ".join(f"{key}: {_flow(value)}" for key, value in said.items()) + "}"
+
+    def _demands(self) -> Iterator[Demand]:
+        if self.corner is not None:
+            yield places.Corner(None if self.corner == "any" else self.corner)
+        if self.half is not None:
+            yield places.Beyond((self.half,))
+        if self.quarter is not None:
+            yield places.Beyond(_QUARTERS[self.quarter])
+        if self.most is not None:
+            yield places.Most(self.most, self.tol_m or _MOST_M)
+        if self.center is not None:
+            yield places.Central(self.center)
+        if self.mid_edge is not None:
+            yield places.MidEdge(self.mid_edge)
+        if self.same is not None:
+            yield places.Same(self.same)
+        if self.not_ is not None:
+            yield places.OtherThan(self.not_)
+        if self.next_to is not None:
+            yield places.Near(self.next_to, self.rank or _NEXT_TO, adjacent=True)
+        if self.near is not None:
+            yield places.Near(self.near, self.rank or _NEAR)
+        if self.far is not None:
+            yield places.Far(self.far, self.fraction or _FAR)
+        if self.offset is not None:
+            yield places.Offset(self.offset.from_, self.offset.trees, self.toward)
+        if self.ids is not None:
+            yield places.Positions(frozenset(self.ids))
+        if self.first:
+            yield places.Terminal("start")
+        if self.last:
+            yield places.Terminal("end")
+        if self.attribute is not None:
+            yield places.Attributes(self.attribute)
+
+
+class EndForm(PlaceForm):
+    """Where the robot must be at the end: a marker alone, or a place."""
+
+    marker: MarkerName | None = None
+
+    @model_validator(mode="after")
+    def _alone(self) -> EndForm:
+        if self.marker is not None and len(self.model_fields_set) > 1:
+            raise ValueError("a marker stands alone")
+        return self
+
+
+class StepForm(Form):
+    """An action that must happen."""
+
+    do: Text
+    n: Least1 = 1
+    at: PlaceForm | None = None
+    as_: Text | None = Field(None, alias="as")
+
+    def step(self) -> Step:
+        """As the judge uses it."""
+        at = ANYWHERE if self.at is None else self.at.place()
+        return Step(action=self.do, captures=self.n, at=at, label=self.as_ or "")
+
+
+class ExpectForm(Form):
+    """What must have happened in a world."""
+
+    steps: tuple[StepForm, ...] | None = None
+    order: Literal["any"] | None = None
+    count_only: Annotated[dict[str, Bounds], Field(min_length=1)] | None = None
+    distinct_trees: dict[str, Bounds] = {}
+    at_all: PlaceForm | None = None
+    free_points: StrictBool = False
+    repeats: StrictBool = False
+    apart_m: Bounds | None = None
+    max_travel_m: Above0 | None = None
+    min_steps: Least1 | None = None
+    status: Literal["completed", "returned", "faulted", "aborted"] = "completed"
+    end: EndForm | None = None
+
+    @model_validator(mode="after")
+    def _says_what(self) -> ExpectForm:
+        if self.steps is None and self.count_only is None:
+            raise ValueError("nothing is said of what must be done: give steps or count_only")
+        if self.order is not None and self.steps is None:
+            raise ValueError("'order' is about steps, which are not here")
+        self._know_labels()
+        return self
+
+    def _know_labels(self) -> None:
+        """A label is given by an earlier step, once, and known to later steps alone."""
+        known: set[str] = set()
+        for number, step in enumerate(self.steps or (), start=1):
+            if step.at is not None:
+                _require(step.at.place().labels, known, f"step {number}")
+            if step.as_ in known:
+                raise ValueError(f"step {number}: an earlier step is called '{step.as_}' already")
+            known |= {step.as_} if step.as_ else set()
+        for name, place in (("at_all", self.at_all), ("end", self.end)):
+            if place is not None:
+                _require(place.place().labels, set(), name)
+
+    @property
+    def actions(self) -> Iterator[str]:
+        """Every action that is named."""
+        yield from (step.do for step in self.steps or ())
+        yield from self.count_only or {}
+        yield from self.distinct_trees
+
+    def expected(self) -> Expected:
+        """As the judge uses it."""
+        return Expected(
+            steps=None if self.steps is None else tuple(step.step() for step in self.steps),
+            any_order=self.order == "any",
+            counts=self.count_only,
+            trees=self.distinct_trees,
+            at_all=ANYWHERE if self.at_all is None else self.at_all.place(),
+            free_points=self.free_points,
+            repeats=self.repeats,
+            apart_m=self.apart_m,
+            most_travel_m=self.max_travel_m,
+            least_stops=self.min_steps or 0,
+            status=self.status,
+            end=None if self.end is None else self.end.marker or self.end.place(),
+        )
+
+
+class WorldForm(Form):
+    """What the sensors would read, and what must happen then. ``context`` is for people who read the case."""
+
+    readings: dict[str, Any] = {}
+    expect: ExpectForm
+    context: Any = None
+
+
+class CaseForm(Form):
+    """A request with what it means."""
+
+    id: Annotated[Text, Field(pattern=r"^\S+$")]
+    request: Text
+    site: Text | None = None
+    robot: Text | None = None
+    ask: StrictBool = False
+    worlds: Annotated[tuple[WorldForm, ...], Field(min_length=1)] | None = None
+
+    @model_validator(mode="after")
+    def _one_way(self) -> CaseForm:
+        if self.ask and self.worlds is not None:
+            raise ValueError("a request that has to be asked about is driven in no world: leave out ask or worlds")
+        if not self.ask and self.worlds is None:
+            raise ValueError("the key 'worlds' is missing (or 'ask: true' where a question is right)")
+        return self
+
+
+class BookForm(Form):
+    """The whole file."""
+
+    site: Text | None = None
+    robot: Text | None = None
+    cases: Annotated[tuple[CaseForm, ...], Field(min_length=1)]
+
+
+def _require(labels: frozenset[str], known: set[str], where: str) -> None:
+    unknown = sorted(labels - known)
+    if unknown:
+        raise ValueError(f"{where}: no earlier step is called '{unknown[0]}'")
+
+
+def _flow(value: object) -> str:
+    match value:
+        case dict():
+            return "{" + ", ".join(f"{key}: {_flow(inner)}" for key, inner in value.items()) + "}"
+        case tuple() | list():
+            return "[" + ", ".join(_flow(inner) for inner in value) + "]"
+        case bool():
+            return str(value).lower()
+        case float():
+            return f"{value:g}"
+        case _:
+            return str(value)

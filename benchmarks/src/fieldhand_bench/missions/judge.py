@@ -1,0 +1,105 @@
+"""An event log held against what was expected."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator, Mapping
+
+from fieldhand_bench.missions.cases import Bounds, Expected
+from fieldhand_bench.missions.ground import Ground
+from fieldhand_bench.missions.log import Done, Log
+from fieldhand_bench.missions.matching import mismatch, told
+
+#: An action farther from any tree than so many spacings, and than so many metres, was done at none.
+_AT_TREE, _AT_TREE_M = 0.75, 3.0
+#: Metres from a marker that are at the marker.
+_AT_MARKER_M = 3.0
+
+
+def judge(ground: Ground, expected: Expected, log: Log) -> tuple[str, ...]:
+    """What is wrong with a mission, one sentence each; nothing if it is as asked."""
+    return (
+        *_away_from_trees(ground, expected, log),
+        *_steps(ground, expected, log),
+        *_counts(expected, log),
+        *_elsewhere(ground, expected, log),
+        *_distances(expected, log),
+        *_end(ground, expected, log),
+    )
+
+
+def _away_from_trees(ground: Ground, expected: Expected, log: Log) -> Iterator[str]:
+    if expected.free_points:
+        return
+    for one in log.done:
+        if one.off_m > max(_AT_TREE * ground.spacing_m, _AT_TREE_M):
+            yield f"{one.action} was done {one.off_m:.1f} m from the nearest tree"
+
+
+def _steps(ground: Ground, expected: Expected, log: Log) -> Iterator[str]:
+    if expected.steps is not None:
+        wrong = mismatch(ground, expected.steps, log.done, any_order=expected.any_order)
+        if wrong:
+            yield wrong
+    if len(log.done) < expected.least_stops:
+        yield f"{len(log.done)} actions were done, {expected.least_stops} at least wanted"
+
+
+def _counts(expected: Expected, log: Log) -> Iterator[str]:
+    for action, bounds in (expected.counts or {}).items():
+        captures = sum(one.captures for one in log.done if one.action == action)
+        if not _within(captures, bounds):
+            yield f"{action} was done {captures} times, wanted {_said(bounds)}"
+    for action, bounds in expected.trees.items():
+        trees = len({one.tree for one in log.done if one.action == action})
+        if not _within(trees, bounds):
+            yield f"{action} was done at {trees} different trees, wanted {_said(bounds)}"
+    if expected.counts is not None:
+        yield from _uncalled_for(expected.counts, expected, log.done)
+
+
+def _uncalled_for(counts: Mapping[str, Bounds], expected: Expected, done: tuple[Done, ...]) -> Iterator[str]:
+    for action in sorted({one.action for one in done} - set(counts)):
+        yield f"nobody asked for {action}"
+    if not (expected.repeats or expected.free_points) and len({(d.action, d.tree) for d in done}) < len(done):
+        yield "a tree was worked on twice"
+
+
+def _elsewhere(ground: Ground, expected: Expected, log: Log) -> Iterator[str]:
+    for one in log.done:
+        if not expected.at_all.holds(ground, one.tree, {}):
+            yield f"{told(ground, one)} is not at {expected.at_all.words}"
+
+
+def _distances(expected: Expected, log: Log) -> Iterator[str]:
+    if expected.apart_m is not None:
+        for here, there in itertools.pairwise(log.stops):
+            away = math.dist(here, there)
+            if not _within(away, expected.apart_m):
+                yield f"two stops are {away:.1f} m apart, wanted {_said(expected.apart_m)} m"
+    if expected.most_travel_m is not None and log.travelled_m > expected.most_travel_m:
+        yield f"{log.travelled_m:.1f} m were driven, {expected.most_travel_m:g} m at most wanted"
+
+
+def _end(ground: Ground, expected: Expected, log: Log) -> Iterator[str]:
+    if log.end is None:
+        yield "the log does not say how the mission ended"
+        return
+    if log.status != expected.status:
+        yield f"the mission ended as {log.status}, wanted {expected.status}"
+    if isinstance(expected.end, str):
+        away = math.dist(log.end, ground.markers[expected.end])
+        if away > _AT_MARKER_M:
+            yield f"it ended {away:.1f} m from the {expected.end} marker"
+    elif expected.end is not None and not expected.end.holds(ground, ground.nearest(log.end)[0], {}):
+        yield f"it did not end at {expected.end.words}"
+
+
+def _within(value: float, bounds: Bounds) -> bool:
+    return bounds[0] <= value <= bounds[1]
+
+
+def _said(bounds: Bounds) -> str:
+    low, high = bounds
+    return f"{low:g}" if low == high else f"{low:g} to {high:g}"

@@ -1,0 +1,97 @@
+"""What an event log shows: actions at trees, metres driven, how and where it ended. Only what was written is read."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from fieldhand.errors import CaseError
+from fieldhand_bench.missions.ground import Ground, Points
+
+#: Metres between the places of two captures that are one stop all the same.
+_ONE_STOP_M = 0.5
+
+
+@dataclass(frozen=True, kw_only=True)
+class Done:
+    """An action that was done; captures that follow one another at one tree are one.
+
+    Attributes:
+        tree: The tree nearest to where it was done, by its position in the file.
+        off_m: Metres from that tree.
+    """
+
+    action: str
+    tree: int
+    captures: int
+    off_m: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Log:
+    """What an event log shows.
+
+    Attributes:
+        done: Actions that succeeded, in their order.
+        stops: (k, 2), metres east and north of each stop at which something was done.
+        travelled_m: Driven in all.
+        status: With which the mission ended; None where the log does not say.
+        end: (2,), where it ended, metres east and north.
+    """
+
+    done: tuple[Done, ...]
+    stops: Points
+    travelled_m: float
+    status: str | None
+    end: Points | None
+
+
+def read_log(lines: Iterable[str], ground: Ground) -> Log:
+    """An event log, one JSON object a line, on the ground that it is about.
+
+    Raises:
+        CaseError: A line is no event, or lacks what has to be known of it.
+    """
+    done: list[Done] = []
+    stops: list[Points] = []
+    travelled, status, end = 0.0, None, None
+    for number, line in enumerate(lines, start=1):
+        if not line.strip():
+            continue
+        try:
+            event: Mapping[str, Any] = json.loads(line)
+            travelled = max(travelled, float(event.get("travelled_m", 0.0)))
+            match event.get("event"), event.get("status"):
+                case "action", "success":
+                    at = _at(event, ground)
+                    _add(done, str(event["action"]), int(event.get("count", 1)), *ground.nearest(at))
+                    if not stops or math.dist(at, stops[-1]) > _ONE_STOP_M:
+                        stops.append(at)
+                case "mission", ended:
+                    status, end = str(ended), _at(event, ground)
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            raise CaseError(
+                f"is not an event that can be judged: {error}",
+                where=f"event log, line {number}",
+                advice="was the log cut off or edited?",
+            ) from None
+    return Log(done=tuple(done), stops=np.array(stops).reshape(-1, 2), travelled_m=travelled, status=status, end=end)
+
+
+def _at(event: Mapping[str, Any], ground: Ground) -> Points:
+    degrees = np.array([float(event["lat"]), float(event["lon"])])
+    if not np.isfinite(degrees).all():
+        raise ValueError("latitude and longitude are no numbers")
+    return ground.metres(degrees)
+
+
+def _add(done: list[Done], action: str, captures: int, tree: int, off_m: float) -> None:
+    if done and (done[-1].action, done[-1].tree) == (action, tree):
+        last = done.pop()
+        captures, off_m = captures + last.captures, last.off_m
+    done.append(Done(action=action, tree=tree, captures=captures, off_m=off_m))

@@ -1,0 +1,87 @@
+"""Steps that were asked for against actions that were done: one for one, in order or in any order."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import maximum_bipartite_matching
+
+from fieldhand_bench.missions.cases import Step
+from fieldhand_bench.missions.ground import Ground
+from fieldhand_bench.missions.log import Done
+from fieldhand_bench.missions.places import Labels
+
+
+def mismatch(ground: Ground, steps: Sequence[Step], done: Sequence[Done], *, any_order: bool) -> str | None:
+    """Why what was done is not just these steps, in words; None if it is."""
+    if len(done) != len(steps):
+        return f"{len(done)} actions were done where {len(steps)} were asked for{_surplus(steps, done)}"
+    return _out_of_order(ground, steps, done) if not any_order else _unassignable(ground, steps, done)
+
+
+def _surplus(steps: Sequence[Step], done: Sequence[Done]) -> str:
+    wanted, had = Counter(step.action for step in steps), Counter(d.action for d in done)
+    said = [f"{n} x {action} missing" for action, n in (wanted - had).items()]
+    said += [f"{n} x {action} too many" for action, n in (had - wanted).items()]
+    return f": {', '.join(said)}" if said else ""
+
+
+def _fits(ground: Ground, step: Step, done: Done, labels: Labels) -> bool:
+    if (done.action, done.captures) != (step.action, step.captures):
+        return False
+    return step.at.holds(ground, done.tree, labels)
+
+
+def _out_of_order(ground: Ground, steps: Sequence[Step], done: Sequence[Done]) -> str | None:
+    labels: dict[str, int] = {}
+    for number, (step, one) in enumerate(zip(steps, done, strict=True), start=1):
+        if not _fits(ground, step, one, labels):
+            wanted = f"{step.action} x{step.captures} at {step.at.words}"
+            return f"step {number} was to be {wanted}, and was {told(ground, one)}"
+        if step.label:
+            labels[step.label] = one.tree
+    return None
+
+
+def _unassignable(ground: Ground, steps: Sequence[Step], done: Sequence[Done]) -> str | None:
+    """Steps that name each other are tried in turn; all others then are a matching of two sides."""
+    named = {label for step in steps for label in step.at.labels}
+    tied = [step for step in steps if step.label in named or step.at.labels]
+    free = [step for step in steps if step not in tied]
+
+    def assignable(number: int, left: tuple[int, ...], labels: Labels) -> bool:
+        if number == len(tied):
+            return not _unmatched(ground, free, [done[k] for k in left])
+        step = tied[number]
+        return any(
+            assignable(number + 1, tuple(j for j in left if j != k), {**labels, step.label: done[k].tree})
+            for k in left
+            if _fits(ground, step, done[k], labels)
+        )
+
+    if assignable(0, tuple(range(len(done))), {}):
+        return None
+    if tied:
+        return "the actions cannot be assigned to the steps so that every place holds"
+    lost = _unmatched(ground, free, done)
+    return f"nothing that was done is left for {lost[0].action} x{lost[0].captures} at {lost[0].at.words}"
+
+
+def _unmatched(ground: Ground, steps: Sequence[Step], done: Sequence[Done]) -> list[Step]:
+    """Steps that get no action in the best assignment."""
+    if not steps:
+        return []
+    fits = np.array([[_fits(ground, step, one, {}) for one in done] for step in steps])
+    matched = maximum_bipartite_matching(csr_array(fits), perm_type="column")
+    return [step for step, k in zip(steps, matched, strict=True) if k < 0]
+
+
+def told(ground: Ground, done: Done) -> str:
+    """An action that was done, in words."""
+    east, north = ground.xy[done.tree]
+    return (
+        f"{done.action} x{done.captures} at the tree at position {done.tree} ({east:.0f} m east, {north:.0f} m north)"
+    )

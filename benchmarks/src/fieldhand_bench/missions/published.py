@@ -1,0 +1,73 @@
+"""Which cases stand for the rows of the published experiment, and what was published of them (``published.yaml``)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from typing import Literal
+
+import yaml
+
+from fieldhand_bench.missions.trial import Trial
+
+
+@dataclass(frozen=True, kw_only=True)
+class Row:
+    """A row of the published table.
+
+    Attributes:
+        case: Id of the case.
+        row: What it is about.
+        spatial: Whether the request is about places beyond the ids of trees.
+        verdict: On the published system.
+    """
+
+    case: str
+    row: str
+    spatial: bool
+    verdict: Literal["right", "wrong", "far from best"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tally:
+    """Rows of one kind: how many were tried, how many came out as asked, how many of them were published as right."""
+
+    spatial: bool
+    tried: int
+    as_asked: int
+    published_right: int
+
+
+@cache
+def published() -> tuple[Row, ...]:
+    """The rows, in the order in which they were published."""
+    text = (resources.files("fieldhand_bench.missions") / "published.yaml").read_text(encoding="utf-8")
+    return tuple(Row(**row) for row in yaml.safe_load(text))
+
+
+def row_of(case: str) -> Row | None:
+    """The row that a case stands for, if it does for one."""
+    return next((row for row in published() if row.case == case), None)
+
+
+def sorted_by_row(trials: Iterable[Trial]) -> tuple[Trial, ...]:
+    """The rows of the published table first, as they were published, then all others as they came."""
+    place = {row.case: number for number, row in enumerate(published())}
+    return tuple(sorted(trials, key=lambda trial: place.get(trial.id, len(place))))
+
+
+def tallies(trials: Iterable[Trial]) -> tuple[Tally, ...]:
+    """Rows that are not about space, then rows that are; only kinds that were tried."""
+    known = [(row, trial) for trial in trials if (row := row_of(trial.id)) is not None]
+    return tuple(
+        Tally(
+            spatial=spatial,
+            tried=len(ours),
+            as_asked=sum(trial.as_asked for _, trial in ours),
+            published_right=sum(row.verdict == "right" for row, _ in ours),
+        )
+        for spatial in (False, True)
+        if (ours := [(row, trial) for row, trial in known if row.spatial is spatial])
+    )

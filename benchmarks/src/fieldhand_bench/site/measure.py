@@ -1,0 +1,218 @@
+"""Measures a site of a size: each step as a median of repeats, each selector, drives, and peak memory."""
+
+from __future__ import annotations
+
+import contextlib
+import gc
+import statistics
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from fieldhand.errors import DriveFault, PlaceError
+from fieldhand.places.context import Context
+from fieldhand.places.resolution import resolve
+from fieldhand.places.sources.bound import EXAMPLE_LABEL
+from fieldhand.site.drives import Drives
+from fieldhand.site.geojson import load_site, parse_site
+from fieldhand.site.model import Place, Site
+from fieldhand_bench.site.memory import own_peak_bytes, peak_bytes
+from fieldhand_bench.site.orchard import benchmark_orchard
+from fieldhand_bench.site.samples import samples
+
+Clock = Callable[[], float]
+
+_DRIVES = 200
+_VISITED = 50
+
+
+@dataclass(frozen=True, kw_only=True)
+class Timing:
+    """How long something took.
+
+    Attributes:
+        first_s: The first time, when nothing is remembered from before.
+        median_s: Of the repeats.
+        worst_s: Of the repeats.
+        found: Places that a selector found; 0 for other things.
+    """
+
+    name: str
+    first_s: float
+    median_s: float
+    worst_s: float
+    found: int = 0
+
+
+@dataclass(frozen=True, kw_only=True)
+class SiteBenchmark:
+    """A site of a size, measured.
+
+    Attributes:
+        trees, blocks, rows: Of the orchard as it was understood.
+        file_bytes: Of its GeoJSON.
+        steps: Reading, rows, drivable graph, and all of it in one.
+        selectors: Each resolved on the same site.
+        drives: Between two random trees, the way itself; none is asked for twice.
+        unreachable: Of the pairs, those with no way.
+        peak_bytes: Memory of a process that only loads; None where the system does not tell.
+    """
+
+    trees: int
+    blocks: int
+    rows: int
+    file_bytes: int
+    repeats: int
+    seed: int
+    steps: tuple[Timing, ...]
+    selectors: tuple[Timing, ...]
+    drives: Timing
+    unreachable: int
+    peak_bytes: int | None
+
+    @property
+    def load(self) -> Timing:
+        """Reading, rows and graph in one."""
+        return self.steps[-1]
+
+    @property
+    def slowest_selector(self) -> Timing:
+        """By its median."""
+        return max(self.selectors, key=lambda t: t.median_s)
+
+
+def measure_site(
+    trees: int,
+    *,
+    seed: int,
+    repeats: int,
+    clearance_m: float,
+    standoff_m: float,
+    clock: Clock = time.perf_counter,
+) -> SiteBenchmark:
+    """Measure an orchard of so many trees.
+
+    Args:
+        trees: 20 or more.
+        seed: Of the orchard and of the trees that are driven to.
+        repeats: Of each step and each selector; 1 or more.
+        clearance_m: Half the robot's width.
+        standoff_m: At which it works on a tree.
+        clock: Seconds, running.
+
+    Raises:
+        InputError: Too few trees.
+    """
+    data = benchmark_orchard(trees, seed)
+    memory = _peak(data, clearance_m, standoff_m)
+    steps = _steps(data, repeats, clearance_m, standoff_m, clock)
+    site = parse_site(data, name="benchmark")
+    drives = _graph(site, clearance_m, standoff_m)
+    ways, unreachable = _drives(site, drives, np.random.default_rng(seed), clock)
+    return SiteBenchmark(
+        trees=len(site.trees),
+        blocks=len(site.planting.blocks),
+        rows=len(site.planting.rows),
+        file_bytes=len(data),
+        repeats=repeats,
+        seed=seed,
+        steps=steps,
+        selectors=_selectors(site, repeats, clock),
+        drives=ways,
+        unreachable=unreachable,
+        peak_bytes=memory,
+    )
+
+
+def load(file: str, clearance_m: str, standoff_m: str) -> None:
+    """Load a site with all that missions need of it, in a fresh process, and print the peak of its memory."""
+    _graph(load_site(Path(file)), float(clearance_m), float(standoff_m))
+    peak = own_peak_bytes()
+    if peak is not None:
+        sys.stdout.write(f"{peak}\n")
+
+
+def _graph(site: Site, clearance_m: float, standoff_m: float) -> Drives:
+    """The graph is complete when the first drive across the site is known."""
+    drives = Drives(site, clearance_m, standoff_m)
+    low, high = int(np.argmin(site.xy.sum(axis=1))), int(np.argmax(site.xy.sum(axis=1)))
+    with contextlib.suppress(DriveFault):  # no way is an answer, too, and takes the whole graph
+        drives.between(site.trees[low].place, site.trees[high].place)
+    return drives
+
+
+def _steps(data: bytes, repeats: int, clearance_m: float, standoff_m: float, clock: Clock) -> tuple[Timing, ...]:
+    """Reading, rows, graph and all of it, on a fresh site each time."""
+    taken: list[tuple[float, float, float]] = []
+    for _ in range(repeats):
+        gc.collect()
+        begun = clock()
+        site = parse_site(data, name="benchmark")
+        read = clock()
+        _ = site.planting
+        planted = clock()
+        _graph(site, clearance_m, standoff_m)
+        taken.append((read - begun, planted - read, clock() - planted))
+        del site
+    parse, rows, graph = zip(*taken, strict=True)
+    return (
+        _timing("read the file", parse),
+        _timing("find the rows", rows),
+        _timing("build the drivable graph", graph),
+        _timing("all of it", [sum(t) for t in taken]),
+    )
+
+
+def _selectors(site: Site, repeats: int, clock: Clock) -> tuple[Timing, ...]:
+    middle = site.trees[len(site.trees) // 3].place
+    visited = tuple(t.place.id for t in site.trees[:_VISITED])
+    context = Context(here=middle, visited=visited, bound={EXAMPLE_LABEL: (middle,)})
+    timings = []
+    for name, selector in samples(site).items():
+        taken, found = [], 0
+        for _ in range(repeats + 1):
+            begun = clock()
+            try:
+                found = len(resolve(selector, site, context))
+            except PlaceError:
+                found = 0  # that there is none takes as long to find out
+            taken.append(clock() - begun)
+        timings.append(_timing(name, taken[1:], first_s=taken[0], found=found))
+    return tuple(timings)
+
+
+def _drives(site: Site, drives: Drives, rng: np.random.Generator, clock: Clock) -> tuple[Timing, int]:
+    """Drives between random trees; the graph stands before the first of them is timed."""
+    places: list[Place] = [site.trees[k].place for k in rng.integers(len(site.trees), size=2 * _DRIVES).tolist()]
+    taken: list[float] = []
+    unreachable = 0
+    for k in range(_DRIVES):
+        begun = clock()
+        try:
+            drives.between(places[2 * k], places[2 * k + 1])
+        except DriveFault:
+            unreachable += 1
+        taken.append(clock() - begun)
+    return _timing("a drive between two trees", taken[1:], first_s=taken[0]), unreachable
+
+
+def _peak(data: bytes, clearance_m: float, standoff_m: float) -> int | None:
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "benchmark.geojson"
+        file.write_bytes(data)
+        return peak_bytes(file, clearance_m, standoff_m)
+
+
+def _timing(name: str, taken: Sequence[float], *, first_s: float | None = None, found: int = 0) -> Timing:
+    return Timing(
+        name=name,
+        first_s=taken[0] if first_s is None else first_s,
+        median_s=statistics.median(taken),
+        worst_s=max(taken),
+        found=found,
+    )

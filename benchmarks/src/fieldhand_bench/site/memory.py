@@ -1,0 +1,37 @@
+"""The peak memory of a fresh process that does nothing but load a site with its rows and its drivable graph."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+_PROGRAM = "import sys; from fieldhand_bench.site.measure import load; load(*sys.argv[1:])"
+
+
+def peak_bytes(file: Path, clearance_m: float, standoff_m: float) -> int | None:
+    """Most bytes that the process held at once; None where the system does not tell."""
+    done = subprocess.run(  # noqa: S603  (our own interpreter, our own program)
+        [sys.executable, "-c", _PROGRAM, str(file), str(clearance_m), str(standoff_m)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    said = done.stdout.strip()
+    return int(said) if done.returncode == 0 and said.isdigit() else None
+
+
+def own_peak_bytes() -> int | None:
+    """Return the most bytes that this process held at once; None where the system does not tell."""
+    # On Linux ru_maxrss of a started process holds the peak of the one that started it; the high-water mark does not.
+    status = Path("/proc/self/status")
+    if status.exists():
+        for line in status.read_text().splitlines():
+            if line.startswith("VmHWM:"):
+                return int(line.split()[1]) * 1024
+    try:
+        import resource
+    except ImportError:
+        return None
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return peak if sys.platform == "darwin" else peak * 1024
