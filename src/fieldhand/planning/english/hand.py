@@ -15,7 +15,7 @@ from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.english.onebyone import counted_from
 from fieldhand.planning.english.places import are_several, beyond, find
-from fieldhand.planning.english.selections import is_spot, skips_rows, so_many_nearby, starts_here
+from fieldhand.planning.english.selections import all_but, is_spot, skips_rows, so_many_nearby, starts_here
 from fieldhand.planning.english.spacing import Ranking
 from fieldhand.planning.english.syntax import Object, Part
 from fieldhand.planning.english.tokens import Term
@@ -288,8 +288,7 @@ class Hand:
                 away = s.Excluding(places=beyond(relation.value, plain))
                 return Found(selector=away, many=True, region=True)
             case "OUTSIDE" | "EXCEPT":
-                other = replace(plain, outside=True) if isinstance(plain, s.InZone) else s.Excluding(places=plain)
-                return Found(selector=other, many=True, region=True)
+                return Found(selector=all_but(plain), many=True, region=True)
             case _:
                 raise unclear(part.terms, message("'{said}' does not fit there", said=relation.text))
 

@@ -10,6 +10,7 @@ from fieldhand.planning.english.counting import Wanted
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.onebyone import one_by_one, spread_over
+from fieldhand.planning.english.selections import zone_of_points
 from fieldhand.planning.english.syntax import Part
 from fieldhand.site.model import Site
 
@@ -84,7 +85,7 @@ def stops_of(found: Found | None, part: Part, wanted: Wanted, site: Site) -> Fou
             )
         return _found(s.Spaced(apart_m=apart, count=count), count)
     selector = found.selector
-    if zone := selector.whole_zone:
+    if zone := zone_of_points(selector):
         return _found(s.Spaced(apart_m=apart, count=count, zone=zone), count)
     if found.rows:
         return _in_rows(found, part, s.Spaced(apart_m=apart, count=count, of=selector), site)
@@ -132,7 +133,7 @@ def points_over(found: Found, part: Part, wanted: Wanted) -> Found:
     """ "5 soil samples spread over the wet corner": free points of a zone, as many as there are captures."""
     if isinstance(found.selector, s.PointsIn):
         return found
-    zone = found.selector.whole_zone
+    zone = zone_of_points(found.selector)
     if not zone:
         raise unclear(
             part.terms,

@@ -18,7 +18,7 @@ from fieldhand.planning.english.found import Found
 from fieldhand.planning.english.inrow import ends_of_rows, every_nth, next_in_row, opposite, ranked_in_rows, stepped
 from fieldhand.planning.english.onebyone import distributed
 from fieldhand.planning.english.regions import corners, extremes, middle, region
-from fieldhand.planning.english.selections import is_about_rows, is_spot
+from fieldhand.planning.english.selections import is_about_rows, is_spot, zone_of_points
 from fieldhand.planning.english.sets import Group, some_of
 from fieldhand.planning.english.tokens import Term
 from fieldhand.site.model import Site
@@ -198,7 +198,7 @@ def _is_ranked(bag: Bag, group: Group, superlative: Term | None) -> bool:
 
 def _points(bag: Bag, group: Group) -> Found | None:
     """ "Four spots in the wet corner": free points of a zone, not trees."""
-    zone = group.area.whole_zone
+    zone = zone_of_points(group.area)
     points = all(t.text.lower() not in ("one", "ones") for t in bag.words("PLACE"))
     if not (points and zone):
         return None

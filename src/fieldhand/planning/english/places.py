@@ -408,7 +408,7 @@ def _row_of(bag: Bag, group: Group, relation: Term, behind: Found, inner: _Part)
 def _among(bag: Bag, group: Group, relation: Term, behind: Found, inner: _Part) -> None:
     """ "... in the northern half", "... of row 3", "... along row 3", "... spread over the wet corner"."""
     kind, terms = relation.kind, [relation, *inner.phrase.terms]
-    if kind == "SPREAD" and bag.has("PLACE") and not behind.selector.whole_zone:
+    if kind == "SPREAD" and bag.has("PLACE") and not isinstance(behind.selector, s.InZone):
         raise unclear(terms, message("free points are spread over a zone"), _SPREAD_ADVICE)
     if kind == "SPREAD" and not bag.has("PLACE"):
         bag.spread = (relation,)

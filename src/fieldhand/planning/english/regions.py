@@ -10,6 +10,7 @@ from fieldhand.planning.english.asking import how_many
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question
 from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.selections import zone_of_points
 from fieldhand.planning.english.sets import check_sides
 from fieldhand.terms import CornerName, Side
 
@@ -84,10 +85,10 @@ def middle(bag: Bag, of: s.Selector) -> Found:
     """The trees nearest to the middle of an area or of an edge."""
     bag.take("MIDDLE")
     treeless = bag.only("PLACE", "PLOT") and bag.count in (None, 1) and not (bag.another or bag.plural or bag.each)
-    if treeless and of.whole_zone:
+    if treeless and (zone := zone_of_points(of)):
         bag.take("PLACE")
         bag.any = False
-        return Found(selector=s.PointsIn(zone=of.whole_zone))
+        return Found(selector=s.PointsIn(zone=zone))
     tree = bag.take("TREE", "PLACE")
     bag.take("PLOT")
     bag.take("SIDE")

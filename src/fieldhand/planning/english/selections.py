@@ -62,6 +62,21 @@ def is_spot(place: s.Selector) -> bool:
     return place.single and (place.central or isinstance(place, s.Corners))
 
 
+def zone_of_points(selector: s.Selector) -> str:
+    """Return the zone that free points may be spread over where all trees in it, or near it, are meant; else nothing.
+
+    Points of the zone itself are near it, too.
+    """
+    if isinstance(selector, s.InZone) and selector == s.InZone(zone=selector.zone, margin_m=selector.margin_m):
+        return selector.zone
+    return ""
+
+
+def all_but(place: s.Selector) -> s.Selector:
+    """Return the trees outside of a zone, or all trees but those of other places."""
+    return replace(place, outside=True) if isinstance(place, s.InZone) else s.Excluding(places=place)
+
+
 def is_about_rows(selector: s.Selector) -> bool:
     """Return True if a row that is named, or counted from a place, is part of it."""
     return any(part.row_of is not None or isinstance(part, s.Rows) for part in selector.walk())
