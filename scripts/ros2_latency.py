@@ -22,13 +22,13 @@ from collections.abc import Callable
 from contextlib import closing
 from typing import TypeVar
 
+from fieldhand.execution.drivers.ros2.action_client import ActionClient
 from fieldhand.execution.drivers.ros2.dds import open_dds
 from fieldhand.execution.drivers.ros2.dds.transport import DdsTransport
-from fieldhand.execution.drivers.ros2.fields import value_at
-from fieldhand.execution.drivers.ros2.goal import ActionClient
+from fieldhand.execution.drivers.ros2.goal_outcome import EXECUTING, SUCCEEDED
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
-from fieldhand.execution.drivers.ros2.outcome import EXECUTING, SUCCEEDED
-from fieldhand.execution.drivers.ros2.transport import STATUS, Message
+from fieldhand.execution.drivers.ros2.message_fields import value_at
+from fieldhand.execution.drivers.ros2.transport import STATUS_QOS, Message
 
 FROM_LL, NAVIGATE = "robot_localization/srv/FromLL", "nav2_msgs/action/NavigateToPose"
 DISTRO, LIMIT_S, LOOK_S = "humble", 10.0, 0.0005
@@ -82,7 +82,7 @@ def answer(feedback: int) -> None:
         result = node.serve("/navigate/_action/get_result", f"{NAVIGATE}_GetResult")
         node.serve("/navigate/_action/cancel_goal", "action_msgs/srv/CancelGoal")
         progress = node.publish("/navigate/_action/feedback", f"{NAVIGATE}_FeedbackMessage")
-        status = node.publish("/navigate/_action/status", "action_msgs/msg/GoalStatusArray", STATUS)
+        status = node.publish("/navigate/_action/status", "action_msgs/msg/GoalStatusArray", STATUS_QOS)
         running: dict[bytes, object] = {}
         while not select.select([sys.stdin], [], [], LOOK_S)[0]:
             for asked, request in from_ll.requests():

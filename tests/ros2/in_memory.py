@@ -21,9 +21,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from fieldhand.execution.drivers.ros2.transport import SENSOR, Message, Peer, Quality, Rmw
+from fieldhand.execution.drivers.ros2.transport import SENSOR_QOS, Message, Peer, QosProfile, Rmw
 
-RELIABLE = Quality()
+RELIABLE = QosProfile()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,11 +113,11 @@ class Node:
         """The process is killed: nothing goes out or comes in any more; the others notice it later."""
         self.vanished_s = self.graph.now()
 
-    def subscribe(self, topic: str, type_name: str, quality: Quality = SENSOR) -> _Subscription:
-        return _Subscription(self, topic, type_name, quality)
+    def subscribe(self, topic: str, type_name: str, qos: QosProfile = SENSOR_QOS) -> _Subscription:
+        return _Subscription(self, topic, type_name, qos)
 
-    def publish(self, topic: str, type_name: str, quality: Quality = RELIABLE) -> _Publisher:
-        return _Publisher(self, topic, type_name, quality)
+    def publish(self, topic: str, type_name: str, qos: QosProfile = RELIABLE) -> _Publisher:
+        return _Publisher(self, topic, type_name, qos)
 
     def client(self, service: str, type_name: str) -> _Client:
         return _Client(self, service, type_name, RELIABLE)
@@ -137,7 +137,7 @@ class Node:
 
     def _found(self, name: str, kind: type[_End]) -> tuple[Peer, ...]:
         return tuple(
-            Peer(participant=e.node.participant, rmw=e.node.rmw, type=e.type, quality=e.quality)
+            Peer(participant=e.node.participant, rmw=e.node.rmw, type=e.type, qos=e.qos)
             for e in self.graph.ends
             if isinstance(e, kind) and e.name == name and e.node is not self and e.noticed
         )
@@ -150,7 +150,7 @@ class _End:
     node: Node
     name: str
     type: str
-    quality: Quality
+    qos: QosProfile
     made_s: float = field(init=False)
 
     def __post_init__(self) -> None:
@@ -192,9 +192,9 @@ class _End:
 class _Subscription(_End):
     def __post_init__(self) -> None:
         super().__post_init__()
-        self._arrived: deque[Message] = deque(maxlen=self.quality.depth)
+        self._arrived: deque[Message] = deque(maxlen=self.qos.depth)
         for writer in self.graph.ends:
-            if isinstance(writer, _Publisher) and writer.alive and self.quality.transient and _fit(writer, self):
+            if isinstance(writer, _Publisher) and writer.alive and self.qos.transient and _fit(writer, self):
                 for message in writer.kept:
                     self.deliver(message)
 
@@ -218,7 +218,7 @@ class _Subscription(_End):
 class _Publisher(_End):
     def __post_init__(self) -> None:
         super().__post_init__()
-        self.kept: deque[Message] = deque(maxlen=self.quality.depth if self.quality.transient else 0)
+        self.kept: deque[Message] = deque(maxlen=self.qos.depth if self.qos.transient else 0)
 
     def send(self, message: Message) -> None:
         whole = self.graph.filled(self.type, message)
@@ -288,7 +288,7 @@ class _Server(_End):
 
 def _fit(writer: _End, reader: _End) -> bool:
     """Whether name and type are the same, and the writer offers what the reader asks for."""
-    asked, offered = reader.quality, writer.quality
+    asked, offered = reader.qos, writer.qos
     return (
         (writer.name, writer.type) == (reader.name, reader.type)
         and (offered.reliable or not asked.reliable)

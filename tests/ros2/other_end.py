@@ -13,7 +13,7 @@ import sys
 from fieldhand.execution.drivers.ros2.dds import open_dds
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.rclpy import open_rclpy
-from fieldhand.execution.drivers.ros2.transport import SENSOR, STATUS, Quality, Transport
+from fieldhand.execution.drivers.ros2.transport import SENSOR_QOS, STATUS_QOS, QosProfile, Transport
 
 #: Services that every ROS with Nav2 has: one that computes, one whose request is deep, with an array of bytes.
 TO_MAP, SEND = "robot_localization/srv/FromLL", "nav2_msgs/action/NavigateToPose_SendGoal"
@@ -29,11 +29,11 @@ def main() -> None:
     node = opened(sys.argv[1])
     to_map, send = node.serve("/to_map", TO_MAP), node.serve("/send", SEND)
     nothing = node.serve("/nothing", "std_srvs/srv/Empty")
-    node.publish("/status", "action_msgs/msg/GoalStatusArray", STATUS).send({"status_list": [{"status": 4}]})
-    node.publish("/best_effort", "std_msgs/msg/String", SENSOR)
+    node.publish("/status", "action_msgs/msg/GoalStatusArray", STATUS_QOS).send({"status_list": [{"status": 4}]})
+    node.publish("/best_effort", "std_msgs/msg/String", SENSOR_QOS)
     node.publish("/number", "std_msgs/msg/Int32")
     echoes = [
-        (node.subscribe(f"/say_{name}", kind, Quality()), node.publish(f"/echo_{name}", kind))
+        (node.subscribe(f"/say_{name}", kind, QosProfile()), node.publish(f"/echo_{name}", kind))
         for name, kind in (("text", "std_msgs/msg/String"), ("fix", "sensor_msgs/msg/NavSatFix"))
     ]
     print("ready", flush=True)

@@ -10,7 +10,7 @@ import sys
 
 from fieldhand.execution.drivers.ros2.dds import open_dds
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
-from fieldhand.execution.drivers.ros2.transport import SENSOR, STATUS, Quality
+from fieldhand.execution.drivers.ros2.transport import SENSOR_QOS, STATUS_QOS, QosProfile
 
 SUM = {"test_msgs/srv/Sum": "float64[] terms\nuint8[4] mark\n---\nfloat64 sum\nuint8[4] mark\n"}
 
@@ -19,11 +19,11 @@ def main() -> None:
     node = open_dds(Interfaces.of("jazzy", SUM))
     sums = node.serve("/sum", "test_msgs/srv/Sum")
     nothing = node.serve("/nothing", "std_srvs/srv/Empty")
-    node.publish("/status", "action_msgs/msg/GoalStatusArray", STATUS).send({"status_list": [{"status": 4}]})
-    node.publish("/best_effort", "std_msgs/msg/String", SENSOR)
+    node.publish("/status", "action_msgs/msg/GoalStatusArray", STATUS_QOS).send({"status_list": [{"status": 4}]})
+    node.publish("/best_effort", "std_msgs/msg/String", SENSOR_QOS)
     node.publish("/number", "std_msgs/msg/Int32")
-    heard = node.subscribe("/say", "std_msgs/msg/String", Quality(depth=1000))
-    echo = node.publish("/echo", "std_msgs/msg/String", Quality(depth=1000))
+    heard = node.subscribe("/say", "std_msgs/msg/String", QosProfile(depth=1000))
+    echo = node.publish("/echo", "std_msgs/msg/String", QosProfile(depth=1000))
     print("ready", flush=True)
     while not select.select([sys.stdin], [], [], 0.002)[0]:
         for asked, request in sums.requests():

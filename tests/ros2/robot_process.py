@@ -16,8 +16,8 @@ from fieldhand.clock import SimulatedClock
 from fieldhand.execution.drivers.ros2.dds import open_dds
 from fieldhand.execution.drivers.ros2.dds.transport import DdsTransport
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
-from fieldhand.execution.drivers.ros2.transport import Quality
-from fieldhand.execution.drivers.ros2.twin.robot import Said, SimulatedRobot, bindings_of
+from fieldhand.execution.drivers.ros2.simulated_robot.robot import GoalReport, SimulatedRobot, bindings_of
+from fieldhand.execution.drivers.ros2.transport import QosProfile
 from fieldhand.execution.world import World
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
@@ -25,7 +25,7 @@ from patience import until
 from ros2.scripted import Script, ScriptedAction
 from ros2.scripted_robot import INTERFACES, Robot, bindings, interfaces
 
-NUMBER, TO_ROBOT, FROM_ROBOT, ALL = "std_msgs/msg/Int32", "/to_robot", "/from_robot", Quality(depth=10)
+NUMBER, TO_ROBOT, FROM_ROBOT, ALL = "std_msgs/msg/Int32", "/to_robot", "/from_robot", QosProfile(depth=10)
 
 
 class Process:
@@ -68,15 +68,15 @@ class Process:
         self.change(**switches)
         self._listen()
 
-    def new_twin(self, site: str, robot: str, seed: int) -> None:
+    def new_simulated_robot(self, site: str, robot: str, seed: int) -> None:
         """The simulated robot of a site and a profile, in place of the one before."""
         self.end()
         profile = load_robot(robot)
         bound = bindings_of(profile)
         known = Interfaces.of(bound.distro, bound.interfaces)
         self.nodes = [open_dds(known)]
-        self.said_of_goals: list[Said] = []
-        twin = SimulatedRobot(
+        self.said_of_goals: list[GoalReport] = []
+        simulated = SimulatedRobot(
             open_site(site),
             profile,
             World(),
@@ -85,9 +85,9 @@ class Process:
             self.clock,
             seed=seed,
             sim_time=True,
-            say=self.said_of_goals.append,
+            report=self.said_of_goals.append,
         )
-        self.robots = [twin]
+        self.robots = [simulated]
         self._listen()
 
     def _listen(self) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from fieldhand.execution.drivers.ros2.transport import STATUS, Message, Quality, Transport
+from fieldhand.execution.drivers.ros2.transport import STATUS_QOS, Message, QosProfile, Transport
 
 STATUS_OF = {"executing": 2, "succeeded": 4, "cancelled": 5, "aborted": 6}
 
@@ -52,8 +52,8 @@ class ScriptedAction:
         self._send = node.serve(f"{name}/_action/send_goal", f"{type_name}_SendGoal")
         self._result = node.serve(f"{name}/_action/get_result", f"{type_name}_GetResult")
         self._cancel = node.serve(f"{name}/_action/cancel_goal", "action_msgs/srv/CancelGoal")
-        self._feedback = node.publish(f"{name}/_action/feedback", f"{type_name}_FeedbackMessage", Quality())
-        self._status = node.publish(f"{name}/_action/status", "action_msgs/msg/GoalStatusArray", STATUS)
+        self._feedback = node.publish(f"{name}/_action/feedback", f"{type_name}_FeedbackMessage", QosProfile())
+        self._status = node.publish(f"{name}/_action/status", "action_msgs/msg/GoalStatusArray", STATUS_QOS)
 
     def close(self) -> None:
         """The process of the server ends, in order."""

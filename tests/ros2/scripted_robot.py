@@ -13,7 +13,7 @@ from fieldhand.clock import SimulatedClock
 from fieldhand.execution.drivers.ros2.driver import Ros2Driver
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.navigation import FROM_LL, SPEED_LIMIT
-from fieldhand.execution.drivers.ros2.transport import Message, Quality, Transport
+from fieldhand.execution.drivers.ros2.transport import Message, QosProfile, Transport
 from fieldhand.robot.bindings import (
     ActionBinding,
     BatteryBinding,
@@ -158,8 +158,8 @@ class Robot:
         self.sampler = ScriptedAction(self.node, name("sample"), SAMPLE, self.clock.now, lambda goal: self.sample)
         self.thermometer = self.node.serve("/thermometer", READ)
         self.from_ll = self.node.serve(name("fromLL"), FROM_LL)
-        self.heard = self.node.subscribe(name("speed_limit"), SPEED_LIMIT, Quality())
-        sensor = Quality(reliable=False, depth=5)
+        self.heard = self.node.subscribe(name("speed_limit"), SPEED_LIMIT, QosProfile())
+        sensor = QosProfile(reliable=False, depth=5)
         self.topics = {
             short: self.node.publish(name(short), type_name, sensor)
             for short, type_name in (

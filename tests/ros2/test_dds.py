@@ -16,11 +16,11 @@ from fieldhand.errors import InputError, Ros2Error
 from fieldhand.execution.drivers.ros2.dds import names, open_dds, services
 from fieldhand.execution.drivers.ros2.dds.transport import DdsTransport
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
-from fieldhand.execution.drivers.ros2.transport import SENSOR, STATUS, Quality
+from fieldhand.execution.drivers.ros2.transport import SENSOR_QOS, STATUS_QOS, QosProfile
 from patience import until
 from ros2.other_process import SUM
 
-RELIABLE, MANY = Quality(), Quality(depth=1000)
+RELIABLE, MANY = QosProfile(), QosProfile(depth=1000)
 
 
 @pytest.fixture(scope="module")
@@ -73,7 +73,7 @@ def test_a_service_without_any_field(node: DdsTransport) -> None:
 
 
 def test_who_comes_late_gets_what_was_sent_before_where_it_is_kept(node: DdsTransport) -> None:
-    late = node.subscribe("/status", "action_msgs/msg/GoalStatusArray", STATUS)
+    late = node.subscribe("/status", "action_msgs/msg/GoalStatusArray", STATUS_QOS)
     (status,) = until(late.take)
     assert [s["status"] for s in status["status_list"]] == [4]  # type: ignore[attr-defined]
     assert late.take() == ()
@@ -82,7 +82,7 @@ def test_who_comes_late_gets_what_was_sent_before_where_it_is_kept(node: DdsTran
 def test_messages_arrive_in_their_order_and_of_many_the_newest_are_kept(node: DdsTransport) -> None:
     say = node.publish("/say", "std_msgs/msg/String", MANY)
     echo = node.subscribe("/echo", "std_msgs/msg/String", MANY)
-    newest = node.subscribe("/echo", "std_msgs/msg/String", Quality(depth=3))
+    newest = node.subscribe("/echo", "std_msgs/msg/String", QosProfile(depth=3))
 
     def hello() -> bool:
         """That we have found the other does not mean that it has found us."""
@@ -107,9 +107,9 @@ def test_messages_arrive_in_their_order_and_of_many_the_newest_are_kept(node: Dd
 def test_a_quality_that_does_not_match_is_no_match_and_is_seen(node: DdsTransport) -> None:
     reader = node.subscribe("/best_effort", "std_msgs/msg/String", RELIABLE)
     (peer,) = until(lambda: node.writers_of("/best_effort"))
-    assert (peer.quality.reliable, peer.quality.transient, peer.rmw) == (False, False, "cyclonedds")
+    assert (peer.qos.reliable, peer.qos.transient, peer.rmw) == (False, False, "cyclonedds")
     assert reader.publishers() == 0
-    fits = node.subscribe("/best_effort", "std_msgs/msg/String", SENSOR)
+    fits = node.subscribe("/best_effort", "std_msgs/msg/String", SENSOR_QOS)
     until(lambda: fits.publishers() == 1)
     assert reader.publishers() == 0
 
@@ -119,7 +119,7 @@ def test_another_type_is_no_match_and_is_seen_with_its_hash(node: DdsTransport) 
     (peer,) = until(lambda: node.writers_of("/number"))
     assert peer.type == "std_msgs/msg/Int32"
     assert peer.type_hash == node.interfaces.type_hash("std_msgs/msg/Int32")
-    fits = node.subscribe("/best_effort", "std_msgs/msg/String", SENSOR)
+    fits = node.subscribe("/best_effort", "std_msgs/msg/String", SENSOR_QOS)
     until(lambda: fits.publishers() == 1)
     assert reader.publishers() == 0
 

@@ -16,9 +16,9 @@ from examples import examples
 from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver
+from fieldhand.execution.drivers.ros2.action_client import CANCEL_S, ActionClient
 from fieldhand.execution.drivers.ros2.driver import LOST_S, Ros2Driver
-from fieldhand.execution.drivers.ros2.goal import CANCEL_S, ActionClient
-from fieldhand.execution.drivers.ros2.senses import JUMPED_S, Senses
+from fieldhand.execution.drivers.ros2.telemetry import JUMPED_S, Telemetry
 from fieldhand.site.model import Place, Site
 from rig import husky
 from ros2.in_memory import Disturbed, Graph
@@ -555,14 +555,14 @@ def test_messages_that_are_taken_together_were_not_sent_together() -> None:
     """What was driven between them is told from a jump by their own stamps."""
     clock = SimulatedClock()
     graph = Graph(clock.now)
-    senses = Senses(graph.node(), bindings(), SITE.projection, speed_m_s=1.0, clock=clock.now, steady=clock.now)
+    telemetry = Telemetry(graph.node(), bindings(), SITE.projection, speed_m_s=1.0, clock=clock.now, steady=clock.now)
     topic = graph.node().publish("/husky/odom", "nav_msgs/msg/Odometry")
     for seconds, x in ((0, 0.0), (5, 5.0), (10, 10.0), (11, 500.0), (16, 505.0)):
         topic.send(
             {"header": {"stamp": {"sec": seconds, "nanosec": 0}}, "pose": {"pose": {"position": {"x": x, "y": 0.0}}}}
         )
-    senses.listen()
-    assert senses.metres == pytest.approx(15.0)
+    telemetry.listen()
+    assert telemetry.metres == pytest.approx(15.0)
 
 
 def test_metres_that_are_told_late_count() -> None:

@@ -20,7 +20,7 @@ import fieldhand
 from command import fieldhand as command
 from fieldhand.delivery.crew import ORDERS
 from fieldhand.execution.drivers.ros2.rclpy import open_rclpy
-from fieldhand.execution.drivers.ros2.transport import Quality, Transport
+from fieldhand.execution.drivers.ros2.transport import QosProfile, Transport
 from patience import LONG_S, until
 from ros2.sourced import goals, graph, rclpy_robot, sourced, standard_husky
 
@@ -131,7 +131,7 @@ class Executor:
 
     def status(self) -> Mapping[str, Any]:
         """What is kept for who comes late."""
-        heard = self.node.subscribe("/executor/status", "std_msgs/msg/String", Quality(transient=True, depth=1))
+        heard = self.node.subscribe("/executor/status", "std_msgs/msg/String", QosProfile(transient=True, depth=1))
         text = str(until(heard.take)[-1]["data"])
         heard.close()
         return dict(json.loads(text))
@@ -233,7 +233,7 @@ def test_what_may_not_run_is_refused_with_its_reason(executor: Executor, mission
 
 @sourced
 def test_diagnostics_say_what_is_wrong(executor: Executor) -> None:
-    heard = executor.node.subscribe("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", Quality())
+    heard = executor.node.subscribe("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", QosProfile())
     assert executor.change(CONFIGURE)
     waiting = until(lambda: [a for a in heard.take() if a["status"][0]["hardware_id"] == "husky"])  # type: ignore[index]
     assert waiting[0]["status"][0]["level"] == 0  # type: ignore[index]

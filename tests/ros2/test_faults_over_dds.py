@@ -22,8 +22,8 @@ from fieldhand.task.plan import Act, GoTo, Node, Sequence
 from fieldhand.task.results import Acted, Driving, Faulted, Waited
 from patience import until
 from rig import captured, of_type
-from ros2.far_robot import FarRobot, Meeting
 from ros2.other_vendor import OtherVendor
+from ros2.robot_in_process import Meeting, RobotInProcess
 from ros2.scripted_robot import READ, SITE, bindings, navigating
 
 NEAR, FAR = SITE.trees[0].place, SITE.trees[-1].place
@@ -33,15 +33,15 @@ Meet = Callable[..., Meeting]
 
 
 @pytest.fixture(scope="module")
-def robots(domain: int) -> Iterator[list[FarRobot]]:
-    made: list[FarRobot] = []
+def robots(domain: int) -> Iterator[list[RobotInProcess]]:
+    made: list[RobotInProcess] = []
     yield made
     for robot in made:
         robot.kill()
 
 
 @pytest.fixture
-def meet(robots: list[FarRobot]) -> Iterator[Meet]:
+def meet(robots: list[RobotInProcess]) -> Iterator[Meet]:
     """Makes a robot anew, and a computer that finds it, in place of those before."""
     nodes: list[DdsTransport] = []
 
@@ -49,7 +49,7 @@ def meet(robots: list[FarRobot]) -> Iterator[Meet]:
         while nodes:
             nodes.pop().close()
         if not robots or not robots[-1].alive:
-            robots.append(FarRobot())
+            robots.append(RobotInProcess())
         meeting = Meeting(robots[-1], *bound, **switches)
         nodes.append(meeting.node)
         return meeting

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fieldhand.clock import SimulatedClock
-from fieldhand.execution.drivers.ros2.transport import SENSOR, STATUS, Quality
+from fieldhand.execution.drivers.ros2.transport import SENSOR_QOS, STATUS_QOS, QosProfile
 from ros2.in_memory import Disturbed, Graph
 
 STRING = "std_msgs/msg/String"
@@ -23,11 +23,11 @@ def test_a_service_answers_each_request_by_its_number() -> None:
 def test_endpoints_match_by_type_and_quality_and_discovery_shows_those_that_do_not() -> None:
     graph = Graph(SimulatedClock().now)
     robot, computer = graph.node(rmw="fastrtps"), graph.node()
-    robot.publish("/a", STRING, SENSOR)
+    robot.publish("/a", STRING, SENSOR_QOS)
     robot.publish("/a", "std_msgs/msg/Bool")
     robot.serve("/ask", TRIGGER)
-    assert computer.subscribe("/a", STRING, SENSOR).publishers() == 1
-    assert computer.subscribe("/a", STRING, Quality()).publishers() == 0
+    assert computer.subscribe("/a", STRING, SENSOR_QOS).publishers() == 1
+    assert computer.subscribe("/a", STRING, QosProfile()).publishers() == 0
     assert [p.type for p in computer.writers_of("/a")] == [STRING, "std_msgs/msg/Bool"]
     client = computer.client("/ask", TRIGGER)
     client.ask({})
@@ -38,13 +38,13 @@ def test_endpoints_match_by_type_and_quality_and_discovery_shows_those_that_do_n
 def test_what_is_sent_before_two_found_each_other_is_lost_and_what_is_kept_is_not() -> None:
     clock = SimulatedClock()
     graph = Graph(clock.now, found_s=1.0)
-    writer = graph.node().publish("/a", STRING, STATUS)
-    reader = graph.node().subscribe("/a", STRING, SENSOR)
+    writer = graph.node().publish("/a", STRING, STATUS_QOS)
+    reader = graph.node().subscribe("/a", STRING, SENSOR_QOS)
     writer.send({"data": "early"})
     clock.advance(1.0)
     writer.send({"data": "late"})
     assert reader.take() == ({"data": "late"},)
-    assert graph.node().subscribe("/a", STRING, STATUS).take() == ({"data": "late"},)
+    assert graph.node().subscribe("/a", STRING, STATUS_QOS).take() == ({"data": "late"},)
 
 
 def test_messages_get_lost_come_twice_and_late_as_asked() -> None:

@@ -7,8 +7,8 @@ from typing import get_args
 import pytest
 
 from fieldhand.errors import ProfileError, Ros2Error
-from fieldhand.execution.drivers.ros2.fields import value_at
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.message_fields import value_at
 from fieldhand.robot.bindings import Distro, NavigationType
 
 DISTROS: tuple[Distro, ...] = get_args(Distro)

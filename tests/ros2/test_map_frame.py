@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from examples import examples
-from fieldhand.execution.drivers.ros2.map_frame import in_map
+from fieldhand.execution.drivers.ros2.map_frame import degrees_to_map
 from fieldhand.robot.bindings import Datum
 
 GEOD = pyproj.Geod(ellps="WGS84")
@@ -32,7 +32,7 @@ def test_a_point_in_the_map_is_where_a_local_cartesian_frame_has_it(
         f" +step +proj=topocentric +ellps=WGS84 +lat_0={lat!r} +lon_0={lon!r} +h_0=0"
     )
     east, north, _ = local.transform(there_lon, there_lat, 0.0)
-    ((x, y),) = in_map(Datum(lat=lat, lon=lon, heading_deg=heading), [(there_lat, there_lon)])
+    ((x, y),) = degrees_to_map(Datum(lat=lat, lon=lon, heading_deg=heading), [(there_lat, there_lon)])
     turn = math.radians(90.0 - heading)  # from the map's axes to east and north
     back = (x * math.cos(turn) - y * math.sin(turn), x * math.sin(turn) + y * math.cos(turn))
     assert math.dist(back, (east, north)) < 0.01

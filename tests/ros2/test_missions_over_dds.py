@@ -26,8 +26,8 @@ from fieldhand.approval.authorize import EveryWarning
 from fieldhand.cli.app import assemble
 from fieldhand.cli.demo import REQUEST
 from fieldhand.errors import Ros2Error
-from fieldhand.execution.drivers.ros2 import boarding
-from fieldhand.execution.drivers.ros2.boarding import board
+from fieldhand.execution.drivers.ros2 import robot_connection
+from fieldhand.execution.drivers.ros2.robot_connection import connected_robot
 from fieldhand.execution.journal import store
 from fieldhand.execution.vehicle import Vehicle
 from fieldhand.execution.world import World
@@ -46,7 +46,7 @@ from fieldhand_bench.missions.log import read_log
 from outside_referee import CASES, HERE, ground, referee
 from patience import until
 from rig import of_type
-from ros2.far_robot import boarded_twin
+from ros2.robot_in_process import connected_simulated_robot
 from ros2.sim_robots import SimRobot, patient, sim_robot
 
 pytest.importorskip("cyclonedds")
@@ -141,7 +141,7 @@ class Plan:
             under_way: Called at each tick once the robot is some metres from where it stood.
         """
         site, robot = open_site(self.site), load_robot(self.robot)
-        with board(site, robot, self.authorized.task, robot_there.by) as vehicle:
+        with connected_robot(site, robot, self.authorized.task, robot_there.by) as vehicle:
             return self.carried_out_by(vehicle, under, emit, under_way)
 
     def carried_out_by(
@@ -173,7 +173,7 @@ def test_the_demo_goes_as_in_simulation(tmp_path: Path) -> None:
     decided depends on no process that waits for its turn."""
     husky = str(patient(tmp_path, type="nav2_msgs/action/NavigateThroughPoses"))
     plan = Plan.of(REQUEST, robot=husky, seed=7)
-    with boarded_twin("demo", husky, plan.authorized.task, seed=plan.seed, tick_s=0.5) as (vehicle, far):
+    with connected_simulated_robot("demo", husky, plan.authorized.task, seed=plan.seed, tick_s=0.5) as (vehicle, far):
         there = plan.carried_out_by(vehicle, tmp_path)
         made = [place for name, place in far.state["made"] if name.endswith("take_picture")]
     here = plan.simulated(World())
@@ -316,7 +316,7 @@ def drives(robot: SimRobot, *, since: int) -> list[str]:
 
 
 def test_a_robot_that_does_not_answer_leaves_no_mission_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(boarding, "board", partial(board, within_s=0.2))
+    monkeypatch.setattr(robot_connection, "connected_robot", partial(connected_robot, within_s=0.2))
     words = ("run", "Measure CO2 at tree 5.", "--site", "demo", "--yes", "--confirm", "--on", "dds", "--namespace", "x")
     done = CliRunner().invoke(assemble(), (*words, "--missions", str(tmp_path)))
     assert isinstance(done.exception, Ros2Error)

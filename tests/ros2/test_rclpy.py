@@ -17,12 +17,12 @@ import pytest
 
 from fieldhand.errors import InputError, Ros2Error
 from fieldhand.execution.drivers.ros2.rclpy import open_rclpy
-from fieldhand.execution.drivers.ros2.transport import MOST_BYTES, SENSOR, STATUS, Quality, Transport
+from fieldhand.execution.drivers.ros2.transport import MOST_BYTES, SENSOR_QOS, STATUS_QOS, QosProfile, Transport
 from patience import until
 from ros2.other_end import SEND, TO_MAP, opened
 from ros2.sourced import NOT_CYCLONE, graph, sourced
 
-RELIABLE = Quality()
+RELIABLE = QosProfile()
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -98,7 +98,7 @@ def test_a_service_without_any_field(node: Transport) -> None:
 
 
 def test_who_comes_late_gets_what_was_sent_before_where_it_is_kept(node: Transport) -> None:
-    late = node.subscribe("/status", "action_msgs/msg/GoalStatusArray", STATUS)
+    late = node.subscribe("/status", "action_msgs/msg/GoalStatusArray", STATUS_QOS)
     (status,) = until(late.take)
     assert [s["status"] for s in status["status_list"]] == [4]  # type: ignore[attr-defined]
     assert late.take() == ()
@@ -142,10 +142,10 @@ def test_every_kind_of_field_comes_back_as_it_was_sent(node: Transport) -> None:
 def test_a_quality_that_does_not_match_is_no_match_and_is_seen(node: Transport) -> None:
     reader = node.subscribe("/best_effort", "std_msgs/msg/String", RELIABLE)
     (peer,) = until(lambda: node.writers_of("/best_effort"))
-    assert (peer.quality.reliable, peer.quality.transient) == (False, False)
+    assert (peer.qos.reliable, peer.qos.transient) == (False, False)
     assert peer.rmw == ("fastrtps" if NOT_CYCLONE else "cyclonedds")
     assert reader.publishers() == 0
-    fits = node.subscribe("/best_effort", "std_msgs/msg/String", SENSOR)
+    fits = node.subscribe("/best_effort", "std_msgs/msg/String", SENSOR_QOS)
     until(lambda: fits.publishers() == 1)
     assert reader.publishers() == 0
 
@@ -154,7 +154,7 @@ def test_another_type_is_no_match_and_is_seen(node: Transport) -> None:
     reader = node.subscribe("/number", "std_msgs/msg/String", RELIABLE)
     (peer,) = until(lambda: node.writers_of("/number"))
     assert peer.type == "std_msgs/msg/Int32"
-    fits = node.subscribe("/best_effort", "std_msgs/msg/String", SENSOR)
+    fits = node.subscribe("/best_effort", "std_msgs/msg/String", SENSOR_QOS)
     until(lambda: fits.publishers() == 1)
     assert reader.publishers() == 0
 
@@ -217,13 +217,13 @@ def test_what_is_too_large_or_no_message_hides_nothing(domain: int, monkeypatch:
 
 @sourced
 def test_bytes_and_defaults_of_generated_classes(domain: int) -> None:
-    from fieldhand.execution.drivers.ros2.rclpy import types
+    from fieldhand.execution.drivers.ros2.rclpy import message_types
 
     status = "diagnostic_msgs/msg/DiagnosticStatus"
-    made = types.packed(status, {"level": 2, "values": ({"key": "a"},)})
+    made = message_types.to_ros(status, {"level": 2, "values": ({"key": "a"},)})
     assert (made.level, made.values[0].key) == (b"\x02", "a")
-    assert types.unpacked(status, made)["level"] == 2
-    goal = types.packed("geometry_msgs/msg/Pose", {})
+    assert message_types.from_ros(status, made)["level"] == 2
+    goal = message_types.to_ros("geometry_msgs/msg/Pose", {})
     assert goal.orientation.w == 1.0, "what a message leaves out keeps the default of its type"
 
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from fieldhand.clock import PacedClock
 from fieldhand.errors import Ros2Error
-from fieldhand.execution.drivers.ros2.ros_clock import TOPIC, TYPE, RosClock, overlooked
+from fieldhand.execution.drivers.ros2.ros_clock import TOPIC, TYPE, RosClock, unused_clock_remark
 from fieldhand.execution.mission_clock import MissionClock
 from ros2.in_memory import Graph
 
@@ -134,6 +134,6 @@ def test_a_clock_of_another_type_is_said() -> None:
 
 def test_a_time_that_is_not_taken_is_told() -> None:
     simulator = Simulator()
-    assert "--sim-time" in overlooked(simulator.listener)
+    assert "--sim-time" in unused_clock_remark(simulator.listener)
     simulator.topic.close()
-    assert overlooked(simulator.listener) == ""
+    assert unused_clock_remark(simulator.listener) == ""

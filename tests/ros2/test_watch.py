@@ -15,8 +15,8 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.task.plan import Act
 from fieldhand.task.results import Acted, Ended, LimitCrossed
 from rig import authorized, husky, of_type, task_for
-from ros2.test_twin_contract import OverATwin
-from ros2.twin_rig import SITE
+from ros2.simulated_robot_rig import SITE
+from ros2.test_simulated_robot_contract import OverSimulatedRobot
 
 
 def small_battery() -> RobotProfile:
@@ -24,17 +24,17 @@ def small_battery() -> RobotProfile:
     return replace(robot, energy=replace(robot.energy, capacity_j=0.12 * robot.energy.capacity_j))
 
 
-class SmallBattery(OverATwin):
+class SmallBattery(OverSimulatedRobot):
     """A robot of which a short drive empties much."""
 
     robot: ClassVar[RobotProfile] = small_battery()
 
 
 def test_a_drive_is_broken_off_by_what_the_battery_topic_says_on_the_way() -> None:
-    twin = SmallBattery()
-    robot = twin.robot
+    small = SmallBattery()
+    robot = small.robot
     world = World(charge_percent=36.0, meter_step_percent=1.0, faults=(BatteryDrains(factor=6.0, from_s=10.0),))
-    driver, clock, _ = twin.make_in(world)
+    driver, clock, _ = small.make_in(world)
     task = task_for(Act(id="", action="read_co2", at=TreeIs(tree="r3c4")))
     events = run(
         authorized(task, SITE, robot),

@@ -155,12 +155,12 @@ def boarded(
         yield None
         return
     from fieldhand.cli.show import note
-    from fieldhand.execution.drivers.ros2.boarding import board
+    from fieldhand.execution.drivers.ros2.robot_connection import connected_robot
 
     if not quiet:
         looking = message("looking for {robot} over ROS 2 ({way})", robot=ground.robot.name, way=str(connection))
         note(looking, language)
-    with board(ground.site, ground.robot, task, connection) as vehicle:
+    with connected_robot(ground.site, ground.robot, task, connection) as vehicle:
         yield vehicle
 
 

@@ -10,8 +10,8 @@ from fieldhand.cli.aboard import NamespaceOption, namespace_of
 from fieldhand.cli.options import JsonOption
 
 if TYPE_CHECKING:
-    from fieldhand.execution.drivers.ros2.check import Report
-    from fieldhand.execution.drivers.ros2.probes import Finding
+    from fieldhand.execution.drivers.ros2.endpoint_checks import EndpointReport
+    from fieldhand.execution.drivers.ros2.profile_check import ProfileReport
     from fieldhand.robot.model import RobotProfile
 
 
@@ -34,8 +34,8 @@ def check(
     from dataclasses import replace
 
     from fieldhand.cli import show
-    from fieldhand.execution.drivers.ros2.check import bindings_of, check_types
     from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+    from fieldhand.execution.drivers.ros2.profile_check import bindings_of, check_types
     from fieldhand.robot.loader import load_robot
 
     profile = load_robot(name)
@@ -54,22 +54,24 @@ def check(
         raise typer.Exit(1)
 
 
-def _tried(profile: RobotProfile, interfaces: Any, transport: str, domain: int | None, within_s: float) -> Report:
+def _tried(
+    profile: RobotProfile, interfaces: Any, transport: str, domain: int | None, within_s: float
+) -> ProfileReport:
     import time
     from contextlib import closing
 
-    from fieldhand.execution.drivers.ros2.check import check_live
-    from fieldhand.execution.drivers.ros2.opening import open_transport
+    from fieldhand.execution.drivers.ros2.open_transport import open_transport
+    from fieldhand.execution.drivers.ros2.profile_check import check_live
 
     with closing(open_transport(transport, interfaces, domain)) as node:
         return check_live(profile, node, interfaces, within_s=within_s, steady=time.monotonic, sleep=time.sleep)
 
 
-def _lines(profile: RobotProfile, report: Report, *, live: bool) -> list[str]:
-    from fieldhand.execution.drivers.ros2.seen import rmw_package
+def _lines(profile: RobotProfile, report: ProfileReport, *, live: bool) -> list[str]:
+    from fieldhand.execution.drivers.ros2.endpoint_problems import rmw_package
 
-    lines = [line for finding in report.findings for line in _told(finding)]
-    bindings = f"{len(report.findings)} bindings of {profile.name}"
+    lines = [line for finding in report.endpoints for line in _told(finding)]
+    bindings = f"{len(report.endpoints)} bindings of {profile.name}"
     if live and not report.rmw:
         lines.append("Nothing of this robot was found on this ROS domain (--domain, ROS_DOMAIN_ID).")
     elif live:
@@ -82,13 +84,13 @@ def _lines(profile: RobotProfile, report: Report, *, live: bool) -> list[str]:
     return [*lines, f"{len(report.missing)} of {bindings} cannot be used."]
 
 
-def _told(finding: Finding) -> list[str]:
+def _told(finding: EndpointReport) -> list[str]:
     bound = finding.binding
     first = f"{'ok     ' if finding.usable else 'MISSING'} {bound.part}: {bound.name} ({bound.type}): {finding.what}"
     return [first] if not finding.advice else [first, f"          {finding.advice}"]
 
 
-def _record(profile: RobotProfile, report: Report, *, live: bool) -> dict[str, Any]:
+def _record(profile: RobotProfile, report: ProfileReport, *, live: bool) -> dict[str, Any]:
     from dataclasses import asdict
 
     return {
@@ -98,6 +100,6 @@ def _record(profile: RobotProfile, report: Report, *, live: bool) -> dict[str, A
         "rmw": list(report.rmw),
         "bindings": [
             {**asdict(f.binding), "usable": f.usable, "what": f.what, "advice": f.advice, "rmw": list(f.rmw)}
-            for f in report.findings
+            for f in report.endpoints
         ],
     }

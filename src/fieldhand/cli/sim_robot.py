@@ -14,7 +14,7 @@ from fieldhand.cli.outputs import refuse_standard_output, to_whole_file
 from fieldhand.execution.drivers.ros2.domain import MOST_DOMAIN
 
 if TYPE_CHECKING:
-    from fieldhand.execution.drivers.ros2.twin.robot import Said
+    from fieldhand.execution.drivers.ros2.simulated_robot.robot import GoalReport
     from fieldhand.execution.world import World
     from fieldhand.robot.bindings import Ros2Bindings
     from fieldhand.robot.model import RobotProfile
@@ -55,10 +55,10 @@ def sim_robot(
     from fieldhand.cli.inputs import open_ground
     from fieldhand.clock import ScaledClock
     from fieldhand.execution.drivers.ros2.interfaces import Interfaces
-    from fieldhand.execution.drivers.ros2.opening import open_transport
-    from fieldhand.execution.drivers.ros2.twin.robot import SimulatedRobot, bindings_of
-    from fieldhand.execution.drivers.ros2.twin.serving import serve
-    from fieldhand.execution.drivers.ros2.twin.state import Identity, read_state, write_state
+    from fieldhand.execution.drivers.ros2.open_transport import open_transport
+    from fieldhand.execution.drivers.ros2.simulated_robot.main_loop import run_robot
+    from fieldhand.execution.drivers.ros2.simulated_robot.robot import SimulatedRobot, bindings_of
+    from fieldhand.execution.drivers.ros2.simulated_robot.state_file import Identity, read_state, write_state
     from fieldhand.execution.interrupts import ctrl_c_as_request
     from fieldhand.execution.world import World
     from fieldhand.execution.world_file import load_world
@@ -73,7 +73,7 @@ def sim_robot(
     profile = replace(ground.robot, ros2=bindings)
     made_for = Identity(site=ground.site.content_sha256, robot=profile.sha256, world=_hash_of(given))
     refuse_standard_output(state, "--state")
-    memory = None if state is None else read_state(state, made_for)
+    saved = None if state is None else read_state(state, made_for)
     interfaces = Interfaces.of(bindings.distro, bindings.interfaces)
     node = open_transport("dds" if dds else transport, interfaces, domain)
     try:
@@ -88,12 +88,12 @@ def sim_robot(
             seed=given.seed if seed is None else seed,
             sim_time=sim_time,
             speed=speed,
-            say=_say_json if json else _say,
-            memory=memory,
+            report=_print_report_json if json else _print_report,
+            state=saved,
         )
-        _greet(profile, bindings, ground.site.name, sim_time=sim_time, goes_on=memory is not None, json=json)
+        _greet(profile, bindings, ground.site.name, sim_time=sim_time, goes_on=saved is not None, json=json)
         with ctrl_c_as_request() as ended:
-            why = serve(
+            why = run_robot(
                 simulated,
                 clock,
                 ended=ended,
@@ -139,22 +139,21 @@ def _greet(
     _print("Ctrl-C ends it.")
 
 
-def _say(said: Said) -> None:
+def _print_report(report: GoalReport) -> None:
     """A line a goal."""
-    facts = [f"{said.metres:.1f} m"] if said.metres else []
-    if said.end != "rejected":
-        facts += [f"{said.took_s:.1f} s", *(f"{name} {value:.4g}" for name, value in said.readings.items())]
-    why = f" ({said.why})" if said.why and said.why != said.end else ""
+    facts = [f"{report.metres:.1f} m"] if report.metres else []
+    if report.end != "rejected":
+        facts += [f"{report.took_s:.1f} s", *(f"{name} {value:.4g}" for name, value in report.readings.items())]
+    why = f" ({report.why})" if report.why and report.why != report.end else ""
     done = f": {', '.join(facts)}" if facts else ""
-    _print(
-        f"{said.seconds:8.1f} s  {said.name} at {said.place} {said.end}{why}{done}; battery {said.charge_percent:.1f} %"
-    )
+    head = f"{report.seconds:8.1f} s  {report.name} at {report.place} {report.end}"
+    _print(f"{head}{why}{done}; battery {report.charge_percent:.1f} %")
 
 
-def _say_json(said: Said) -> None:
+def _print_report_json(report: GoalReport) -> None:
     from dataclasses import asdict
 
-    _line(event="goal", **asdict(said))
+    _line(event="goal", **asdict(report))
 
 
 def _part(why: str, *, json: bool) -> None:

@@ -44,7 +44,7 @@ class Aboard:
 
     Args:
         by: How the robot is reached.
-        board: Reaches it (:func:`fieldhand.execution.drivers.ros2.boarding.board`).
+        board: Reaches it (:func:`fieldhand.execution.drivers.ros2.robot_connection.connected_robot`).
     """
 
     def __init__(self, by: Connection, board: Board) -> None:

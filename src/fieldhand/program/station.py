@@ -145,13 +145,21 @@ def compose_station(
             seed=seed,
         )
         return Station(robot=profile, sites=places, depot=depot, crew=crew)
-    from fieldhand.execution.drivers.ros2.boarding import RobotPresence, board, bound, join
+    from fieldhand.execution.drivers.ros2.robot_connection import (
+        RobotPresence,
+        connected_robot,
+        effective_bindings,
+        open_node,
+    )
     from fieldhand.program.aboard import Aboard
 
     with ExitStack() as stack:
         stack.callback(depot.close)
-        bindings = bound(profile, connection)
-        presence, aboard = RobotPresence(join(connection, bindings)[0], bindings), Aboard(connection, board)
+        bindings = effective_bindings(profile, connection)
+        presence, aboard = (
+            RobotPresence(open_node(connection, bindings)[0], bindings),
+            Aboard(connection, connected_robot),
+        )
         stack.pop_all()
     let_go = ExitStack()
     let_go.callback(presence.close)

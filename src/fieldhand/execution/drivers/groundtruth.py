@@ -135,7 +135,7 @@ class GroundTruth:
         captures = tuple((quantity, place, times) for (quantity, place), times in self._captures.items())
         return captures, tuple(self._used.items())
 
-    def recall(self, seed: int, captures: Iterable[tuple[str, str, int]], struck: Iterable[tuple[int, int]]) -> None:
+    def restore(self, seed: int, captures: Iterable[tuple[str, str, int]], struck: Iterable[tuple[int, int]]) -> None:
         """Go on from another one's seed and :meth:`counts`."""
         self.seed = seed
         self._captures = Counter({(quantity, place): times for quantity, place, times in captures})

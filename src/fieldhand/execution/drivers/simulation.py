@@ -220,7 +220,7 @@ class SimulatedDriver:
             return stop.why
         return None
 
-    def memory(self) -> SimulationState:
+    def state(self) -> SimulationState:
         """Return the state from which a new driver continues; a running goal is broken off."""
         here = self.position()
         captures, struck = self._truth.counts()
@@ -236,21 +236,21 @@ class SimulatedDriver:
             lost=tuple(self._lost),
         )
 
-    def recall(self, memory: SimulationState) -> None:
+    def restore(self, state: SimulationState) -> None:
         """Go on as the robot that this memory is of: of the same site, profile and world.
 
         Raises:
             ValueError: The state of its generator is none.
         """
         try:
-            self._rng.bit_generator.state = memory.generator
+            self._rng.bit_generator.state = state.generator
         except (TypeError, ValueError, KeyError, AttributeError, OverflowError) as error:
             raise ValueError(f"no state of a random generator: {error}") from error
-        self._begun_s = self._clock.now() - memory.seconds
-        self._charge, self._charged_s = memory.charge_percent, self._clock.now()
-        self._xy, self._course, self._result = (memory.x, memory.y), None, Progress(state="idle")
-        self._lost = list(memory.lost)
-        self._truth.recall(memory.values_seed, memory.captures, memory.struck)
+        self._begun_s = self._clock.now() - state.seconds
+        self._charge, self._charged_s = state.charge_percent, self._clock.now()
+        self._xy, self._course, self._result = (state.x, state.y), None, Progress(state="idle")
+        self._lost = list(state.lost)
+        self._truth.restore(state.values_seed, state.captures, state.struck)
 
     def _begin(self) -> None:
         if not self.poll().over:

@@ -16,11 +16,11 @@ from dataclasses import dataclass, field
 
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import ActionGoal
-from fieldhand.execution.drivers.ros2.asking import Limit, ask
-from fieldhand.execution.drivers.ros2.fields import message_of, number_at, value_at
-from fieldhand.execution.drivers.ros2.goal import ActionClient
-from fieldhand.execution.drivers.ros2.outcome import Ending, Outcome
-from fieldhand.execution.drivers.ros2.transport import Client, Message, Quality, Subscription, Transport
+from fieldhand.execution.drivers.ros2.action_client import ActionClient
+from fieldhand.execution.drivers.ros2.goal_outcome import GoalEnd, GoalOutcome
+from fieldhand.execution.drivers.ros2.message_fields import message_of, number_at, value_at
+from fieldhand.execution.drivers.ros2.service_call import TimeLimit, call_service
+from fieldhand.execution.drivers.ros2.transport import Client, Message, QosProfile, Subscription, Transport
 from fieldhand.robot.bindings import ActionBinding, CallBinding, NextMessage, RequestValue, Ros2Bindings
 
 #: Seconds in which an action is found, and accepts a goal.
@@ -29,12 +29,12 @@ ACCEPT_S = 5.0
 #: Messages of a topic that are kept between two looks.
 _DEPTH = 10
 
-Steps = Generator[None, None, Ending]
+Steps = Generator[None, None, GoalEnd]
 Readings = dict[str, float]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Bound:
+class BoundAction:
     """An action of the profile, with what is asked and listened to.
 
     Attributes:
@@ -53,7 +53,7 @@ class Bound:
                 end.close()
 
 
-class Captures:
+class CaptureClient:
     """Everything that the profile binds, ready to be asked.
 
     Args:
@@ -99,7 +99,7 @@ class Captures:
         for bound in self.bound.values():
             bound.close()
 
-    def _bind(self, transport: Transport, binding: ActionBinding, new_id: Callable[[], bytes]) -> Bound:
+    def _bind(self, transport: Transport, binding: ActionBinding, new_id: Callable[[], bytes]) -> BoundAction:
         call, action, service = binding.call, None, None
         if call is not None and call.kind == "action":
             action = ActionClient(
@@ -114,12 +114,12 @@ class Captures:
             service = transport.client(self.whole_name(call.name), call.type)
         topics = {}
         for quantity, message in binding.topics.items():
-            name, quality = self.whole_name(message.topic), Quality(reliable=message.reliable, depth=_DEPTH)
-            topics[quantity] = name, transport.subscribe(name, message.type, quality)
-        return Bound(binding=binding, action=action, service=service, topics=topics)
+            name, qos = self.whole_name(message.topic), QosProfile(reliable=message.reliable, depth=_DEPTH)
+            topics[quantity] = name, transport.subscribe(name, message.type, qos)
+        return BoundAction(binding=binding, action=action, service=service, topics=topics)
 
 
-class _Heard:
+class _LatestMessages:
     """The last message of each topic since what was there before was forgotten."""
 
     def __init__(self, topics: Mapping[str, tuple[str, Subscription]]) -> None:
@@ -138,16 +138,16 @@ class _Heard:
                 self.last[quantity] = message
 
 
-class Capture:
+class RunningCapture:
     """One capture, step by step."""
 
-    def __init__(self, captures: Captures, goal: ActionGoal) -> None:
+    def __init__(self, captures: CaptureClient, goal: ActionGoal) -> None:
         self._captures, self._goal = captures, goal
         self._cancelled = False
         self._steps = self._carry_out()
-        self._ending: Ending | None = None
+        self._ending: GoalEnd | None = None
 
-    def step(self) -> Ending | None:
+    def step(self) -> GoalEnd | None:
         """Do what is due; None while it goes on."""
         if self._ending is None:
             try:
@@ -166,8 +166,8 @@ class Capture:
         bound = self._captures.bound.get(self._goal.action)
         if bound is None:
             return _failed(f"the profile does not say how {self._goal.action} is done over ROS 2")
-        ending = Ending(state="succeeded")
-        call, heard = bound.binding.call, _Heard(bound.topics)
+        ending = GoalEnd(state="succeeded")
+        call, heard = bound.binding.call, _LatestMessages(bound.topics)
         heard.forget()
         if call is not None:
             request = message_of({path: self._value(value) for path, value in call.request.items()})
@@ -196,10 +196,10 @@ class Capture:
             raise Ros2Error(f"{self._goal.action} has no parameter {name!r}, which its request is to hold")
         return known[name]
 
-    def _limit(self, seconds: float) -> Limit:
-        return Limit(seconds, self._captures.clock, self._captures.steady)
+    def _limit(self, seconds: float) -> TimeLimit:
+        return TimeLimit(seconds, self._captures.clock, self._captures.steady)
 
-    def _act(self, client: ActionClient, call: CallBinding, request: Message, heard: _Heard) -> Steps:
+    def _act(self, client: ActionClient, call: CallBinding, request: Message, heard: _LatestMessages) -> Steps:
         limit = self._limit(call.within_s)
         client.start(request, sending=heard.forget)
         while (outcome := client.step()) is None:
@@ -211,35 +211,35 @@ class Capture:
             heard.listen()
         return self._ending_of(outcome, call, client.name)
 
-    def _ending_of(self, outcome: Outcome, call: CallBinding, name: str) -> Ending:
+    def _ending_of(self, outcome: GoalOutcome, call: CallBinding, name: str) -> GoalEnd:
         if outcome.how == "succeeded":
-            return judged(outcome.result, call, name)
+            return capture_end(outcome.result, call, name)
         if outcome.moving:
             return _failed(f"{outcome.what}; see whether it runs on the robot, and what the robot does")
         if self._cancelled:
-            return Ending(state="cancelled")
+            return GoalEnd(state="cancelled")
         if outcome.how == "aborted":
             return _failed(f"{name} failed{_told(outcome.result, call)}")
         return _failed(outcome.what or f"somebody else cancelled {name}")
 
-    def _serve(self, client: Client, call: CallBinding, request: Message, heard: _Heard) -> Steps:
+    def _serve(self, client: Client, call: CallBinding, request: Message, heard: _LatestMessages) -> Steps:
         name, limit = self._captures.whole_name(call.name), self._limit(call.within_s)
-        asking = ask(client, name, [request], limit, self._captures.steady, sending=heard.forget)
+        asking = call_service(client, name, [request], limit, self._captures.steady, sending=heard.forget)
         while not self._cancelled:
             try:
                 next(asking)
             except StopIteration as answered:
-                return judged(answered.value[0], call, name)
+                return capture_end(answered.value[0], call, name)
             yield
             heard.listen()
-        return Ending(state="cancelled")
+        return GoalEnd(state="cancelled")
 
-    def _listen(self, bound: Bound, heard: _Heard, readings: Readings) -> Steps:
+    def _listen(self, bound: BoundAction, heard: _LatestMessages, readings: Readings) -> Steps:
         """Wait for the next message of each topic; where none comes, the one from before counts."""
         heard.listen()
         before = dict(heard.last)
         heard.forget()
-        wanted: dict[str, tuple[NextMessage, Limit]] = {
+        wanted: dict[str, tuple[NextMessage, TimeLimit]] = {
             quantity: (message, self._limit(message.within_s)) for quantity, message in bound.binding.topics.items()
         }
         while not self._cancelled:
@@ -253,18 +253,18 @@ class Capture:
                     name = bound.topics[quantity][0]
                     return _failed(f"nothing came on {name} within {limit.seconds:g} s, so there is no {quantity}")
             if not wanted:
-                return Ending(state="succeeded", readings=readings)
+                return GoalEnd(state="succeeded", readings=readings)
             yield
-        return Ending(state="cancelled")
+        return GoalEnd(state="cancelled")
 
 
-def judged(result: Message, call: CallBinding, name: str) -> Ending:
+def capture_end(result: Message, call: CallBinding, name: str) -> GoalEnd:
     """What an answer means: readings, unless it says itself that it did not succeed."""
     if call.success and not value_at(result, call.success):
         return _failed(f"{name} did not succeed{_told(result, call)}")
     pairs = ((quantity, number_at(result, binding)) for quantity, binding in call.readings.items())
     readings = dict(itertools.chain.from_iterable(_reading(*pair).items() for pair in pairs))
-    return Ending(state="succeeded", readings=readings)
+    return GoalEnd(state="succeeded", readings=readings)
 
 
 def _reading(quantity: str, value: float | None) -> Readings:
@@ -277,5 +277,5 @@ def _told(result: Message, call: CallBinding) -> str:
     return f": {words.strip()}" if isinstance(words, str) and words.strip() else ""
 
 
-def _failed(what: str) -> Ending:
-    return Ending(state="failed", fault="failed", what=what)
+def _failed(what: str) -> GoalEnd:
+    return GoalEnd(state="failed", fault="failed", what=what)

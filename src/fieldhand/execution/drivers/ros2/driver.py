@@ -20,12 +20,12 @@ from typing import Self
 from fieldhand.clock import Clock
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Position, Progress
-from fieldhand.execution.drivers.ros2.capture import Capture, Captures
+from fieldhand.execution.drivers.ros2.capture import CaptureClient, RunningCapture
+from fieldhand.execution.drivers.ros2.goal_outcome import GoalEnd
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
-from fieldhand.execution.drivers.ros2.navigation import Drive, Navigation
-from fieldhand.execution.drivers.ros2.outcome import Ending
-from fieldhand.execution.drivers.ros2.senses import Senses
+from fieldhand.execution.drivers.ros2.navigation import NavigationClient, RunningDrive
 from fieldhand.execution.drivers.ros2.startup import Startup
+from fieldhand.execution.drivers.ros2.telemetry import Telemetry
 from fieldhand.execution.drivers.ros2.transport import Transport
 from fieldhand.robot.bindings import Ros2Bindings
 from fieldhand.robot.model import RobotProfile
@@ -76,24 +76,24 @@ class Ros2Driver:
         bindings = _bindings_of(robot, actions)
         self._site = site
         self._clock, self._steady, self._look_every_s = clock, steady, look_every_s
-        self._senses = Senses(
+        self._telemetry = Telemetry(
             transport, bindings, site.projection, speed_m_s=robot.speed_m_s, clock=clock.now, steady=steady
         )
-        self._navigation = Navigation(
+        self._navigation = NavigationClient(
             transport,
             bindings,
             speed_m_s=robot.speed_m_s,
             position=self._where,
-            stamp_s=lambda: self._senses.stamp_s,
+            stamp_s=lambda: self._telemetry.stamp_s,
             clock=clock.now,
             steady=steady,
             new_id=new_id,
         )
-        self._captures = Captures(transport, bindings, clock=clock.now, steady=steady, new_id=new_id, only=actions)
-        self._task: Drive | Capture | None = None
-        self._cut: Ending | None = None
+        self._captures = CaptureClient(transport, bindings, clock=clock.now, steady=steady, new_id=new_id, only=actions)
+        self._task: RunningDrive | RunningCapture | None = None
+        self._cut: GoalEnd | None = None
         self._lost: tuple[float, str] | None = None
-        self._ended: Ending | None = None
+        self._ended: GoalEnd | None = None
         self._counting: tuple[int, float] | None = None
         self._begun_s, self._begun_m = 0.0, 0.0
         self._result = Progress(state="idle")
@@ -140,7 +140,7 @@ class Ros2Driver:
             interfaces,
             navigation=driver._navigation,
             captures=driver._captures,
-            senses=driver._senses,
+            telemetry=driver._telemetry,
             far=lambda: driver._far_from(site),
             rest=lambda: sleep(LOOK_EVERY_S),
             steady=steady,
@@ -158,10 +158,10 @@ class Ros2Driver:
         return None
 
     def start_drive(self, goal: DriveGoal) -> None:
-        self._begin(lambda: Drive(self._navigation, goal))
+        self._begin(lambda: RunningDrive(self._navigation, goal))
 
     def start_action(self, goal: ActionGoal) -> None:
-        self._begin(lambda: Capture(self._captures, goal))
+        self._begin(lambda: RunningCapture(self._captures, goal))
 
     def poll(self) -> Progress:
         self._attend()
@@ -172,10 +172,10 @@ class Ros2Driver:
             self._task.cancel()
         ending = self._ended or self._task.step()
         if ending is None:
-            return self._progress(Ending(state="running"))
-        if isinstance(self._task, Drive) and not self._is_counted():
+            return self._progress(GoalEnd(state="running"))
+        if isinstance(self._task, RunningDrive) and not self._is_counted():
             self._ended = ending
-            return self._progress(Ending(state="running"))
+            return self._progress(GoalEnd(state="running"))
         return self._finish(ending)
 
     def cancel(self) -> None:
@@ -186,22 +186,22 @@ class Ros2Driver:
         return None if self._task is None else self._look_every_s
 
     def position(self) -> Position:
-        self._senses.listen()
+        self._telemetry.listen()
         position = self._where()
         assert position is not None  # noqa: S101  connected only where it is known
         return position
 
     def charge_percent(self) -> float:
-        self._senses.listen()
-        return min(100.0, max(0.0, self._senses.charge_percent or 0.0))
+        self._telemetry.listen()
+        return min(100.0, max(0.0, self._telemetry.charge_percent or 0.0))
 
     def lost(self) -> str | None:
-        self._senses.listen()
+        self._telemetry.listen()
         return self._is_lost()
 
     def stopped(self) -> str | None:
         self._attend()
-        return self._senses.stopped()
+        return self._telemetry.stopped()
 
     def leave(self, sleep: Callable[[float], None] = time.sleep) -> None:
         """End what the robot is at, if anything is left of it: nobody looks any more. Waits a moment for that.
@@ -220,16 +220,16 @@ class Ros2Driver:
 
     def close(self) -> None:
         """Let the robot go, without a word to it: what it is at is cancelled before, or goes on."""
-        self._senses.close()
+        self._telemetry.close()
         self._navigation.close()
         self._captures.close()
 
     # --- a goal --------------------------------------------------------------------------------------------------
 
-    def _begin(self, task: Callable[[], Drive | Capture]) -> None:
+    def _begin(self, task: Callable[[], RunningDrive | RunningCapture]) -> None:
         if not self.poll().over:
             raise RuntimeError("a goal is running: a driver has one at a time")
-        self._begun_s, self._begun_m = self._clock.now(), self._senses.metres
+        self._begun_s, self._begun_m = self._clock.now(), self._telemetry.metres
         if (refused := self._why_not()) is not None:
             self._result = self._progress(refused)
             return
@@ -238,29 +238,29 @@ class Ros2Driver:
 
     def _attend(self) -> None:
         """Take what has arrived. A goal that was given up and turns out to be carried out is cancelled by that."""
-        self._senses.listen()
+        self._telemetry.listen()
         for client in (self._navigation.client, *self._captures.actions):
             client.step()
 
-    def _why_not(self) -> Ending | None:
+    def _why_not(self) -> GoalEnd | None:
         """Why no goal can be carried out now, as the end that it comes to; None where one can."""
-        if (why := self._senses.stopped()) is not None:
-            return Ending(state="cancelled", what=why)
+        if (why := self._telemetry.stopped()) is not None:
+            return GoalEnd(state="cancelled", what=why)
         if (why := self._is_lost()) is not None:
-            return Ending(state="failed", what=why, fault="lost")
-        if (why := self._senses.silent()) is not None:
-            return Ending(state="failed", what=why, fault="failed")
+            return GoalEnd(state="failed", what=why, fault="lost")
+        if (why := self._telemetry.silent()) is not None:
+            return GoalEnd(state="failed", what=why, fault="failed")
         return None
 
     def _is_counted(self) -> bool:
         """Whether the last metres of a drive that is over were told: they come a moment after its end."""
-        heard, now = self._senses.metres_heard, self._steady()
+        heard, now = self._telemetry.metres_heard, self._steady()
         if self._counting is None:
             self._counting = heard, now
         before, since = self._counting
         return heard - before >= LAST_METRES or now - since >= LAST_METRES_S
 
-    def _finish(self, ending: Ending) -> Progress:
+    def _finish(self, ending: GoalEnd) -> Progress:
         cut = self._cut
         # A lost robot makes no capture and has not arrived; whatever else cut it short, what was done is done.
         if cut is not None and (cut.fault == "lost" or ending.state != "succeeded"):
@@ -268,7 +268,7 @@ class Ros2Driver:
             ending = dataclasses.replace(cut, what=f"{cut.what}{more}")
         elif ending.fault == "lost":
             self._lost = self._steady(), ending.what
-        elif ending.state == "failed" and self._senses.charge_percent is not None and self.charge_percent() <= 0.0:
+        elif ending.state == "failed" and self._telemetry.charge_percent is not None and self.charge_percent() <= 0.0:
             ending = dataclasses.replace(ending, fault="empty", what=f"the battery is empty; {ending.what}")
         if ending.state == "cancelled" and not ending.what:
             ending = dataclasses.replace(ending, what="cancelled")
@@ -276,10 +276,10 @@ class Ros2Driver:
         self._result = self._progress(ending)
         return self._result
 
-    def _progress(self, ending: Ending) -> Progress:
+    def _progress(self, ending: GoalEnd) -> Progress:
         return Progress(
             state=ending.state,
-            metres=self._senses.metres - self._begun_m,
+            metres=self._telemetry.metres - self._begun_m,
             seconds=max(0.0, self._clock.now() - self._begun_s),
             readings=ending.readings,
             what=ending.what,
@@ -289,10 +289,10 @@ class Ros2Driver:
     # --- the robot -----------------------------------------------------------------------------------------------
 
     def _where(self) -> Position | None:
-        return self._senses.position
+        return self._telemetry.position
 
     def _is_lost(self) -> str | None:
-        why = self._senses.lost() or self._far_from(self._site)
+        why = self._telemetry.lost() or self._far_from(self._site)
         if why is None and self._lost is not None:
             since, said = self._lost
             return said if self._steady() - since < LOST_S else None

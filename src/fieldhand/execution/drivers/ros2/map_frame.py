@@ -11,8 +11,8 @@ import numpy as np
 
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import DriveGoal
-from fieldhand.execution.drivers.ros2.asking import Limit, ask
-from fieldhand.execution.drivers.ros2.fields import number_at
+from fieldhand.execution.drivers.ros2.message_fields import number_at
+from fieldhand.execution.drivers.ros2.service_call import TimeLimit, call_service
 from fieldhand.execution.drivers.ros2.transport import Client, Message
 from fieldhand.robot.bindings import Datum, FieldBinding
 from fieldhand.site.projection import Projection
@@ -34,7 +34,7 @@ def _around(datum: Datum) -> Projection:
     return Projection(datum.lat, datum.lon)
 
 
-def in_map(datum: Datum, degrees: Sequence[Point]) -> tuple[Point, ...]:
+def degrees_to_map(datum: Datum, degrees: Sequence[Point]) -> tuple[Point, ...]:
     """Metres along the map's axes of points in (lat, lon); less than 1 cm wrong within 5 km of the datum."""
     east, north = _around(datum).metres(*np.asarray(degrees, dtype=float).T).T
     sin, cos = math.sin(math.radians(datum.heading_deg)), math.cos(math.radians(datum.heading_deg))
@@ -42,16 +42,16 @@ def in_map(datum: Datum, degrees: Sequence[Point]) -> tuple[Point, ...]:
     return tuple((float(a), float(b)) for a, b in zip(x, y, strict=True))
 
 
-def out_of_map(datum: Datum, point: Point) -> Point:
-    """Latitude and longitude of a point of the map: the inverse of :func:`in_map`."""
+def map_to_degrees(datum: Datum, point: Point) -> Point:
+    """Latitude and longitude of a point of the map: the inverse of :func:`degrees_to_map`."""
     sin, cos = math.sin(math.radians(datum.heading_deg)), math.cos(math.radians(datum.heading_deg))
     x, y = point
     lat, lon = _around(datum).degrees((x * sin - y * cos, x * cos + y * sin))[0]
     return float(lat), float(lon)
 
 
-def asked_for(
-    client: Client, name: str, goal: DriveGoal, limit: Limit, steady: Callable[[], float]
+def query_map_points(
+    client: Client, name: str, goal: DriveGoal, limit: TimeLimit, steady: Callable[[], float]
 ) -> Generator[None, None, tuple[Point, ...]]:
     """The corners of a drive, as the robot's own service says (``robot_localization/srv/FromLL``).
 
@@ -59,7 +59,7 @@ def asked_for(
         Ros2Error: It does not answer, or not with this way: one that is not ready says 0, 0 of everything.
     """
     requests = [{"ll_point": {"latitude": lat, "longitude": lon, "altitude": 0.0}} for lat, lon in goal.path_degrees]
-    replies = yield from ask(client, name, requests, limit, steady)
+    replies = yield from call_service(client, name, requests, limit, steady)
     points: list[Point] = []
     for reply in replies:
         x, y = number_at(reply, _X), number_at(reply, _Y)
@@ -77,7 +77,7 @@ def asked_for(
     return tuple(points)
 
 
-def by_way(path_m: Sequence[Point], points: Sequence[Point]) -> Callable[[Point], Point] | None:
+def site_to_map(path_m: Sequence[Point], points: Sequence[Point]) -> Callable[[Point], Point] | None:
     """Where any point of the site lies in the map, from a way of which both is known.
 
     Args:

@@ -17,20 +17,20 @@ from dataclasses import dataclass
 
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import DriveGoal, Position
-from fieldhand.execution.drivers.ros2.asking import Limit
-from fieldhand.execution.drivers.ros2.fields import number_at, seconds_at, value_at
-from fieldhand.execution.drivers.ros2.goal import ActionClient
+from fieldhand.execution.drivers.ros2.action_client import ActionClient
+from fieldhand.execution.drivers.ros2.goal_outcome import GoalEnd, GoalOutcome
 from fieldhand.execution.drivers.ros2.map_frame import (
     Point,
-    asked_for,
-    by_way,
+    degrees_to_map,
     geographic_pose,
-    in_map,
     pose,
+    query_map_points,
+    site_to_map,
     yaw_of,
 )
+from fieldhand.execution.drivers.ros2.message_fields import number_at, seconds_at, value_at
 from fieldhand.execution.drivers.ros2.nav2_codes import CODES, MISSED_WAYPOINT
-from fieldhand.execution.drivers.ros2.outcome import Ending, Outcome
+from fieldhand.execution.drivers.ros2.service_call import TimeLimit
 from fieldhand.execution.drivers.ros2.transport import Client, Message, Publisher, Transport
 from fieldhand.robot.bindings import FieldBinding, NavigationBinding, NavigationFault, Ros2Bindings
 
@@ -45,11 +45,11 @@ _X, _Y = (FieldBinding(path=f"current_pose.pose.position.{axis}") for axis in "x
 #: Metres below which a leg has no direction.
 _NO_LEG_M = 0.01
 
-Steps = Generator[None, None, Ending]
+Steps = Generator[None, None, GoalEnd]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Plan:
+class NavigationGoals:
     """A drive as Nav2 is to carry it out.
 
     Attributes:
@@ -58,10 +58,10 @@ class Plan:
     """
 
     goals: Sequence[tuple[Message, Point]]
-    in_map: Callable[[Point], Point] | None = None
+    site_to_map: Callable[[Point], Point] | None = None
 
 
-class Navigation:
+class NavigationClient:
     """Drives a robot through Nav2.
 
     Args:
@@ -115,7 +115,7 @@ class Navigation:
     def _by_degrees(self) -> bool:
         return self.binding.type == "nav2_msgs/action/FollowGPSWaypoints"
 
-    def plan(self, goal: DriveGoal) -> Generator[None, None, Plan]:
+    def plan(self, goal: DriveGoal) -> Generator[None, None, NavigationGoals]:
         """The goals of Nav2 that make up a drive.
 
         Raises:
@@ -123,25 +123,25 @@ class Navigation:
         """
         binding = self.binding
         if self._by_degrees:
-            return Plan(goals=[(_by_degrees(goal), goal.path_m[-1])])
+            return NavigationGoals(goals=[(_by_degrees(goal), goal.path_m[-1])])
         if self.from_ll is not None:
-            limit = Limit(binding.accept_s, self.steady, self.steady)
-            points = yield from asked_for(self.from_ll, self.from_ll_name, goal, limit, self.steady)
+            limit = TimeLimit(binding.accept_s, self.steady, self.steady)
+            points = yield from query_map_points(self.from_ll, self.from_ll_name, goal, limit, self.steady)
         elif binding.datum is not None:
-            points = in_map(binding.datum, goal.path_degrees)
+            points = degrees_to_map(binding.datum, goal.path_degrees)
         else:
             raise Ros2Error("neither datum nor from_ll says where the map lies", advice="name one in the profile")
-        placed = by_way(goal.path_m, points)
+        placed = site_to_map(goal.path_m, points)
         poses = [pose(binding.frame, points[i], points[j]) for i, j in _legs(goal.path_m)]
         if binding.type == "nav2_msgs/action/NavigateThroughPoses":
             # Kilted: nav_msgs/Goals, a header with the poses.
             header: Message = {"frame_id": binding.frame}
             listed = {"header": header, "goals": tuple(poses)} if self.distro == "kilted" else tuple(poses)
             whole: Message = {"poses": listed, "behavior_tree": binding.behavior_tree}
-            return Plan(goals=[(whole, goal.path_m[-1])], in_map=placed)
+            return NavigationGoals(goals=[(whole, goal.path_m[-1])], site_to_map=placed)
         ends = [goal.path_m[j] for _, j in _legs(goal.path_m)]
         each: list[Message] = [{"pose": p, "behavior_tree": binding.behavior_tree} for p in poses]
-        return Plan(goals=list(zip(each, ends, strict=True)), in_map=placed)
+        return NavigationGoals(goals=list(zip(each, ends, strict=True)), site_to_map=placed)
 
     def limit_speed(self, speed_m_s: float) -> None:
         """Let the robot drive no faster.
@@ -168,21 +168,21 @@ class Navigation:
             self.from_ll.close()
 
 
-class Drive:
+class RunningDrive:
     """One drive, step by step."""
 
-    def __init__(self, navigation: Navigation, goal: DriveGoal) -> None:
+    def __init__(self, navigation: NavigationClient, goal: DriveGoal) -> None:
         binding = navigation.binding
         self._navigation, self._goal = navigation, goal
-        self._limit = Limit(
+        self._limit = TimeLimit(
             binding.slower * goal.length_m / goal.speed_m_s + binding.extra_s, navigation.clock, navigation.steady
         )
         self._cancelled = False
         self._judged: Message = {}
         self._steps = self._carry_out()
-        self._ending: Ending | None = None
+        self._ending: GoalEnd | None = None
 
-    def step(self) -> Ending | None:
+    def step(self) -> GoalEnd | None:
         """Do what is due; None while it goes on."""
         if self._ending is None:
             try:
@@ -190,7 +190,7 @@ class Drive:
             except StopIteration as done:
                 self._ending = done.value
             except Ros2Error as error:
-                self._ending = Ending(state="failed", fault="failed", what=str(error))
+                self._ending = GoalEnd(state="failed", fault="failed", what=str(error))
         return self._ending
 
     def cancel(self) -> None:
@@ -202,20 +202,20 @@ class Drive:
         planning = self._navigation.plan(self._goal)
         while True:
             if self._cancelled:
-                return Ending(state="cancelled")
+                return GoalEnd(state="cancelled")
             try:
                 next(planning)
             except StopIteration as planned:
-                plan: Plan = planned.value
+                plan: NavigationGoals = planned.value
                 break
             yield
         for message, there in plan.goals:
             ending = yield from self._drive(message, there, plan)
             if ending.state != "succeeded":
                 return ending
-        return Ending(state="succeeded")
+        return GoalEnd(state="succeeded")
 
-    def _drive(self, message: Message, there: Point, plan: Plan) -> Steps:
+    def _drive(self, message: Message, there: Point, plan: NavigationGoals) -> Steps:
         """One goal of Nav2."""
         client = self._navigation.client
         client.start(message)
@@ -227,12 +227,12 @@ class Drive:
             elif (why := self._elsewhere(plan)) is not None:
                 client.cancel(why)
             yield
-        ending = ending_of(outcome, self._navigation.binding, cancelled=self._cancelled)
+        ending = end_of(outcome, self._navigation.binding, cancelled=self._cancelled)
         if ending.state == "succeeded":
             ending = yield from self._arrive(there)
         return ending
 
-    def _elsewhere(self, plan: Plan) -> str | None:
+    def _elsewhere(self, plan: NavigationGoals) -> str | None:
         """Why the robot's map is not what it is taken for: it would drive to somewhere else from the first metre on."""
         navigation = self._navigation
         feedback, at = navigation.client.feedback, navigation.position()
@@ -240,12 +240,12 @@ class Drive:
             return None  # the robot has driven on since
         self._judged = feedback
         # A message that was not filled in has no frame.
-        if plan.in_map is None or at is None or value_at(feedback, _FRAME) != navigation.binding.frame:
+        if plan.site_to_map is None or at is None or value_at(feedback, _FRAME) != navigation.binding.frame:
             return None
         x, y = number_at(feedback, _X), number_at(feedback, _Y)
         if x is None or y is None:
             return None
-        away = math.dist(plan.in_map((at.x, at.y)), (x, y))
+        away = math.dist(plan.site_to_map((at.x, at.y)), (x, y))
         if away <= ELSEWHERE_M + navigation.binding.tolerance_m + self._driven_between_m(feedback):
             return None
         return (
@@ -265,19 +265,19 @@ class Drive:
         tolerance, until = navigation.binding.tolerance_m, navigation.steady() + SETTLE_S
         while (away := _away(navigation.position(), there)) > tolerance:
             if self._cancelled:
-                return Ending(state="cancelled")
+                return GoalEnd(state="cancelled")
             if navigation.steady() >= until:
-                return Ending(
+                return GoalEnd(
                     state="failed",
                     fault="failed",
                     what=f"{navigation.client.name} says that it has arrived, but the robot stands {away:.1f} m away,"
                     f" at most {tolerance:g} m are allowed; see whether datum and frame are those of its map",
                 )
             yield
-        return Ending(state="succeeded")
+        return GoalEnd(state="succeeded")
 
 
-def ending_of(outcome: Outcome, binding: NavigationBinding, *, cancelled: bool) -> Ending:
+def end_of(outcome: GoalOutcome, binding: NavigationBinding, *, cancelled: bool) -> GoalEnd:
     """What the end of a goal of Nav2 means to a mission.
 
     Args:
@@ -285,20 +285,20 @@ def ending_of(outcome: Outcome, binding: NavigationBinding, *, cancelled: bool) 
     """
     missed = outcome.result.get("missed_waypoints")
     if outcome.how == "succeeded" and not (isinstance(missed, Sequence) and missed):
-        return Ending(state="succeeded")
+        return GoalEnd(state="succeeded")
     if outcome.moving:
         advice = "see whether Nav2 runs on the robot; if it drives still, use its emergency stop"
-        return Ending(state="failed", fault="failed", what=f"{outcome.what}; {advice}")
+        return GoalEnd(state="failed", fault="failed", what=f"{outcome.what}; {advice}")
     if cancelled and outcome.how != "succeeded":
-        return Ending(state="cancelled")
+        return GoalEnd(state="cancelled")
     if outcome.how in ("succeeded", "aborted"):
         return _failed(outcome.result, binding)
     what = outcome.what or "somebody else cancelled the drive"
     advice = "; see whether Nav2 is active on the robot" if outcome.how in ("rejected", "untold") else ""
-    return Ending(state="failed", fault="failed", what=f"{what}{advice}")
+    return GoalEnd(state="failed", fault="failed", what=f"{what}{advice}")
 
 
-def _failed(result: Message, binding: NavigationBinding) -> Ending:
+def _failed(result: Message, binding: NavigationBinding) -> GoalEnd:
     """Why Nav2 failed: by its code, where there is one."""
     code, words = _code(result), _words(result)
     fault: NavigationFault
@@ -309,7 +309,7 @@ def _failed(result: Message, binding: NavigationBinding) -> Ending:
         meaning, fault = CODES.get(code, ("navigation failed", "failed"))
         fault = binding.codes.get(code, fault)
         meaning = f"{meaning} (code {code} of Nav2)"
-    return Ending(state="failed", fault=fault, what=f"{meaning}: {words}" if words else meaning)
+    return GoalEnd(state="failed", fault=fault, what=f"{meaning}: {words}" if words else meaning)
 
 
 def _code(result: Message) -> int:

@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from typing import Self
 
 from fieldhand.errors import Ros2Error
-from fieldhand.execution.drivers.ros2.transport import Quality, Transport
+from fieldhand.execution.drivers.ros2.transport import QosProfile, Transport
 from fieldhand.language import message
 
 TOPIC, TYPE = "/clock", "rosgraph_msgs/msg/Clock"
@@ -40,7 +40,7 @@ class RosClock:
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
         # Best effort hears writers of either kind; only the newest counts.
-        self._topic = transport.subscribe(TOPIC, TYPE, Quality(reliable=False, depth=1))
+        self._topic = transport.subscribe(TOPIC, TYPE, QosProfile(reliable=False, depth=1))
         self._transport, self._steady, self._sleep = transport, steady, sleep
         self._said_s: float | None = None
         self._passed_s = 0.0
@@ -131,7 +131,7 @@ class RosClock:
         self._alone_s, self._pace, self._measured = wall_s, 1.0, (wall_s, self._passed_s)
 
 
-def overlooked(transport: Transport) -> str:
+def unused_clock_remark(transport: Transport) -> str:
     """What to know where the time of :data:`TOPIC` is not taken; empty where nobody says one."""
     if not any(peer.type == TYPE for peer in transport.writers_of(TOPIC)):
         return ""

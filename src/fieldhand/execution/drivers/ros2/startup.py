@@ -5,13 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from fieldhand.errors import Ros2Error
-from fieldhand.execution.drivers.ros2.capture import Bound, Captures
-from fieldhand.execution.drivers.ros2.goal import CANCEL_S, ActionClient
+from fieldhand.execution.drivers.ros2.action_client import CANCEL_S, ActionClient
+from fieldhand.execution.drivers.ros2.capture import BoundAction, CaptureClient
+from fieldhand.execution.drivers.ros2.endpoint_problems import (
+    EndpointProblem,
+    action_problem,
+    service_problem,
+    topic_problem,
+)
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
-from fieldhand.execution.drivers.ros2.navigation import FROM_LL, Navigation
-from fieldhand.execution.drivers.ros2.seen import Unusable, action_unusable, service_unusable, topic_unusable
-from fieldhand.execution.drivers.ros2.senses import Sense, Senses
-from fieldhand.execution.drivers.ros2.transport import Client, Quality, Transport
+from fieldhand.execution.drivers.ros2.navigation import FROM_LL, NavigationClient
+from fieldhand.execution.drivers.ros2.telemetry import Telemetry, TelemetryTopic
+from fieldhand.execution.drivers.ros2.transport import Client, QosProfile, Transport
 
 #: How many of the things that are missing are named.
 _MOST_NAMED = 8
@@ -42,15 +47,15 @@ class Startup:
         transport: Transport,
         interfaces: Interfaces,
         *,
-        navigation: Navigation,
-        captures: Captures,
-        senses: Senses,
+        navigation: NavigationClient,
+        captures: CaptureClient,
+        telemetry: Telemetry,
         far: Callable[[], str | None],
         rest: Callable[[], None],
         steady: Callable[[], float],
     ) -> None:
         self._transport, self._interfaces = transport, interfaces
-        self._navigation, self._captures, self._senses = navigation, captures, senses
+        self._navigation, self._captures, self._telemetry = navigation, captures, telemetry
         self._far, self._rest, self._steady = far, rest, steady
 
     def wait(self, within_s: float) -> None:
@@ -64,7 +69,7 @@ class Startup:
             if self._steady() >= until:
                 raise Ros2Error(f"the robot is not ready, {within_s:g} s on: {_told(missing)}")
             self._rest()
-            self._senses.listen()
+            self._telemetry.listen()
 
     def clear(self) -> None:
         """End what the robot is at: a mission that was cut off may have left a goal behind, which nobody watches.
@@ -84,11 +89,11 @@ class Startup:
 
     def _missing(self) -> Iterator[_Missing]:
         yield from self._missing_navigation()
-        for sense in self._senses.all:
-            yield from self._silent(sense)
+        for topic in self._telemetry.all:
+            yield from self._silent(topic)
         if (why := self._far()) is not None:
             yield why, ""
-        if (pressed := self._senses.stopped()) is not None:
+        if (pressed := self._telemetry.stopped()) is not None:
             yield pressed, "release it and begin again"
         for name, bound in self._captures.bound.items():
             yield from self._missing_capture(name, bound)
@@ -101,7 +106,7 @@ class Startup:
         if navigation.speed is not None and navigation.speed.subscribers() == 0:
             yield f"the speed limit {navigation.speed_name}: nobody hears it", "see whether Nav2's controller is active"
 
-    def _missing_capture(self, name: str, bound: Bound) -> Iterator[_Missing]:
+    def _missing_capture(self, name: str, bound: BoundAction) -> Iterator[_Missing]:
         call = bound.binding.call
         if bound.action is not None:
             yield from self._no_action(name, bound.action)
@@ -111,33 +116,33 @@ class Startup:
             message = bound.binding.topics[quantity]
             if subscription.publishers() == 0:
                 # What is sent when it is asked for is not heard before.
-                quality = Quality(reliable=message.reliable)
-                why = topic_unusable(self._transport, self._interfaces, topic, message.type, quality)
+                qos = QosProfile(reliable=message.reliable)
+                why = topic_problem(self._transport, self._interfaces, topic, message.type, qos)
                 yield _line(f"{quantity} of {name}", topic, why)
 
     def _no_action(self, what: str, client: ActionClient) -> Iterator[_Missing]:
-        why = action_unusable(self._transport, self._interfaces, client.name, client.type)
+        why = action_problem(self._transport, self._interfaces, client.name, client.type)
         if why is not None or client.servers() == 0:
             yield _line(what, client.name, why)
 
     def _no_service(self, what: str, client: Client, name: str, type_name: str) -> Iterator[_Missing]:
-        why = service_unusable(self._transport, self._interfaces, name, type_name)
+        why = service_problem(self._transport, self._interfaces, name, type_name)
         if why is not None or client.servers() == 0:
             yield _line(what, name, why)
 
-    def _silent(self, sense: Sense) -> Iterator[_Missing]:
-        if sense.known():
+    def _silent(self, topic: TelemetryTopic) -> Iterator[_Missing]:
+        if topic.known():
             return
-        why = topic_unusable(self._transport, self._interfaces, sense.name, sense.binding.type, sense.quality)
-        if why is not None or sense.subscription.publishers() == 0:
-            yield _line(sense.what, sense.name, why)
-        elif sense.heard:
-            yield f"{sense.what} {sense.name}: {sense.doubt}", ""
+        why = topic_problem(self._transport, self._interfaces, topic.name, topic.binding.type, topic.qos)
+        if why is not None or topic.subscription.publishers() == 0:
+            yield _line(topic.what, topic.name, why)
+        elif topic.heard:
+            yield f"{topic.what} {topic.name}: {topic.doubt}", ""
         else:
-            yield f"{sense.what} {sense.name}: nothing came yet", "see whether the robot sends it"
+            yield f"{topic.what} {topic.name}: nothing came yet", "see whether the robot sends it"
 
 
-def _line(what: str, name: str, why: Unusable | None) -> _Missing:
+def _line(what: str, name: str, why: EndpointProblem | None) -> _Missing:
     found, advice = _ONE_WAY if why is None else (why.what, why.advice)
     return f"{what} {name}: {found}", advice
 

@@ -1,8 +1,8 @@
 """What carries messages to a robot and back: the seam between the driver and DDS or rclpy.
 
 Nothing blocks: what has arrived is taken, what is to go is sent. Whoever asks decides how long to wait. The state
-machines of goals stand above it (:mod:`fieldhand.execution.drivers.ros2.goal`); an action is three services and two
-topics here, as ROS 2 makes one.
+machines of goals stand above it (:mod:`fieldhand.execution.drivers.ros2.action_client`); an action is three services and
+two topics here, as ROS 2 makes one.
 
 A message is a mapping from field names to values: bool, int, float, str, bytes (of ``uint8[]``, ``byte[]`` and
 ``char[]``), a tuple (of any other array), or another mapping. A message that is sent may leave fields out: they keep
@@ -28,13 +28,13 @@ MOST_BYTES = 4 * 1024 * 1024
 Rmw = Literal["cyclonedds", "fastrtps", "connext", "zenoh", "unknown"]
 
 
-def understand(one: Rmw, other: Rmw) -> bool:
+def services_interoperate(one: Rmw, other: Rmw) -> bool:
     """Whether services go between two middlewares: Cyclone's say otherwise than the rest whose a request is."""
     return "unknown" in (one, other) or one == other or "cyclonedds" not in (one, other)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Quality:
+class QosProfile:
     """Quality of service. A reader and a writer find each other only if the writer offers what the reader asks for.
 
     Attributes:
@@ -48,9 +48,9 @@ class Quality:
 
 
 #: Of sensors: the newest values, and none twice.
-SENSOR = Quality(reliable=False, depth=5)
+SENSOR_QOS = QosProfile(reliable=False, depth=5)
 #: Of an action's status topic.
-STATUS = Quality(reliable=True, transient=True, depth=1)
+STATUS_QOS = QosProfile(reliable=True, transient=True, depth=1)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,7 +68,7 @@ class Peer:
     participant: str
     rmw: Rmw
     type: str
-    quality: Quality
+    qos: QosProfile
     type_hash: str = ""
     reply_hash: str = ""
 
@@ -165,7 +165,7 @@ class Transport(Protocol):
         """The middleware whose services it understands."""
         ...
 
-    def subscribe(self, topic: str, type_name: str, quality: Quality = SENSOR) -> Subscription:
+    def subscribe(self, topic: str, type_name: str, qos: QosProfile = SENSOR_QOS) -> Subscription:
         """Read a topic.
 
         Raises:
@@ -173,7 +173,7 @@ class Transport(Protocol):
         """
         ...
 
-    def publish(self, topic: str, type_name: str, quality: Quality = Quality()) -> Publisher:
+    def publish(self, topic: str, type_name: str, qos: QosProfile = QosProfile()) -> Publisher:
         """Write a topic.
 
         Raises:

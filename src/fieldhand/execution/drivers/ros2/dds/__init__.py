@@ -9,7 +9,7 @@ What ROS 2's middleware on Cyclone DDS (``rmw_cyclonedds``) puts on the wire, me
 - from Iron on, user data say the hash of the type (``typehash=``);
 - a message without fields has one byte.
 
-``wire`` makes types, ``quality`` and ``names`` translate, ``topics`` and ``services`` are the endpoints, ``discovery``
+``codec`` makes types, ``qos`` and ``names`` translate, ``topics`` and ``services`` are the endpoints, ``discovery``
 is what the others have, ``transport`` puts them together.
 """
 

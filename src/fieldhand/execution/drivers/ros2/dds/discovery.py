@@ -10,7 +10,7 @@ from cyclonedds.core import InstanceState
 from cyclonedds.domain import DomainParticipant
 
 from fieldhand.execution.drivers.ros2.dds.names import reply_name, request_name, rmw_of, ros_type, topic_name
-from fieldhand.execution.drivers.ros2.dds.quality import quality_of, said_by
+from fieldhand.execution.drivers.ros2.dds.qos import from_dds_qos, user_data_of
 from fieldhand.execution.drivers.ros2.transport import Peer
 
 _AT_ONCE = 256
@@ -18,7 +18,7 @@ _AT_ONCE = 256
 _MOST = 20_000
 
 
-class Discovery:
+class DdsDiscovery:
     """Follows DDS's own topics on which endpoints say that they are there.
 
     Args:
@@ -27,8 +27,8 @@ class Discovery:
 
     def __init__(self, participant: DomainParticipant) -> None:
         self._own = participant.get_guid().bytes
-        self._writers = _Seen(BuiltinDataReader(participant, BuiltinTopicDcpsPublication))
-        self._readers = _Seen(BuiltinDataReader(participant, BuiltinTopicDcpsSubscription))
+        self._writers = _EndpointList(BuiltinDataReader(participant, BuiltinTopicDcpsPublication))
+        self._readers = _EndpointList(BuiltinDataReader(participant, BuiltinTopicDcpsSubscription))
 
     def writers_of(self, topic: str) -> tuple[Peer, ...]:
         """Everything that writes a topic."""
@@ -41,12 +41,12 @@ class Discovery:
         found = self._peers(self._readers, request_name(service))
         return tuple(replace(p, reply_hash=replies.get(p.participant, "")) for p in found)
 
-    def _peers(self, seen: _Seen, wire_name: str) -> tuple[Peer, ...]:
+    def _peers(self, seen: _EndpointList, wire_name: str) -> tuple[Peer, ...]:
         there = seen.now(wire_name)
         return tuple(_peer(e) for e in there if e.participant_key.bytes != self._own)
 
 
-class _Seen:
+class _EndpointList:
     """The endpoints of one direction."""
 
     def __init__(self, reader: BuiltinDataReader) -> None:
@@ -71,6 +71,6 @@ def _peer(endpoint: Any) -> Peer:
         participant=endpoint.participant_key.hex,
         rmw=rmw_of(endpoint.participant_key.bytes),
         type=ros_type(endpoint.type_name),
-        quality=quality_of(endpoint.qos),
-        type_hash=said_by(endpoint.qos).values.get("typehash", ""),
+        qos=from_dds_qos(endpoint.qos),
+        type_hash=user_data_of(endpoint.qos).values.get("typehash", ""),
     )

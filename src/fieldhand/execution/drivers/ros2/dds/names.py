@@ -12,7 +12,7 @@ from fieldhand.execution.drivers.ros2.transport import Rmw
 Half = Literal["Request", "Response"]
 
 #: Whose services find ours and do not understand them: they tell otherwise which reply is to which request.
-NO_SERVICES: tuple[Rmw, ...] = ("fastrtps", "connext")
+INCOMPATIBLE_SERVICES: tuple[Rmw, ...] = ("fastrtps", "connext")
 
 _NAME = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+")
 _TYPE = re.compile(r"(?P<package>[a-z][a-z0-9_]*)::(?P<kind>msg|srv|action)::dds_::(?P<name>\w+)_")
@@ -63,12 +63,12 @@ class UserData:
     values: dict[str, str] = field(default_factory=dict)
 
     @classmethod
-    def read(cls, data: bytes) -> UserData:
+    def parse(cls, data: bytes) -> UserData:
         """What is no such list says nothing."""
         parts = (part.partition("=") for part in data[:4096].decode("utf-8", "replace").split(";"))
         return cls(values={key.strip(): value.strip() for key, between, value in parts if between})
 
-    def written(self) -> bytes:
+    def encoded(self) -> bytes:
         """As it stands on the wire."""
         return "".join(f"{key}={value};" for key, value in self.values.items()).encode()
 

@@ -10,14 +10,14 @@ from typing import Any
 from cyclonedds.pub import DataWriter
 from cyclonedds.sub import DataReader
 
-from fieldhand.execution.drivers.ros2.dds.names import NO_SERVICES, rmw_of
-from fieldhand.execution.drivers.ros2.dds.quality import said_by
+from fieldhand.execution.drivers.ros2.dds.message_codec import Header, MessageCodec
+from fieldhand.execution.drivers.ros2.dds.names import INCOMPATIBLE_SERVICES, rmw_of
+from fieldhand.execution.drivers.ros2.dds.qos import user_data_of
 from fieldhand.execution.drivers.ros2.dds.topics import close, samples, write
-from fieldhand.execution.drivers.ros2.dds.wire import Header, Wire
-from fieldhand.execution.drivers.ros2.transport import Message, Quality
+from fieldhand.execution.drivers.ros2.transport import Message, QosProfile
 
 #: Of both topics: reliable, volatile, keep the last 10 (measured).
-SERVICE = Quality()
+SERVICE_QOS = QosProfile()
 
 #: Replies that wait for their client to be found; of more, the oldest are given up.
 _MOST_WAITING = 100
@@ -33,8 +33,10 @@ class DdsClient:
         reader: Of replies; it hears those to other clients, too.
     """
 
-    def __init__(self, wire: Wire, service_type: str, writer: DataWriter[Any], reader: DataReader[Any]) -> None:
-        self._wire, self._type, self._writer, self._reader = wire, service_type, writer, reader
+    def __init__(
+        self, codec: MessageCodec, service_type: str, writer: DataWriter[Any], reader: DataReader[Any]
+    ) -> None:
+        self._codec, self._type, self._writer, self._reader = codec, service_type, writer, reader
         self._hear = _Matched(writer.get_matched_subscriptions, writer.get_matched_subscription_data, "serviceid")
         self._answer = _Matched(reader.get_matched_publications, reader.get_matched_publication_data, "serviceid")
         self._number = 0
@@ -46,7 +48,7 @@ class DdsClient:
 
     def ask(self, request: Message) -> int:
         self._number += 1
-        sample = self._wire.packed(f"{self._type}_Request", request, Header(self._client, self._number))
+        sample = self._codec.encode(f"{self._type}_Request", request, Header(self._client, self._number))
         if self.open:
             write(self._writer, sample)
         return self._number
@@ -55,8 +57,8 @@ class DdsClient:
         if not self.open:
             return ()
         return tuple(
-            (sample.seq, self._wire.unpacked(f"{self._type}_Response", sample))
-            for sample in samples(self._reader, SERVICE.depth)
+            (sample.seq, self._codec.decode(f"{self._type}_Response", sample))
+            for sample in samples(self._reader, SERVICE_QOS.depth)
             if sample.guid == self._client and 0 < sample.seq <= self._number
         )
 
@@ -67,7 +69,7 @@ class DdsClient:
 
 
 @dataclass(frozen=True)
-class _Asked:
+class _Request:
     """Whom a reply is for: what the request said, and the endpoint that it came from."""
 
     header: Header
@@ -75,8 +77,8 @@ class _Asked:
 
 
 @dataclass
-class _Waiting:
-    asked: _Asked
+class _PendingReply:
+    asked: _Request
     sample: Any
     tries: int = 0
 
@@ -88,10 +90,12 @@ class DdsServer:
     for requests sends what has waited.
     """
 
-    def __init__(self, wire: Wire, service_type: str, reader: DataReader[Any], writer: DataWriter[Any]) -> None:
-        self._wire, self._type, self._reader, self._writer = wire, service_type, reader, writer
+    def __init__(
+        self, codec: MessageCodec, service_type: str, reader: DataReader[Any], writer: DataWriter[Any]
+    ) -> None:
+        self._codec, self._type, self._reader, self._writer = codec, service_type, reader, writer
         self._clients = _Matched(writer.get_matched_subscriptions, writer.get_matched_subscription_data, "clientid")
-        self._waiting: deque[_Waiting] = deque(maxlen=_MOST_WAITING)
+        self._waiting: deque[_PendingReply] = deque(maxlen=_MOST_WAITING)
         self.open = True
 
     def requests(self) -> tuple[tuple[object, Message], ...]:
@@ -100,18 +104,18 @@ class DdsServer:
         self._send_waiting()
         return tuple(
             (
-                _Asked(Header(sample.guid, sample.seq), sample.sample_info.publication_handle),
-                self._wire.unpacked(f"{self._type}_Request", sample),
+                _Request(Header(sample.guid, sample.seq), sample.sample_info.publication_handle),
+                self._codec.decode(f"{self._type}_Request", sample),
             )
-            for sample in samples(self._reader, SERVICE.depth)
+            for sample in samples(self._reader, SERVICE_QOS.depth)
         )
 
     def reply(self, to: object, response: Message) -> None:
-        if not isinstance(to, _Asked):
+        if not isinstance(to, _Request):
             raise TypeError("answer what requests() gave")
-        sample = self._wire.packed(f"{self._type}_Response", response, to.header)
+        sample = self._codec.encode(f"{self._type}_Response", response, to.header)
         if self.open:
-            self._waiting.append(_Waiting(to, sample))
+            self._waiting.append(_PendingReply(to, sample))
             self._send_waiting()
 
     def close(self) -> None:
@@ -154,11 +158,11 @@ class _Matched:
         for handle in (there := set(self._handles())) - self._known.keys():
             endpoint = self._data_of(handle)
             if endpoint is not None and endpoint.qos is not None:
-                deaf = rmw_of(endpoint.participant_key.bytes) in NO_SERVICES
+                deaf = rmw_of(endpoint.participant_key.bytes) in INCOMPATIBLE_SERVICES
                 self._known[handle] = None if deaf else _id_of(endpoint, self._key) or endpoint.participant_key.hex
         self._known = {handle: known for handle, known in self._known.items() if handle in there}
         return {known for known in self._known.values() if known is not None}
 
 
 def _id_of(endpoint: Any, key: str) -> str | None:
-    return said_by(endpoint.qos).values.get(key) if endpoint is not None and endpoint.qos is not None else None
+    return user_data_of(endpoint.qos).values.get(key) if endpoint is not None and endpoint.qos is not None else None

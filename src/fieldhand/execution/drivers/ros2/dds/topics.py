@@ -9,7 +9,7 @@ from cyclonedds.pub import DataWriter
 from cyclonedds.sub import DataReader
 
 from fieldhand.errors import Ros2Error
-from fieldhand.execution.drivers.ros2.dds.wire import Unreadable, Wire
+from fieldhand.execution.drivers.ros2.dds.message_codec import MessageCodec, Unreadable
 from fieldhand.execution.drivers.ros2.transport import Message
 
 
@@ -40,15 +40,15 @@ def close(*entities: Any) -> None:
 class DdsSubscription:
     """A :class:`~fieldhand.execution.drivers.ros2.transport.Subscription`."""
 
-    def __init__(self, wire: Wire, message: str, reader: DataReader[Any], depth: int) -> None:
-        self._wire, self._message, self._reader, self._depth = wire, message, reader, depth
+    def __init__(self, codec: MessageCodec, message: str, reader: DataReader[Any], depth: int) -> None:
+        self._codec, self._message, self._reader, self._depth = codec, message, reader, depth
         self.open = True
 
     def take(self) -> tuple[Message, ...]:
         if not self.open:
             return ()
         taken = samples(self._reader, self._depth)
-        return tuple(self._wire.unpacked(self._message, sample) for sample in taken)
+        return tuple(self._codec.decode(self._message, sample) for sample in taken)
 
     def publishers(self) -> int:
         return len(self._reader.get_matched_publications()) if self.open else 0
@@ -62,12 +62,12 @@ class DdsSubscription:
 class DdsPublisher:
     """A :class:`~fieldhand.execution.drivers.ros2.transport.Publisher`."""
 
-    def __init__(self, wire: Wire, message: str, writer: DataWriter[Any]) -> None:
-        self._wire, self._message, self._writer = wire, message, writer
+    def __init__(self, codec: MessageCodec, message: str, writer: DataWriter[Any]) -> None:
+        self._codec, self._message, self._writer = codec, message, writer
         self.open = True
 
     def send(self, message: Message) -> None:
-        sample = self._wire.packed(self._message, message)
+        sample = self._codec.encode(self._message, message)
         if self.open:
             write(self._writer, sample)
 

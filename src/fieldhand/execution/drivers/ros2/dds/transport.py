@@ -15,15 +15,15 @@ from cyclonedds.topic import Topic
 
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.ros2.dds import names
-from fieldhand.execution.drivers.ros2.dds.discovery import Discovery
+from fieldhand.execution.drivers.ros2.dds.discovery import DdsDiscovery
+from fieldhand.execution.drivers.ros2.dds.message_codec import MessageCodec
 from fieldhand.execution.drivers.ros2.dds.names import UserData
-from fieldhand.execution.drivers.ros2.dds.quality import qos_of
-from fieldhand.execution.drivers.ros2.dds.services import SERVICE, DdsClient, DdsServer
+from fieldhand.execution.drivers.ros2.dds.qos import to_dds_qos
+from fieldhand.execution.drivers.ros2.dds.services import SERVICE_QOS, DdsClient, DdsServer
 from fieldhand.execution.drivers.ros2.dds.topics import DdsPublisher, DdsSubscription, close
-from fieldhand.execution.drivers.ros2.dds.wire import Wire
 from fieldhand.execution.drivers.ros2.domain import domain_of
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
-from fieldhand.execution.drivers.ros2.transport import SENSOR, Peer, Quality, Rmw
+from fieldhand.execution.drivers.ros2.transport import SENSOR_QOS, Peer, QosProfile, Rmw
 
 #: What DDS takes off the network before we see it: more than a picture of a good camera has.
 _MOST_RECEIVED = "32 MiB"
@@ -48,14 +48,14 @@ class DdsTransport:
     def __init__(self, interfaces: Interfaces, domain: int | None = None) -> None:
         self.domain = domain_of(domain)
         self.interfaces = interfaces
-        self._wire = Wire(interfaces)
+        self._codec = MessageCodec(interfaces)
         self._ends: list[Any] = []
         self._open = True
         try:
             _bounded(self.domain)
             self._participant = DomainParticipant(self.domain)
             self._publisher, self._subscriber = Publisher(self._participant), Subscriber(self._participant)
-            self._discovery = Discovery(self._participant)
+            self._discovery = DdsDiscovery(self._participant)
         except DDSException as error:
             raise Ros2Error(
                 f"no node can be made on DDS domain {self.domain}",
@@ -70,25 +70,25 @@ class DdsTransport:
     def rmw(self) -> Rmw:
         return "cyclonedds"
 
-    def subscribe(self, topic: str, type_name: str, quality: Quality = SENSOR) -> DdsSubscription:
-        reader = self._reader(names.topic_name(topic), type_name, quality, {})
-        return self._kept(DdsSubscription(self._wire, type_name, reader, quality.depth))
+    def subscribe(self, topic: str, type_name: str, qos: QosProfile = SENSOR_QOS) -> DdsSubscription:
+        reader = self._reader(names.topic_name(topic), type_name, qos, {})
+        return self._kept(DdsSubscription(self._codec, type_name, reader, qos.depth))
 
-    def publish(self, topic: str, type_name: str, quality: Quality = Quality()) -> DdsPublisher:  # noqa: B008 - frozen
-        writer = self._writer(names.topic_name(topic), type_name, quality, {})
-        return self._kept(DdsPublisher(self._wire, type_name, writer))
+    def publish(self, topic: str, type_name: str, qos: QosProfile = QosProfile()) -> DdsPublisher:  # noqa: B008 - frozen
+        writer = self._writer(names.topic_name(topic), type_name, qos, {})
+        return self._kept(DdsPublisher(self._codec, type_name, writer))
 
     def client(self, service: str, type_name: str) -> DdsClient:
         me = {"clientid": _new_id()}
-        reader = self._reader(names.reply_name(service), f"{type_name}_Response", SERVICE, me, headed=True)
-        writer = self._writer(names.request_name(service), f"{type_name}_Request", SERVICE, me, headed=True)
-        return self._kept(DdsClient(self._wire, type_name, writer, reader))
+        reader = self._reader(names.reply_name(service), f"{type_name}_Response", SERVICE_QOS, me, with_header=True)
+        writer = self._writer(names.request_name(service), f"{type_name}_Request", SERVICE_QOS, me, with_header=True)
+        return self._kept(DdsClient(self._codec, type_name, writer, reader))
 
     def serve(self, service: str, type_name: str) -> DdsServer:
         me = {"serviceid": _new_id()}
-        writer = self._writer(names.reply_name(service), f"{type_name}_Response", SERVICE, me, headed=True)
-        reader = self._reader(names.request_name(service), f"{type_name}_Request", SERVICE, me, headed=True)
-        return self._kept(DdsServer(self._wire, type_name, reader, writer))
+        writer = self._writer(names.reply_name(service), f"{type_name}_Response", SERVICE_QOS, me, with_header=True)
+        reader = self._reader(names.request_name(service), f"{type_name}_Request", SERVICE_QOS, me, with_header=True)
+        return self._kept(DdsServer(self._codec, type_name, reader, writer))
 
     def writers_of(self, topic: str) -> tuple[Peer, ...]:
         return self._discovery.writers_of(topic)
@@ -108,22 +108,26 @@ class DdsTransport:
         self._ends = [*(e for e in self._ends if e.open), end]
         return end
 
-    def _reader(self, name: str, message: str, quality: Quality, said: dict[str, str], *, headed: bool = False) -> Any:
-        topic, user = self._topic(name, message, headed=headed), self._said(message, said)
-        return DataReader(self._subscriber, topic, qos=qos_of(quality, user))
+    def _reader(
+        self, name: str, message: str, qos: QosProfile, user_data: dict[str, str], *, with_header: bool = False
+    ) -> Any:
+        topic, user = self._topic(name, message, with_header=with_header), self._user_data(message, user_data)
+        return DataReader(self._subscriber, topic, qos=to_dds_qos(qos, user))
 
-    def _writer(self, name: str, message: str, quality: Quality, said: dict[str, str], *, headed: bool = False) -> Any:
-        topic, user = self._topic(name, message, headed=headed), self._said(message, said)
-        return DataWriter(self._publisher, topic, qos=qos_of(quality, user))
+    def _writer(
+        self, name: str, message: str, qos: QosProfile, user_data: dict[str, str], *, with_header: bool = False
+    ) -> Any:
+        topic, user = self._topic(name, message, with_header=with_header), self._user_data(message, user_data)
+        return DataWriter(self._publisher, topic, qos=to_dds_qos(qos, user))
 
-    def _topic(self, name: str, message: str, *, headed: bool) -> Topic[Any]:
+    def _topic(self, name: str, message: str, *, with_header: bool) -> Topic[Any]:
         try:
-            return Topic(self._participant, name, self._wire.type_of(message, headed=headed))
+            return Topic(self._participant, name, self._codec.type_of(message, with_header=with_header))
         except DDSException as error:
             raise Ros2Error(f"{name[2:]} cannot be made as {message}: it is there with another type") from error
 
-    def _said(self, message: str, said: dict[str, str]) -> UserData:
-        return UserData(values=said | {"typehash": self.interfaces.type_hash(message)})
+    def _user_data(self, message: str, user_data: dict[str, str]) -> UserData:
+        return UserData(values=user_data | {"typehash": self.interfaces.type_hash(message)})
 
 
 @cache

@@ -134,7 +134,7 @@ def to_rosbags(definition: Definition) -> tuple[list[Any], list[Any]]:
     return [], fields or [(_FILLER, (Nodetype.BASE, ("uint8", 0)))]
 
 
-def need_rosbags() -> None:
+def require_rosbags() -> None:
     """Say what to install where it is missing.
 
     Raises:

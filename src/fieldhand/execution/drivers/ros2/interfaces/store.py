@@ -8,16 +8,16 @@ from importlib.resources import files
 from importlib.resources.abc import Traversable
 
 from fieldhand.errors import ProfileError, Ros2Error
-from fieldhand.execution.drivers.ros2.fields import steps_of
-from fieldhand.execution.drivers.ros2.interfaces import values
+from fieldhand.execution.drivers.ros2.interfaces import validation
 from fieldhand.execution.drivers.ros2.interfaces.definitions import (
     Definition,
     FieldType,
     from_rosbags,
-    need_rosbags,
     read_definitions,
+    require_rosbags,
     to_rosbags,
 )
+from fieldhand.execution.drivers.ros2.message_fields import steps_of
 from fieldhand.execution.drivers.ros2.transport import Message
 from fieldhand.robot.bindings import Distro
 
@@ -52,7 +52,7 @@ class Interfaces:
             ProfileError: One of them cannot be read, or names a type that is not known.
             InputError: What reads definitions is not installed.
         """
-        need_rosbags()
+        require_rosbags()
         brought: dict[str, Definition] = {}
         for name, text in (own or {}).items():
             brought.update((each.name, each) for each in read_definitions(name, text, where="ros2: interfaces"))
@@ -132,7 +132,7 @@ class Interfaces:
         Raises:
             Ros2Error: Something in it does not fit; the path of the field is named.
         """
-        return values.complete(self.definition, message, given)
+        return validation.complete(self.definition, message, given)
 
     def type_hash(self, message: str) -> str:
         """``RIHS01_...`` of a message (REP 2016): from Iron on, endpoints say which definition they have.

@@ -6,7 +6,7 @@ then, by ``take_message``, ``take_response`` and ``service_take_request``; here 
 So nothing can starve, nothing waits for a lock of ours, and where a node of somebody else lives in the same process,
 its executor and ours cannot meet: the context is our own, too.
 
-``types`` knows the interfaces that are sourced, and turns messages into mappings and back; ``quality`` translates,
+``message_types`` knows the interfaces that are sourced, and turns messages into mappings and back; ``qos`` translates,
 ``topics`` and ``services`` are the endpoints, ``discovery`` is what the others have, ``transport`` puts them together.
 """
 

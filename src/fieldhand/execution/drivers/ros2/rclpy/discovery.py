@@ -7,8 +7,8 @@ from typing import Any
 from rclpy.utilities import get_rmw_implementation_identifier
 
 from fieldhand.execution.drivers.ros2.dds.names import request_name, rmw_of, ros_type
-from fieldhand.execution.drivers.ros2.rclpy.quality import meets, quality_of
-from fieldhand.execution.drivers.ros2.transport import Peer, Quality, Rmw
+from fieldhand.execution.drivers.ros2.rclpy.qos import from_rclpy_qos, meets
+from fieldhand.execution.drivers.ros2.transport import Peer, QosProfile, Rmw
 
 #: The bytes of an endpoint's name that are its process (RTPS 9.3.1.2).
 _PARTICIPANT = 12
@@ -16,7 +16,7 @@ _PARTICIPANT = 12
 _NAMED: tuple[Rmw, ...] = ("cyclonedds", "fastrtps", "connext", "zenoh")
 
 
-class Discovery:
+class RclpyDiscovery:
     """Asks ROS's graph.
 
     Args:
@@ -49,7 +49,7 @@ class Discovery:
         """Where requests are no topics."""
         own = self._node.get_name()
         return tuple(
-            Peer(participant=f"{space.rstrip('/')}/{node}", rmw="zenoh", type=kind, quality=Quality())
+            Peer(participant=f"{space.rstrip('/')}/{node}", rmw="zenoh", type=kind, qos=QosProfile())
             for node, space in self._node.get_node_names_and_namespaces()
             if node != own
             for name, kinds in self._node.get_service_names_and_types_by_node(node, space)
@@ -68,6 +68,6 @@ class Discovery:
             participant=key[:_PARTICIPANT].hex(),
             rmw=rmw,
             type=ros_type(endpoint.topic_type),
-            quality=quality_of(endpoint.qos_profile),
+            qos=from_rclpy_qos(endpoint.qos_profile),
             type_hash=said if said.startswith("RIHS01_") else "",
         )

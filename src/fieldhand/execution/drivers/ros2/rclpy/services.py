@@ -6,14 +6,14 @@ from typing import Any
 
 from rclpy.impl.implementation_singleton import rclpy_implementation
 
-from fieldhand.execution.drivers.ros2.rclpy import types
-from fieldhand.execution.drivers.ros2.rclpy.discovery import Discovery
-from fieldhand.execution.drivers.ros2.transport import Message, Quality, understand
+from fieldhand.execution.drivers.ros2.rclpy import message_types
+from fieldhand.execution.drivers.ros2.rclpy.discovery import RclpyDiscovery
+from fieldhand.execution.drivers.ros2.transport import Message, QosProfile, services_interoperate
 
 RCLError = rclpy_implementation.RCLError
 
 #: Reliable, volatile, keep the last 10, as ROS has it.
-SERVICE = Quality()
+SERVICE_QOS = QosProfile()
 
 
 class RclpyClient:
@@ -23,7 +23,7 @@ class RclpyClient:
     carry the number.
     """
 
-    def __init__(self, node: Any, discovery: Discovery, service: str, service_type: str, client: Any) -> None:
+    def __init__(self, node: Any, discovery: RclpyDiscovery, service: str, service_type: str, client: Any) -> None:
         self._node, self._discovery, self._service = node, discovery, service
         self._type, self._client = service_type, client
         self._last = 0
@@ -34,10 +34,13 @@ class RclpyClient:
         if not self.open or not self._client.service_is_ready():
             return 0
         own = self._discovery.rmw
-        return sum(p.type == self._type and understand(own, p.rmw) for p in self._discovery.servers_of(self._service))
+        return sum(
+            p.type == self._type and services_interoperate(own, p.rmw)
+            for p in self._discovery.servers_of(self._service)
+        )
 
     def ask(self, request: Message) -> int:
-        sample = types.packed(f"{self._type}_Request", request)
+        sample = message_types.to_ros(f"{self._type}_Request", request)
         if self.open:
             with self._client.handle:
                 self._last = int(self._client.handle.send_request(sample))
@@ -45,13 +48,13 @@ class RclpyClient:
 
     def replies(self) -> tuple[tuple[int, Message], ...]:
         taken: list[tuple[int, Message]] = []
-        for _ in range(SERVICE.depth if self.open else 0):
+        for _ in range(SERVICE_QOS.depth if self.open else 0):
             try:
                 with self._client.handle:
                     header, response = self._client.handle.take_response(self._client.srv_type.Response)
                 if header is None:
                     break
-                reply = types.unpacked(f"{self._type}_Response", response)
+                reply = message_types.from_ros(f"{self._type}_Response", response)
             except (RCLError, ValueError):
                 continue  # what does not fit its type is lost, as on any network
             taken.append((int(header.request_id.sequence_number), reply))
@@ -72,19 +75,19 @@ class RclpyServer:
 
     def requests(self) -> tuple[tuple[object, Message], ...]:
         taken: list[tuple[object, Message]] = []
-        for _ in range(SERVICE.depth if self.open else 0):
+        for _ in range(SERVICE_QOS.depth if self.open else 0):
             try:
                 with self._server.handle:
                     request, header = self._server.handle.service_take_request(self._server.srv_type.Request)
                 if header is None or request is None:
                     break
-                taken.append((header, types.unpacked(f"{self._type}_Request", request)))
+                taken.append((header, message_types.from_ros(f"{self._type}_Request", request)))
             except (RCLError, ValueError):
                 continue  # what does not fit its type is lost, as on any network
         return tuple(taken)
 
     def reply(self, to: object, response: Message) -> None:
-        sample = types.packed(f"{self._type}_Response", response)
+        sample = message_types.to_ros(f"{self._type}_Response", response)
         if self.open:
             self._server.send_response(sample, to)
 

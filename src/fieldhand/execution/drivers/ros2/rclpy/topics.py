@@ -7,8 +7,8 @@ from typing import Any
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.serialization import deserialize_message
 
-from fieldhand.execution.drivers.ros2.rclpy import types
-from fieldhand.execution.drivers.ros2.rclpy.discovery import Discovery
+from fieldhand.execution.drivers.ros2.rclpy import message_types
+from fieldhand.execution.drivers.ros2.rclpy.discovery import RclpyDiscovery
 from fieldhand.execution.drivers.ros2.transport import MOST_BYTES, Message
 
 RCLError = rclpy_implementation.RCLError
@@ -21,7 +21,7 @@ class RclpySubscription:
         subscription: One of rclpy that gives the bytes, so that nothing large is taken apart.
     """
 
-    def __init__(self, node: Any, discovery: Discovery, message: str, subscription: Any) -> None:
+    def __init__(self, node: Any, discovery: RclpyDiscovery, message: str, subscription: Any) -> None:
         self._node, self._discovery, self._message, self._subscription = node, discovery, message, subscription
         self._topic = subscription.topic_name
         self.open = True
@@ -55,7 +55,7 @@ class RclpySubscription:
             why = f"it has {len(data)} bytes, more than {MOST_BYTES}"
         else:
             try:
-                return types.unpacked(self._message, deserialize_message(data, self._subscription.msg_type))
+                return message_types.from_ros(self._message, deserialize_message(data, self._subscription.msg_type))
             except Exception as error:  # noqa: BLE001 - the bytes come from anyone, and rclpy raises whatever it meets
                 why = f"its bytes do not fit its type ({error})"
         self.unread, self.unreadable = self.unread + 1, why
@@ -70,7 +70,7 @@ class RclpyPublisher:
         self.open = True
 
     def send(self, message: Message) -> None:
-        sample = types.packed(self._message, message)
+        sample = message_types.to_ros(self._message, message)
         if self.open:
             self._publisher.publish(sample)
 

@@ -15,12 +15,12 @@ from rclpy.node import Node
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.ros2.dds.names import request_name, topic_name
 from fieldhand.execution.drivers.ros2.domain import domain_of
-from fieldhand.execution.drivers.ros2.rclpy import types
-from fieldhand.execution.drivers.ros2.rclpy.discovery import Discovery
-from fieldhand.execution.drivers.ros2.rclpy.quality import profile_of
-from fieldhand.execution.drivers.ros2.rclpy.services import SERVICE, RclpyClient, RclpyServer
+from fieldhand.execution.drivers.ros2.rclpy import message_types
+from fieldhand.execution.drivers.ros2.rclpy.discovery import RclpyDiscovery
+from fieldhand.execution.drivers.ros2.rclpy.qos import to_rclpy_qos
+from fieldhand.execution.drivers.ros2.rclpy.services import SERVICE_QOS, RclpyClient, RclpyServer
 from fieldhand.execution.drivers.ros2.rclpy.topics import RclpyPublisher, RclpySubscription
-from fieldhand.execution.drivers.ros2.transport import SENSOR, Peer, Quality, Rmw
+from fieldhand.execution.drivers.ros2.transport import SENSOR_QOS, Peer, QosProfile, Rmw
 
 RCLError = rclpy_implementation.RCLError
 
@@ -62,7 +62,7 @@ class RclpyTransport:
                 f"rclpy can make no node on domain {self.domain} ({error})",
                 advice="look at RMW_IMPLEMENTATION, at the network's interfaces, and at the middleware's configuration",
             ) from error
-        self._discovery = Discovery(self._node)
+        self._discovery = RclpyDiscovery(self._node)
 
     @property
     def name(self) -> str:
@@ -72,31 +72,33 @@ class RclpyTransport:
     def rmw(self) -> Rmw:
         return self._discovery.rmw
 
-    def subscribe(self, topic: str, type_name: str, quality: Quality = SENSOR) -> RclpySubscription:
+    def subscribe(self, topic: str, type_name: str, qos: QosProfile = SENSOR_QOS) -> RclpySubscription:
         topic_name(topic)
         with _in_words(topic, type_name):
             made = self._node.create_subscription(
-                types.class_of(type_name), topic, _never, profile_of(quality), raw=True
+                message_types.class_of(type_name), topic, _never, to_rclpy_qos(qos), raw=True
             )
         return self._kept(RclpySubscription(self._node, self._discovery, type_name, made))
 
-    def publish(self, topic: str, type_name: str, quality: Quality = Quality()) -> RclpyPublisher:  # noqa: B008 - frozen
+    def publish(self, topic: str, type_name: str, qos: QosProfile = QosProfile()) -> RclpyPublisher:  # noqa: B008 - frozen
         topic_name(topic)
         with _in_words(topic, type_name):
-            made = self._node.create_publisher(types.class_of(type_name), topic, profile_of(quality))
+            made = self._node.create_publisher(message_types.class_of(type_name), topic, to_rclpy_qos(qos))
         return self._kept(RclpyPublisher(self._node, type_name, made))
 
     def client(self, service: str, type_name: str) -> RclpyClient:
         request_name(service)
         with _in_words(service, type_name):
-            made = self._node.create_client(types.class_of(type_name), service, qos_profile=profile_of(SERVICE))
+            made = self._node.create_client(
+                message_types.class_of(type_name), service, qos_profile=to_rclpy_qos(SERVICE_QOS)
+            )
         return self._kept(RclpyClient(self._node, self._discovery, service, type_name, made))
 
     def serve(self, service: str, type_name: str) -> RclpyServer:
         request_name(service)
         with _in_words(service, type_name):
             made = self._node.create_service(
-                types.class_of(type_name), service, _never, qos_profile=profile_of(SERVICE)
+                message_types.class_of(type_name), service, _never, qos_profile=to_rclpy_qos(SERVICE_QOS)
             )
         return self._kept(RclpyServer(self._node, type_name, made))
 

@@ -1,0 +1,216 @@
+"""One binding of a profile tried on a robot that is there, without asking it to do anything."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Literal, Protocol
+
+from fieldhand.execution.drivers.ros2.endpoint_problems import (
+    FEEDBACK_QOS,
+    EndpointProblem,
+    action_problem,
+    service_problem,
+    topic_problem,
+)
+from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.plausibility import ImplausibleMessage, MessageCheck
+from fieldhand.execution.drivers.ros2.transport import (
+    STATUS_QOS,
+    Client,
+    Message,
+    Peer,
+    Publisher,
+    QosProfile,
+    Rmw,
+    Subscription,
+    Transport,
+)
+
+Kind = Literal["action", "service", "topic"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class EndpointBinding:
+    """What the profile says of an endpoint.
+
+    Attributes:
+        part: Where: ``navigation``, ``battery``, ``actions: read_co2``.
+    """
+
+    part: str
+    kind: Kind
+    name: str
+    type: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class EndpointReport:
+    """What became of trying a binding.
+
+    Attributes:
+        usable: Whether a mission can use it.
+        what: What is there, or what is missing.
+        advice: What to do; empty where nothing has to be done.
+        rmw: By which middleware; empty where nothing is there.
+    """
+
+    binding: EndpointBinding
+    usable: bool
+    what: str
+    advice: str = ""
+    rmw: tuple[Rmw, ...] = ()
+
+
+class EndpointCheck(Protocol):
+    """Tries one binding."""
+
+    def look(self) -> bool:
+        """Whether all is seen that there is to see; to be asked again while it is not."""
+        ...
+
+    def report(self) -> EndpointReport:
+        """What was seen so far."""
+        ...
+
+
+@dataclass
+class TopicCheck:
+    """Listens to a topic.
+
+    Args:
+        judge: Of its first message.
+        rare: It may rightly be silent: it speaks when something changes, or after a call.
+    """
+
+    binding: EndpointBinding
+    transport: Transport
+    interfaces: Interfaces
+    qos: QosProfile
+    check_message: MessageCheck
+    rare: bool = False
+    message: Message | None = field(default=None, init=False)
+
+    def __post_init__(self) -> None:
+        self._subscription: Subscription = self.transport.subscribe(self.binding.name, self.binding.type, self.qos)
+
+    def look(self) -> bool:
+        for message in self._subscription.take():
+            self.message = message
+        return self.message is not None or (self.rare and self._subscription.publishers() > 0)
+
+    def report(self) -> EndpointReport:
+        rmw = _rmw_of(self.transport.writers_of(self.binding.name))
+        if self.message is not None:
+            try:
+                return EndpointReport(binding=self.binding, usable=True, what=self.check_message(self.message), rmw=rmw)
+            except ImplausibleMessage as error:
+                return EndpointReport(binding=self.binding, usable=False, what=error.what, advice=error.advice, rmw=rmw)
+        why = topic_problem(self.transport, self.interfaces, self.binding.name, self.binding.type, self.qos)
+        if why is None and self.rare and self._subscription.publishers() > 0:
+            return EndpointReport(binding=self.binding, usable=True, what="there; nothing was said so far", rmw=rmw)
+        if why is None:
+            # One whose bytes do not fit its type is dropped by DDS without a word.
+            advice = "see whether the robot sends any; if it does, set its distro, or its definition in the profile"
+            why = EndpointProblem(what="it is there, and no message came", advice=advice)
+        return EndpointReport(binding=self.binding, usable=False, what=why.what, advice=why.advice, rmw=rmw)
+
+
+@dataclass
+class ServiceCheck:
+    """Looks for the server of a service.
+
+    Args:
+        question: What it is asked, where it only computes; nothing while there is None.
+    """
+
+    binding: EndpointBinding
+    transport: Transport
+    interfaces: Interfaces
+    question: Callable[[], Message | None] | None = None
+
+    def __post_init__(self) -> None:
+        self._client = self.transport.client(self.binding.name, self.binding.type)
+        self._asked = self._answered = False
+
+    def look(self) -> bool:
+        there = self._client.servers() > 0
+        if there and self.question is not None and not self._asked and (question := self.question()) is not None:
+            self._asked = True
+            self._client.ask(question)
+        self._answered = self._answered or bool(self._client.replies())
+        return there and (self.question is None or self._answered)
+
+    def report(self) -> EndpointReport:
+        rmw = _rmw_of(self.transport.servers_of(self.binding.name))
+        why = service_problem(self.transport, self.interfaces, self.binding.name, self.binding.type)
+        if why is None and self._asked and not self._answered:
+            why = EndpointProblem(what="it is there, and does not answer", advice="see whether its node is active")
+        there = "answers" if self._answered else "there"
+        return _of_call(self.binding, why, self._client.servers() > 0, there, rmw)
+
+
+@dataclass
+class ActionCheck:
+    """Looks for all that an action consists of."""
+
+    binding: EndpointBinding
+    transport: Transport
+    interfaces: Interfaces
+
+    def __post_init__(self) -> None:
+        name, of = self.binding.name, self.binding.type
+        self._clients: tuple[Client, ...] = (
+            self.transport.client(f"{name}/_action/send_goal", f"{of}_SendGoal"),
+            self.transport.client(f"{name}/_action/get_result", f"{of}_GetResult"),
+            self.transport.client(f"{name}/_action/cancel_goal", "action_msgs/srv/CancelGoal"),
+        )
+        self._topics = (
+            self.transport.subscribe(f"{name}/_action/feedback", f"{of}_FeedbackMessage", FEEDBACK_QOS),
+            self.transport.subscribe(f"{name}/_action/status", "action_msgs/msg/GoalStatusArray", STATUS_QOS),
+        )
+
+    def look(self) -> bool:
+        return all(c.servers() > 0 for c in self._clients) and all(t.publishers() > 0 for t in self._topics)
+
+    def report(self) -> EndpointReport:
+        rmw = _rmw_of(self.transport.servers_of(f"{self.binding.name}/_action/send_goal"))
+        why = action_problem(self.transport, self.interfaces, self.binding.name, self.binding.type)
+        return _of_call(self.binding, why, self.look(), "there", rmw)
+
+
+@dataclass
+class SubscriberCheck:
+    """Looks for who hears a topic that is sent to the robot; sends nothing."""
+
+    binding: EndpointBinding
+    transport: Transport
+
+    def __post_init__(self) -> None:
+        self._publisher: Publisher = self.transport.publish(self.binding.name, self.binding.type)
+
+    def look(self) -> bool:
+        return self._publisher.subscribers() > 0
+
+    def report(self) -> EndpointReport:
+        if self.look():
+            return EndpointReport(binding=self.binding, usable=True, what="heard")
+        advice = "see whether its node is active, and hears it under this name and type"
+        return EndpointReport(binding=self.binding, usable=False, what="nobody hears it", advice=advice)
+
+
+def _of_call(
+    binding: EndpointBinding, why: EndpointProblem | None, matched: bool, there: str, rmw: tuple[Rmw, ...]
+) -> EndpointReport:
+    if why is None and not matched:
+        why = EndpointProblem(
+            what="it is seen, and the way to it and back is not open",
+            advice="see whether a firewall or the network between lets only one direction through",
+        )
+    if why is not None:
+        return EndpointReport(binding=binding, usable=False, what=why.what, advice=why.advice, rmw=rmw)
+    return EndpointReport(binding=binding, usable=True, what=there, rmw=rmw)
+
+
+def _rmw_of(peers: tuple[Peer, ...]) -> tuple[Rmw, ...]:
+    return tuple(sorted({p.rmw for p in peers}))

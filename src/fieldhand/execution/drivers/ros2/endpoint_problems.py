@@ -1,0 +1,163 @@
+"""Why an endpoint of the robot cannot be used, from what discovery has seen of it, and what to do about it.
+
+DDS is silent about what does not fit: another type, another quality, another middleware is no match and no error. So
+whoever waits in vain asks here what there is instead. None means that nothing speaks against it: what is found only
+has to be matched, which takes a moment.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.transport import (
+    SENSOR_QOS,
+    STATUS_QOS,
+    Peer,
+    QosProfile,
+    Rmw,
+    Transport,
+    services_interoperate,
+)
+
+_PACKAGES: dict[Rmw, str] = {
+    "cyclonedds": "rmw_cyclonedds_cpp",
+    "fastrtps": "rmw_fastrtps_cpp",
+    "connext": "rmw_connextdds",
+    "zenoh": "rmw_zenoh_cpp",
+}
+
+FEEDBACK_QOS = QosProfile(reliable=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class EndpointProblem:
+    """What is wrong with an endpoint, without its name, and what to do."""
+
+    what: str
+    advice: str
+
+    def __str__(self) -> str:
+        return f"{self.what}; {self.advice}"
+
+
+def rmw_package(rmw: Rmw) -> str:
+    """The package that a robot sets as ``RMW_IMPLEMENTATION``."""
+    return _PACKAGES.get(rmw, "an RMW that is not known")
+
+
+def topic_problem(
+    transport: Transport, interfaces: Interfaces, topic: str, type_name: str, qos: QosProfile = SENSOR_QOS
+) -> EndpointProblem | None:
+    """Why nothing comes from a topic.
+
+    Args:
+        quality: As it is read.
+    """
+    peers = transport.writers_of(topic)
+    if not peers:
+        return _nobody("sends it")
+    typed = [p for p in peers if p.type == type_name]
+    if not typed:
+        return _other_type("sent", peers, type_name)
+    if all(_less(p.qos, qos) for p in typed):
+        return _less(typed[0].qos, qos)
+    return _other_definition([p.type_hash for p in typed], interfaces.type_hash(type_name), type_name)
+
+
+def service_problem(
+    transport: Transport, interfaces: Interfaces, service: str, type_name: str
+) -> EndpointProblem | None:
+    """Why a service does not answer."""
+    peers = transport.servers_of(service)
+    if not peers:
+        return _nobody("answers it")
+    typed = [p for p in peers if p.type == type_name]
+    if not typed:
+        return _other_type("answered", peers, type_name)
+    deaf = next((p for p in typed if not services_interoperate(transport.rmw, p.rmw)), None)
+    if deaf is not None and transport.name == "rclpy":
+        return EndpointProblem(
+            what=f"the robot runs {rmw_package(deaf.rmw)} and this side {rmw_package(transport.rmw)}: no service goes "
+            "between them",
+            advice="set the robot's RMW_IMPLEMENTATION here, too",
+        )
+    if deaf is not None:
+        return EndpointProblem(
+            what=f"the robot runs {rmw_package(deaf.rmw)}, whose services cannot be called over the dds transport",
+            advice="set RMW_IMPLEMENTATION=rmw_cyclonedds_cpp on the robot, or reach it by rclpy from here",
+        )
+    if len(typed) > 1:
+        return EndpointProblem(
+            what=f"{len(typed)} servers answer it: which robot would hear?",
+            advice="if these are two robots, give each a namespace or a ROS_DOMAIN_ID of its own",
+        )
+    wrong = _other_definition([p.type_hash for p in typed], interfaces.type_hash(f"{type_name}_Request"), type_name)
+    return wrong or _other_definition(
+        [p.reply_hash for p in typed], interfaces.type_hash(f"{type_name}_Response"), type_name
+    )
+
+
+def action_problem(transport: Transport, interfaces: Interfaces, action: str, type_name: str) -> EndpointProblem | None:
+    """Why goals of an action are not taken: the first of its services and topics that cannot be used."""
+    for service, of in (
+        ("send_goal", f"{type_name}_SendGoal"),
+        ("get_result", f"{type_name}_GetResult"),
+        ("cancel_goal", "action_msgs/srv/CancelGoal"),
+    ):
+        found = service_problem(transport, interfaces, f"{action}/_action/{service}", of)
+        if found is not None:
+            return found if service == "send_goal" else _part(service, found)
+    for topic, of, qos in (
+        ("feedback", f"{type_name}_FeedbackMessage", FEEDBACK_QOS),
+        ("status", "action_msgs/msg/GoalStatusArray", STATUS_QOS),
+    ):
+        found = topic_problem(transport, interfaces, f"{action}/_action/{topic}", of, qos)
+        if found is not None:
+            return _part(topic, found)
+    return None
+
+
+def _nobody(does: str) -> EndpointProblem:
+    return EndpointProblem(
+        what=f"nobody {does}",
+        advice="start it; if it runs, compare its name, namespace and ROS_DOMAIN_ID with these",
+    )
+
+
+def _other_type(done: str, peers: Iterable[Peer], wanted: str) -> EndpointProblem:
+    types = ", ".join(sorted({p.type for p in peers}))
+    return EndpointProblem(
+        what=f"it is {done} as {types}, not as {wanted}",
+        advice="correct the type, or the name, in the profile's ros2 part",
+    )
+
+
+def _less(offered: QosProfile, wanted: QosProfile) -> EndpointProblem | None:
+    """What a writer does not offer."""
+    if wanted.reliable and not offered.reliable:
+        return EndpointProblem(
+            what="it is sent best effort and read reliably, which never meets",
+            advice="leave reliable out in the profile's ros2 part",
+        )
+    if wanted.transient and not offered.transient:
+        return EndpointProblem(
+            what="it is sent volatile and read transient local, which never meets",
+            advice="leave transient out in the profile's ros2 part",
+        )
+    return None
+
+
+def _other_definition(theirs: list[str], ours: str, shown: str) -> EndpointProblem | None:
+    """The same name and other fields: it would match, and be misread. From Iron on it can be told."""
+    if all(said and said != ours for said in theirs):
+        return EndpointProblem(
+            what=f"the robot has another definition of {shown} than is known here",
+            advice="set the robot's distro in the profile, or give its definition under ros2: interfaces",
+        )
+    return None
+
+
+def _part(part: str, found: EndpointProblem) -> EndpointProblem:
+    return EndpointProblem(what=f"its {part}: {found.what}", advice=found.advice)

@@ -1,0 +1,109 @@
+"""Whether what a robot says can be meant: the first message of a topic, held against what its binding takes it for.
+
+Each function returns the content of a message as text, or raises :class:`ImplausibleMessage`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from fieldhand.execution.drivers.ros2.message_fields import number_at, value_at
+from fieldhand.execution.drivers.ros2.telemetry import MOST_PERCENT, fix_problem
+from fieldhand.execution.drivers.ros2.transport import Message
+from fieldhand.robot.bindings import BatteryBinding, FieldBinding, PositionBinding, StopBinding
+from fieldhand.robot.model import Quantity
+
+MessageCheck = Callable[[Message], str]
+
+
+class ImplausibleMessage(Exception):
+    """A message came and cannot be used.
+
+    Args:
+        what: Why not.
+        advice: What to do.
+    """
+
+    def __init__(self, what: str, advice: str) -> None:
+        self.what, self.advice = what, advice
+        super().__init__(what)
+
+
+def position(binding: PositionBinding) -> MessageCheck:
+    """Of a ``sensor_msgs/msg/NavSatFix``."""
+
+    def check_message(fix: Message) -> str:
+        doubt = fix_problem(fix, binding)
+        if doubt is not None:
+            raise ImplausibleMessage(doubt, "wait for a better fix, or allow more with most_sigma_m in the profile")
+        return f"{fix['latitude']:.6f}, {fix['longitude']:.6f}"
+
+    return check_message
+
+
+def battery(binding: BatteryBinding) -> MessageCheck:
+    """Of the charge, in percent."""
+
+    def check_message(message: Message) -> str:
+        charge = _number(message, binding.value)
+        if not 0.0 <= charge <= MOST_PERCENT:
+            raise ImplausibleMessage(f"{charge:g} % is no charge", "correct the unit, scale or path of the battery")
+        if 0.0 < charge <= 1.0 and binding.value.scale == 1.0:
+            raise ImplausibleMessage(f"{charge:g} % is nearly nothing", "if this is a part of 1, set its scale to 100")
+        return f"{charge:.0f} %"
+
+    return check_message
+
+
+def odometry(message: Message) -> str:
+    """Of a ``nav_msgs/msg/Odometry``."""
+    x, y = (_number(message, FieldBinding(path=f"pose.pose.position.{axis}")) for axis in "xy")
+    return f"{x:.2f}, {y:.2f} m"
+
+
+def stop(binding: StopBinding) -> MessageCheck:
+    """Of an emergency stop."""
+
+    def check_message(message: Message) -> str:
+        value = value_at(message, binding.path)
+        if not isinstance(value, bool):
+            raise ImplausibleMessage(
+                f"{binding.path} is {value!r}, neither true nor false", "correct the path of the stop"
+            )
+        if value == binding.stopped:
+            raise ImplausibleMessage("the robot is stopped", "release the emergency stop")
+        return "not stopped"
+
+    return check_message
+
+
+def clock(message: Message) -> str:
+    """Of ``/clock``."""
+    seconds = value_at(message, "clock.sec")
+    return f"{seconds} s"
+
+
+def reading(binding: FieldBinding, quantity: Quantity) -> MessageCheck:
+    """Of a quantity that is measured."""
+
+    def check_message(message: Message) -> str:
+        value = _number(message, binding)
+        if not quantity.minimum <= value <= quantity.maximum:
+            raise ImplausibleMessage(
+                f"{value:g} {quantity.unit} is outside of {quantity.minimum:g} to {quantity.maximum:g}",
+                "correct the unit, scale or path of this reading, or the range of the quantity",
+            )
+        return f"{value:g} {quantity.unit}"
+
+    return check_message
+
+
+def _number(message: Message, binding: FieldBinding) -> float:
+    number = number_at(message, binding)
+    if number is None or not math.isfinite(number):
+        raise ImplausibleMessage(
+            f"{binding.path} is {value_at(message, binding.path)!r}, no number",
+            "see whether the robot measures it, or take another field",
+        )
+    return number

@@ -1,0 +1,41 @@
+"""Quality of service in the words of rclpy, and back."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rclpy.qos import (
+    DurabilityPolicy,
+    HistoryPolicy,
+    QoSCompatibility,
+    QoSProfile,
+    ReliabilityPolicy,
+    qos_check_compatible,
+)
+
+from fieldhand.execution.drivers.ros2.transport import QosProfile
+
+
+def to_rclpy_qos(qos: QosProfile) -> Any:
+    """What an endpoint offers or asks for."""
+    return QoSProfile(
+        history=HistoryPolicy.KEEP_LAST,
+        depth=qos.depth,
+        reliability=ReliabilityPolicy.RELIABLE if qos.reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if qos.transient else DurabilityPolicy.VOLATILE,
+    )
+
+
+def from_rclpy_qos(profile: Any) -> QosProfile:
+    """What another endpoint offers or asks for; the depth is its own matter, and mostly not told."""
+    return QosProfile(
+        reliable=profile.reliability == ReliabilityPolicy.RELIABLE,
+        transient=profile.durability == DurabilityPolicy.TRANSIENT_LOCAL,
+        depth=max(1, profile.depth),
+    )
+
+
+def meets(writer: Any, reader: Any) -> bool:
+    """Whether what a writer offers is what a reader asks for."""
+    verdict, _ = qos_check_compatible(writer, reader)
+    return bool(verdict != QoSCompatibility.ERROR)

@@ -1,0 +1,131 @@
+"""A robot over ROS 2, reached for a mission; and a look whether it is there, without asking anything of it."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+
+from fieldhand.clock import Clock, ScaledClock, SystemWallClock
+from fieldhand.errors import ProfileError
+from fieldhand.execution.drivers.ros2 import ros_clock
+from fieldhand.execution.drivers.ros2.driver import READY_WITHIN_S, Ros2Driver
+from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.open_transport import open_transport
+from fieldhand.execution.drivers.ros2.ros_clock import RosClock
+from fieldhand.execution.drivers.ros2.transport import Transport
+from fieldhand.execution.vehicle import Connection, Vehicle
+from fieldhand.language import message
+from fieldhand.robot.bindings import Ros2Bindings
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.task.frames import Task
+from fieldhand.task.plan import acts
+
+
+def effective_bindings(robot: RobotProfile, by: Connection) -> Ros2Bindings:
+    """What the profile says of ROS 2, with what the connection says in its place.
+
+    Raises:
+        ProfileError: It says nothing of ROS 2.
+    """
+    if robot.ros2 is None:
+        raise ProfileError(
+            message("the profile of {name} does not say how the robot is reached over ROS 2", name=robot.name),
+            where=robot.source,
+            advice=message("add a part ros2 (docs/formats.md), or carry the mission out in simulation"),
+        )
+    namespace = robot.ros2.namespace if by.namespace is None else by.namespace
+    return replace(robot.ros2, namespace=namespace, use_sim_time=robot.ros2.use_sim_time or by.sim_time)
+
+
+def open_node(by: Connection, bindings: Ros2Bindings) -> tuple[Transport, Interfaces]:
+    """A node in the robot's graph, and the types that it knows.
+
+    Raises:
+        InputError: What it needs is not installed.
+        ProfileError: The profile's own interfaces cannot be read.
+        Ros2Error: The network cannot be used.
+    """
+    interfaces = Interfaces.of(bindings.distro, bindings.interfaces)
+    return open_transport(by.transport, interfaces, by.domain), interfaces
+
+
+@contextmanager
+def connected_robot(
+    site: Site, robot: RobotProfile, task: Task, by: Connection, within_s: float = READY_WITHIN_S
+) -> Iterator[Vehicle]:
+    """The robot as long as it is needed, standing still: what it was left at is cancelled.
+
+    Args:
+        site: Of the mission: positions are given in its metres.
+        robot: The profile.
+        task: What is to be done: what it needs of the robot has to be there.
+        by: How it is reached.
+        within_s: Seconds of the wall clock within which all of it has to answer.
+
+    Raises:
+        ProfileError: The profile does not say how it is reached.
+        InputError: What reaches it is not installed.
+        Ros2Error: It does not answer, or not as the profile says; everything that is wrong is named.
+    """
+    bindings = effective_bindings(robot, by)
+    transport, interfaces = open_node(by, bindings)
+    driver: Ros2Driver | None = None
+    try:
+        clock: Clock = RosClock.heard(transport, within_s) if bindings.use_sim_time else ScaledClock()
+        driver = Ros2Driver.connect(
+            transport,
+            interfaces,
+            site,
+            replace(robot, ros2=bindings),
+            clock=clock,
+            within_s=within_s,
+            actions={act.action for act in acts(task.composition.plan)},
+        )
+        yield Vehicle(
+            driver=driver,
+            clock=clock,
+            charge_percent=driver.charge_percent(),
+            # The time of day says nothing of a simulation that runs at a pace of its own.
+            wall=None if bindings.use_sim_time else SystemWallClock(),
+            by=by,
+            remark="" if bindings.use_sim_time else ros_clock.unused_clock_remark(transport),
+        )
+    finally:
+        if driver is not None:
+            driver.leave()
+        transport.close()
+
+
+class RobotPresence:
+    """Presence of a robot, from what it has announced; sends nothing. Safe for several threads.
+
+    Args:
+        transport: Open for as long as this is asked.
+        bindings: Of the robot.
+    """
+
+    def __init__(self, transport: Transport, bindings: Ros2Bindings) -> None:
+        self._transport, self._bindings = transport, bindings
+        self._guard = threading.Lock()
+
+    def missing(self) -> tuple[str, ...]:
+        """Return the parts of the robot that are missing now, in words."""
+        bindings, whole = self._bindings, self._bindings.whole_name
+        topics = {"position": whole(bindings.position.fix.topic), "battery": whole(bindings.battery.topic.topic)}
+        if bindings.use_sim_time:
+            topics["its time"] = ros_clock.TOPIC
+        navigation = whole(bindings.navigation.action)
+        with self._guard:
+            missing = (
+                [] if self._transport.servers_of(f"{navigation}/_action/send_goal") else [("navigation", navigation)]
+            )
+            missing += [(what, topic) for what, topic in topics.items() if not self._transport.writers_of(topic)]
+        return tuple(f"{what} ({name})" for what, name in missing)
+
+    def close(self) -> None:
+        """Leave the graph."""
+        with self._guard:
+            self._transport.close()

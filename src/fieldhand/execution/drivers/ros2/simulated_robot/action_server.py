@@ -1,0 +1,206 @@
+"""The server of a ROS 2 action: three services and two topics, as rclcpp's server has them."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from fieldhand.execution.drivers.ros2.goal_outcome import ABORTED, ACCEPTED, CANCELED, CANCELING, EXECUTING, SUCCEEDED
+from fieldhand.execution.drivers.ros2.transport import STATUS_QOS, Message, Transport
+
+#: ``action_msgs/srv/CancelGoal``: how a request to cancel was answered.
+NO_ERROR, UNKNOWN_GOAL, TERMINATED = 0, 2, 3
+
+_OVER = (SUCCEEDED, CANCELED, ABORTED)
+#: Goals that are over and still known: whoever asks late gets the result.
+_MOST_KEPT = 50
+_NO_ID = bytes(16)
+
+
+class GoalHandler(Protocol):
+    """Carries goals out."""
+
+    def rejection_reason(self, goal: Message) -> str | None:
+        """Why a goal is rejected; None where it is accepted."""
+        ...
+
+    def begin(self, goal: ServerGoal) -> None:
+        """Begin a goal that was accepted."""
+        ...
+
+    def cancel(self, goal: ServerGoal) -> None:
+        """End a goal that is cancelled: by :meth:`ServerGoal.cancelled`, now or later."""
+        ...
+
+
+@dataclass(eq=False)
+class ServerGoal:
+    """A goal of a server.
+
+    Attributes:
+        id: Its 16 bytes.
+        asked: What was asked for.
+        since: When it was accepted, as ``builtin_interfaces/msg/Time``.
+    """
+
+    id: bytes
+    asked: Message
+    since: Mapping[str, int]
+    server: ActionServer
+    status: int = ACCEPTED
+    result: Message = field(default_factory=dict)
+    waiting: list[object] = field(default_factory=list)
+
+    @property
+    def over(self) -> bool:
+        """Whether it has come to its end."""
+        return self.status in _OVER
+
+    def feedback(self, message: Message) -> None:
+        """Say how far it is."""
+        self.server.tell(self, message)
+
+    def succeeded(self, result: Message) -> None:
+        """End it well."""
+        self.server.end(self, SUCCEEDED, result)
+
+    def aborted(self, result: Message) -> None:
+        """End it because it could not be carried out."""
+        self.server.end(self, ABORTED, result)
+
+    def cancelled(self, result: Message) -> None:
+        """End it as was asked."""
+        self.server.end(self, CANCELED, result)
+
+
+class ActionServer:
+    """Serves an action.
+
+    Args:
+        transport: Carries its messages.
+        name: Whole name.
+        type_name: ``package/action/Name``.
+        handler: Carries its goals out.
+        stamp: What time it is, as ``builtin_interfaces/msg/Time``.
+        refused: Told of each goal that was rejected, with why.
+
+    Raises:
+        Ros2Error: The type is not known.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        name: str,
+        type_name: str,
+        handler: GoalHandler,
+        *,
+        stamp: Callable[[], Mapping[str, int]],
+        refused: Callable[[str], None],
+    ) -> None:
+        self._handler, self._stamp, self._refused = handler, stamp, refused
+        self._send = transport.serve(f"{name}/_action/send_goal", f"{type_name}_SendGoal")
+        self._result = transport.serve(f"{name}/_action/get_result", f"{type_name}_GetResult")
+        self._cancel = transport.serve(f"{name}/_action/cancel_goal", "action_msgs/srv/CancelGoal")
+        self._feedback = transport.publish(f"{name}/_action/feedback", f"{type_name}_FeedbackMessage")
+        self._status = transport.publish(f"{name}/_action/status", "action_msgs/msg/GoalStatusArray", STATUS_QOS)
+        self._goals: OrderedDict[bytes, ServerGoal] = OrderedDict()
+
+    def step(self) -> None:
+        """Answer what was asked meanwhile."""
+        for to, request in self._send.requests():
+            self._accept(to, request)
+        for to, request in self._cancel.requests():
+            self._cancel.reply(to, self._cancelling(_part(request, "goal_info")))
+        for to, request in self._result.requests():
+            goal = self._goals.get(_id(request.get("goal_id")))
+            if goal is None:
+                self._result.reply(to, {"status": 0})
+            elif goal.over:
+                self._result.reply(to, {"status": goal.status, "result": goal.result})
+            else:
+                goal.waiting.append(to)
+
+    def tell(self, goal: ServerGoal, message: Message) -> None:
+        """Send feedback."""
+        self._feedback.send({"goal_id": {"uuid": goal.id}, "feedback": message})
+
+    def end(self, goal: ServerGoal, status: int, result: Message) -> None:
+        """A goal is over."""
+        if goal.over:
+            return
+        goal.status, goal.result = status, result
+        for to in goal.waiting:
+            self._result.reply(to, {"status": status, "result": result})
+        goal.waiting.clear()
+        over = [known for known in self._goals.values() if known.over]
+        for old in over[:-_MOST_KEPT]:
+            del self._goals[old.id]
+        self._publish()
+
+    def _accept(self, to: object, request: Message) -> None:
+        identity, asked = _id(request.get("goal_id")), _part(request, "goal")
+        stamp = self._stamp()
+        why = "its id is taken" if identity in self._goals else self._handler.rejection_reason(asked)
+        self._send.reply(to, {"accepted": why is None, "stamp": stamp})
+        if why is not None:
+            self._refused(why)
+            return
+        goal = self._goals[identity] = ServerGoal(id=identity, asked=asked, since=stamp, server=self)
+        self._publish()
+        goal.status = EXECUTING
+        self._publish()
+        self._handler.begin(goal)
+
+    def _cancelling(self, info: Message) -> Message:
+        """Cancel one goal, those accepted until a moment, or all: the rules of ``action_msgs/srv/CancelGoal``."""
+        identity, until = _id(info.get("goal_id")), _nanoseconds(info.get("stamp"))
+        named = self._goals.get(identity)
+        if identity != _NO_ID and named is None and not until:
+            return {"return_code": UNKNOWN_GOAL}
+        if named is not None and named.over and not until:
+            return {"return_code": TERMINATED}
+        everything = identity == _NO_ID and not until
+        chosen = [
+            goal
+            for goal in self._goals.values()
+            if not goal.over and (everything or goal is named or (until and _nanoseconds(goal.since) <= until))
+        ]
+        for goal in chosen:
+            goal.status = CANCELING
+        self._publish()
+        for goal in chosen:
+            self._handler.cancel(goal)
+        return {
+            "return_code": NO_ERROR,
+            "goals_canceling": tuple({"goal_id": {"uuid": goal.id}, "stamp": goal.since} for goal in chosen),
+        }
+
+    def _publish(self) -> None:
+        self._status.send(
+            {
+                "status_list": tuple(
+                    {"goal_info": {"goal_id": {"uuid": goal.id}, "stamp": goal.since}, "status": goal.status}
+                    for goal in self._goals.values()
+                )
+            }
+        )
+
+
+def _part(message: Message, name: str) -> Message:
+    part = message.get(name)
+    return part if isinstance(part, Mapping) else {}
+
+
+def _id(value: object) -> bytes:
+    """The bytes of a ``unique_identifier_msgs/msg/UUID``."""
+    uuid = value.get("uuid") if isinstance(value, Mapping) else None
+    return uuid if isinstance(uuid, bytes) else bytes(uuid) if isinstance(uuid, tuple) else _NO_ID
+
+
+def _nanoseconds(stamp: object) -> int:
+    if not isinstance(stamp, Mapping):
+        return 0
+    return int(stamp.get("sec", 0)) * 10**9 + int(stamp.get("nanosec", 0))

@@ -1,0 +1,247 @@
+"""The action of Nav2 that a profile names, carried out by the body: what is rejected, pre-empted, aborted, and why."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from itertools import pairwise
+
+from fieldhand.errors import Ros2Error
+from fieldhand.execution.drivers.protocol import GoalFault, Progress
+from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.map_frame import degrees_to_map, map_to_degrees, orientation
+from fieldhand.execution.drivers.ros2.simulated_robot.action_server import ServerGoal
+from fieldhand.execution.drivers.ros2.simulated_robot.place_lookup import PlaceLookup
+from fieldhand.execution.drivers.ros2.simulated_robot.robot_platform import Point, SimulatedPlatform, length_m
+from fieldhand.execution.drivers.ros2.transport import Message
+from fieldhand.robot.bindings import Datum, Ros2Bindings
+from fieldhand.site.model import Site
+
+#: Codes of Nav2's controller server, from Iron on: it made no progress; the robot's pose is not known; anything else.
+_CODES: Mapping[GoalFault, int] = {"blocked": 105, "lost": 102}
+_OTHERWISE = 100
+#: Nav2's own of a goal outside of the map (planner server), and how far our map reaches, in metres.
+_OUTSIDE, _REACH_M = 204, 20_000.0
+#: Seconds between two messages of feedback; quaternions may differ so much from length 1; poses of one goal.
+_FEEDBACK_S, _OFF, _MOST_POSES = 0.1, 0.1, 10_000
+#: Metres from a leg at which the robot is on it.
+_ON_M = 1e-3
+
+
+class NavigationServer:
+    """A :class:`~fieldhand.execution.drivers.ros2.simulated_robot.action_server.GoalHandler` that drives.
+
+    Args:
+        bindings: Names the action and its frame.
+        interfaces: Of the robot's release: what its results can say.
+        body, site, places: What drives, and where.
+        datum: Where the map lies.
+        speed: How fast it may drive, in metres a second.
+        now: Seconds.
+        stamped: A header of a frame's name.
+        say: Told of each goal that is over: what it was and how it ended.
+    """
+
+    def __init__(
+        self,
+        bindings: Ros2Bindings,
+        interfaces: Interfaces,
+        platform: SimulatedPlatform,
+        site: Site,
+        places: PlaceLookup,
+        datum: Datum,
+        *,
+        speed: Callable[[], float],
+        now: Callable[[], float],
+        stamped: Callable[[str], Message],
+        report: Callable[[str, Progress], None],
+    ) -> None:
+        self._binding, self._interfaces = bindings.navigation, interfaces
+        self._platform, self._site, self._places, self._datum = platform, site, places, datum
+        self._speed, self._now, self._stamped, self._report = speed, now, stamped, report
+        self._result = f"{self._binding.type}_Result"
+        self._goal: ServerGoal | None = None
+        self._through: tuple[Point, ...] = ()
+        self._legs: tuple[tuple[Point, Point], ...] = ()
+        self._leg = 0
+        self._begun_s = self._told_s = 0.0
+
+    def rejection_reason(self, goal: Message) -> str | None:
+        if self._platform.activity and not self._platform.driving:
+            return f"the robot is {self._platform.activity}"
+        try:
+            self._corners(goal)
+        except Ros2Error as error:
+            return str(error)
+        return None
+
+    def begin(self, goal: ServerGoal) -> None:
+        """Drive; as in Nav2 the goal in hand is aborted, and its drive ends where the robot is."""
+        if self._goal is not None:
+            before, self._goal = self._goal, None
+            self._report("pre-empted", self._platform.stop_now())
+            before.aborted({})
+        corners = self._corners(goal.asked)
+        here = self._platform.position
+        self._goal, self._begun_s, self._told_s = goal, self._now(), -math.inf
+        if any(math.dist((here.x, here.y), corner) > _REACH_M for corner in corners):
+            self._end(Progress(state="failed", what="the goal lies outside of the map"), _OUTSIDE)
+            return
+        self._through, self._legs, self._leg = corners, tuple(pairwise(((here.x, here.y), *corners))), 0
+        self._platform.drive(corners, self._places.nearest(corners[-1]), self._speed(), self._over)
+
+    def cancel(self, goal: ServerGoal) -> None:
+        if goal is not self._goal:
+            return
+        self._goal = None
+        self._report("cancelled", self._platform.stop_now())
+        goal.cancelled({})
+
+    def step(self) -> None:
+        """Say how far the goal in hand is."""
+        now = self._now()
+        if self._goal is not None and now - self._told_s >= _FEEDBACK_S:
+            self._told_s = now
+            self._goal.feedback(self._feedback(self._goal, now))
+
+    def _corners(self, goal: Message) -> tuple[Point, ...]:
+        """Where a goal leads, in local metres.
+
+        Raises:
+            Ros2Error: It is malformed.
+        """
+        if "gps_poses" in goal:
+            if goal.get("number_of_loops"):
+                raise Ros2Error("this robot drives no loops", advice="send the waypoints once")
+            degrees = [_geographic(pose) for pose in _listed(goal["gps_poses"])[_first(goal) :]]
+        else:
+            asked: object = goal.get("poses", (goal.get("pose"),))
+            # From Kilted on the poses have a header of their own around them.
+            asked = asked.get("goals") if isinstance(asked, Mapping) else asked
+            degrees = [self._in_map(pose) for pose in _listed(asked)]
+        if not degrees:
+            raise Ros2Error("the goal has no poses")
+        if len(degrees) > _MOST_POSES:
+            raise Ros2Error(f"the goal has more than {_MOST_POSES} poses")
+        east_north = self._site.projection.metres([lat for lat, _ in degrees], [lon for _, lon in degrees])
+        return tuple((float(x), float(y)) for x, y in east_north)
+
+    def _in_map(self, pose: object) -> tuple[float, float]:
+        header, inner = _part(pose, "header"), _part(pose, "pose")
+        frame = header.get("frame_id")
+        if frame != self._binding.frame:
+            raise Ros2Error(f"the pose is in frame {frame!r}; the map is {self._binding.frame!r}")
+        x, y, _ = _numbers(_part(inner, "position"), "x", "y", "z")
+        _upright(_part(inner, "orientation"))
+        return map_to_degrees(self._datum, (x, y))
+
+    def _over(self, progress: Progress) -> None:
+        self._end(progress, _CODES.get(progress.fault, _OTHERWISE))
+
+    def _end(self, progress: Progress, code: int) -> None:
+        goal, self._goal = self._goal, None
+        if goal is None:
+            return
+        self._report(progress.state, progress)
+        if progress.state == "succeeded":
+            goal.succeeded({})
+        else:
+            goal.aborted(self._failure(goal.asked, progress, code))
+
+    def _failure(self, asked: Message, progress: Progress, code: int) -> Message:
+        """What the result can say of why it failed: nothing in Humble, a code from Iron on, words from Kilted on."""
+        fields = self._interfaces.fields(self._result)
+        words = progress.what or progress.state
+        result: dict[str, object] = {"error_msg": words} if "error_msg" in fields else {}
+        if "missed_waypoints" in fields:
+            missed = fields["missed_waypoints"].base
+            numbered = "index" if "index" in self._interfaces.fields(missed) else "waypoint_index"
+            result["missed_waypoints"] = ({numbered: _first(asked) + self._index_ahead(), "error_code": code},)
+            constants = self._interfaces.constants(self._result)
+            code_of_all = constants.get("STOP_ON_MISSED_WAYPOINT", constants.get("UNKNOWN", _OTHERWISE))
+        else:
+            code_of_all = code
+        if "error_code" in fields:
+            result["error_code"] = code_of_all
+        return result
+
+    def _feedback(self, goal: ServerGoal, now: float) -> Message:
+        if self._binding.type.endswith("/FollowGPSWaypoints"):
+            return {"current_waypoint": _first(goal.asked) + self._index_ahead()}
+        at = self._platform.position
+        ((x, y),) = degrees_to_map(self._datum, [(at.lat, at.lon)])
+        ahead = self._through[self._index_ahead() :]
+        left_m = length_m(((at.x, at.y), *ahead))
+        yaw = math.radians(self._datum.heading_deg - self._platform.heading_deg)
+        feedback: dict[str, object] = {
+            "current_pose": {
+                "header": self._stamped(self._binding.frame),
+                "pose": {
+                    "position": {"x": x, "y": y, "z": 0.0},
+                    "orientation": orientation(yaw),
+                },
+            },
+            "navigation_time": _duration(now - self._begun_s),
+            "distance_remaining": left_m,
+        }
+        if self._binding.type.endswith("/NavigateThroughPoses"):
+            feedback["number_of_poses_remaining"] = len(ahead)
+        return feedback
+
+    def _index_ahead(self) -> int:
+        """Which corner comes next: the end of the leg that the robot is on."""
+        at = self._platform.position
+        on = (n for n, leg in enumerate(self._legs) if n >= self._leg and _away((at.x, at.y), *leg) < _ON_M)
+        self._leg = next(on, self._leg)
+        return self._leg
+
+
+def _away(point: Point, a: Point, b: Point) -> float:
+    """Metres from a point to a leg."""
+    length = math.dist(a, b)
+    if length == 0:
+        return math.dist(point, a)
+    part = ((point[0] - a[0]) * (b[0] - a[0]) + (point[1] - a[1]) * (b[1] - a[1])) / length**2
+    part = min(1.0, max(0.0, part))
+    return math.dist(point, (a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])))
+
+
+def _first(goal: Message) -> int:
+    """From which of its waypoints on a goal is meant."""
+    first = goal.get("goal_index", 0)
+    return first if isinstance(first, int) else 0
+
+
+def _geographic(pose: object) -> tuple[float, float]:
+    lat, lon = _numbers(_part(pose, "position"), "latitude", "longitude")
+    if not (abs(lat) <= 90 and abs(lon) <= 180):
+        raise Ros2Error(f"{lat}, {lon} is no place on earth")
+    _upright(_part(pose, "orientation"))
+    return lat, lon
+
+
+def _upright(orientation: Message) -> None:
+    """A quaternion has length 1; all zeros, what is left of a message that nobody filled, is none."""
+    length = math.hypot(*_numbers(orientation, "x", "y", "z", "w"))
+    if not abs(length - 1.0) <= _OFF:
+        raise Ros2Error(f"the orientation is no quaternion: its length is {length:g}")
+
+
+def _numbers(message: Message, *names: str) -> tuple[float, ...]:
+    values = tuple(message.get(name) for name in names)
+    if not all(isinstance(value, (int, float)) and math.isfinite(value) for value in values):
+        raise Ros2Error(f"{', '.join(names)} are not all numbers")
+    return tuple(float(value) for value in values if isinstance(value, (int, float)))
+
+
+def _part(message: object, name: str) -> Message:
+    part = message.get(name) if isinstance(message, Mapping) else None
+    return part if isinstance(part, Mapping) else {}
+
+
+def _listed(value: object) -> Sequence[object]:
+    return value if isinstance(value, (tuple, list)) else ()
+
+
+def _duration(seconds: float) -> Message:
+    return {"sec": int(seconds), "nanosec": int(seconds % 1.0 * 1e9)}

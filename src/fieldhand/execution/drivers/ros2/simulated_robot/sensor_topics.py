@@ -1,0 +1,142 @@
+"""The topics that a profile reads quantities from.
+
+A sensor that is only listened to measures while the robot stands: once when it comes to a place, and says that again
+and again until the robot moves. One that a call goes before says what the capture of that call has measured. A fault of
+the world that silences one holds for longer than anyone waits, so that a capture fails by it, and the next may not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from fieldhand.errors import Ros2Error
+from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.message_fields import message_of
+from fieldhand.execution.drivers.ros2.simulated_robot.field_values import field_value, with_header
+from fieldhand.execution.drivers.ros2.transport import Message, Publisher, QosProfile, Transport
+from fieldhand.robot.bindings import NextMessage, Ros2Bindings
+
+#: Seconds between two messages; how many times as long as one waits for a message a silent sensor is silent.
+_PERIOD_S, _LONGER = 0.5, 1.5
+
+
+@dataclass
+class _SensorTopic:
+    """A topic with the quantities that stand in its messages."""
+
+    type: str
+    publisher: Publisher
+    values: dict[str, NextMessage] = field(default_factory=dict)
+    sent_s: float = float("-inf")
+
+
+class SensorTopics:
+    """Publishes them.
+
+    Args:
+        transport, interfaces: By what they are sent.
+        bindings: Which topics there are.
+        measure: What the sensors of an action give where the robot stands; a failure gives nothing.
+        header: Of a message that is sent now.
+
+    Raises:
+        Ros2Error: A type is not known, lacks the field, or a topic has two types.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        interfaces: Interfaces,
+        bindings: Ros2Bindings,
+        *,
+        taken: frozenset[str],
+        measure: Callable[[str], Mapping[str, float]],
+        header: Callable[[], Message],
+    ) -> None:
+        self._interfaces, self._bindings, self._measure, self._header = interfaces, bindings, measure, header
+        self._sensors: dict[str, _SensorTopic] = {}
+        self._heard = [name for name, bound in bindings.actions.items() if bound.call is None and bound.topics]
+        self._readings: dict[str, float] = {}
+        self._silent_s: dict[str, float] = {}
+        self._measured: set[str] = set()
+        for bound in bindings.actions.values():
+            for quantity, message in bound.topics.items():
+                topic = bindings.whole_name(message.topic)
+                if topic in taken:
+                    raise Ros2Error(
+                        f"{topic} says how the robot is, and {quantity} is read from it, too",
+                        advice="the simulated robot cannot say both on one topic; bind the quantity to another",
+                    )
+                feed = self._sensors.get(topic)
+                if feed is None:
+                    qos = QosProfile(reliable=True)
+                    feed = _SensorTopic(type=message.type, publisher=transport.publish(topic, message.type, qos))
+                    self._sensors[topic] = feed
+                if feed.type != message.type:
+                    raise Ros2Error(f"{topic} is bound as {feed.type} and as {message.type}")
+                interfaces.field_at(message.type, message.value.path)
+                feed.values[quantity] = message
+
+    @property
+    def shortest_wait_s(self) -> float:
+        """The shortest time that anyone waits for a message; endless where nobody does."""
+        return min((m.within_s for feed in self._sensors.values() for m in feed.values.values()), default=float("inf"))
+
+    def captured(self, action: str, readings: Mapping[str, float], now: float) -> None:
+        """A capture by a call is over: what it measured is said from now on. Whoever listens to a sensor that is silent
+        begins to wait for it only now."""
+        for heard in self._silent_s:
+            self._silent_s[heard] = now + self._longer(heard)
+        for quantity in self._bindings.actions[action].topics:
+            self._readings.pop(quantity, None)
+            if quantity in readings:
+                self._readings[quantity] = readings[quantity]
+
+    def step(self, now: float, standing: bool) -> None:
+        """Measure and send what is due.
+
+        Args:
+            standing: Whether the robot stands where it may be working.
+        """
+        if not standing:
+            self._readings.clear()
+            self._silent_s.clear()
+            self._measured.clear()
+            return
+        for action in self._heard:
+            if self._wanted(action) and (action not in self._measured or now >= self._silent_s.get(action, now + 1.0)):
+                self._sense(action, now)
+        for feed in self._sensors.values():
+            if now - feed.sent_s >= _PERIOD_S and all(quantity in self._readings for quantity in feed.values):
+                self._send(feed, now)
+
+    def _wanted(self, action: str) -> bool:
+        """Whether anyone listens: before, nothing is drawn and no fault is used up."""
+        topics = (self._bindings.whole_name(m.topic) for m in self._bindings.actions[action].topics.values())
+        return any(self._sensors[topic].publisher.subscribers() for topic in topics)
+
+    def _sense(self, action: str, now: float) -> None:
+        topics = self._bindings.actions[action].topics
+        readings = self._measure(action)
+        self._measured.add(action)
+        self._silent_s.pop(action, None)
+        for quantity in topics:
+            if quantity in readings:
+                self._readings[quantity] = readings[quantity]
+        if any(quantity not in readings for quantity in topics):
+            self._silent_s[action] = now + self._longer(action)
+
+    def _longer(self, action: str) -> float:
+        """Longer than anyone waits for its messages, in seconds."""
+        return _LONGER * max(message.within_s for message in self._bindings.actions[action].topics.values())
+
+    def _send(self, feed: _SensorTopic, now: float) -> None:
+        feed.sent_s = now
+        values = {
+            binding.value.path: field_value(self._interfaces, feed.type, binding.value, self._readings[quantity])
+            for quantity, binding in feed.values.items()
+        }
+        if None not in values.values():
+            message = with_header(self._interfaces, feed.type, message_of(values), self._header())
+            feed.publisher.send(message)

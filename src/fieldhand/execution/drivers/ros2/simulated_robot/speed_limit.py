@@ -1,0 +1,37 @@
+"""The speed limit of Nav2's controller, by the topic that a profile names."""
+
+from __future__ import annotations
+
+from fieldhand.execution.drivers.ros2.transport import Message, QosProfile, Transport
+from fieldhand.robot.bindings import Ros2Bindings
+
+_TYPE = "nav2_msgs/msg/SpeedLimit"
+
+
+class SpeedLimit:
+    """How fast the robot may drive.
+
+    Args:
+        transport: By what it is told.
+        bindings: On which topic; none where the profile names none.
+        own_m_s: The robot's own speed, which no limit is above.
+
+    Raises:
+        Ros2Error: The type is not known.
+    """
+
+    def __init__(self, transport: Transport, bindings: Ros2Bindings, own_m_s: float) -> None:
+        self._own_m_s = self._limit_m_s = own_m_s
+        topic = bindings.navigation.speed_limit
+        self._told = transport.subscribe(bindings.whole_name(topic), _TYPE, QosProfile()) if topic else None
+
+    def m_s(self) -> float:
+        """What holds now: the last that was said. 0 means none, as in Nav2."""
+        for message in self._told.take() if self._told is not None else ():
+            self._limit_m_s = min(self._own_m_s, self._said(message) or self._own_m_s)
+        return self._limit_m_s
+
+    def _said(self, message: Message) -> float:
+        limit = message.get("speed_limit")
+        limit = float(limit) if isinstance(limit, (int, float)) and limit > 0 else 0.0
+        return limit / 100.0 * self._own_m_s if message.get("percentage") else limit

@@ -1,0 +1,142 @@
+"""What the robot says of itself without being asked: battery, fix, odometry, emergency stop, and the time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.map_frame import orientation
+from fieldhand.execution.drivers.ros2.message_fields import message_of
+from fieldhand.execution.drivers.ros2.simulated_robot.field_values import field_value, with_header
+from fieldhand.execution.drivers.ros2.simulated_robot.robot_platform import SimulatedPlatform
+from fieldhand.execution.drivers.ros2.transport import Message, Publisher, QosProfile, Transport
+from fieldhand.robot.bindings import Ros2Bindings, TopicBinding
+
+#: Seconds between two messages.
+_FIX_S, _ODOMETRY_S, _BATTERY_S, _STOP_S = 0.1, 0.05, 1.0, 0.5
+#: A receiver with corrections, and one that hears nothing (``sensor_msgs/msg/NavSatStatus``); standard deviation in
+#: metres of the first, east, north and up.
+_CORRECTED, _NO_FIX = 2, -1
+_SIGMA_M = (0.01, 0.01, 0.02)
+_UNKNOWN, _DIAGONAL = 0, 2
+_DISCHARGING = 2
+
+
+@dataclass
+class _Sent:
+    """A topic and when it was sent last.
+
+    Attributes:
+        kept: For who comes late; any other is not sent while nobody hears it.
+    """
+
+    publisher: Publisher
+    kept: bool
+    every_s: float
+    message: Callable[[], Message]
+    sent_s: float = -math.inf
+
+
+class TelemetryTopics:
+    """Publishes them.
+
+    Args:
+        transport, interfaces: By what they are sent.
+        bindings: On which topics.
+        body: Of whom.
+        stamped: A header of a frame's name.
+
+    Raises:
+        Ros2Error: A type is not known, or lacks the field that is bound.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        interfaces: Interfaces,
+        bindings: Ros2Bindings,
+        platform: SimulatedPlatform,
+        *,
+        stamped: Callable[[str], Message],
+    ) -> None:
+        self._interfaces, self._bindings, self._platform, self._stamped = interfaces, bindings, platform, stamped
+
+        def sent(topic: TopicBinding, every_s: float, message: Callable[[], Message]) -> _Sent:
+            qos = QosProfile(reliable=True, transient=topic.transient)
+            publisher = transport.publish(bindings.whole_name(topic.topic), topic.type, qos)
+            return _Sent(publisher, topic.transient, every_s, message)
+
+        interfaces.field_at(bindings.battery.topic.type, bindings.battery.value.path)
+        self._topics = [
+            sent(bindings.position.fix, _FIX_S, self._fix),
+            sent(bindings.battery.topic, _BATTERY_S, self._battery),
+        ]
+        if bindings.odometry is not None:
+            self._topics.append(sent(bindings.odometry, _ODOMETRY_S, self._odometry))
+        if bindings.stop is not None:
+            interfaces.field_at(bindings.stop.topic.type, bindings.stop.path)
+            self._topics.append(sent(bindings.stop.topic, _STOP_S, self._stop))
+
+    @staticmethod
+    def topics(bindings: Ros2Bindings) -> frozenset[str]:
+        """Whole names of what is sent here."""
+        stop = None if bindings.stop is None else bindings.stop.topic
+        bound = (bindings.position.fix, bindings.battery.topic, bindings.odometry, stop)
+        return frozenset(bindings.whole_name(topic.topic) for topic in bound if topic is not None)
+
+    def step(self, now: float) -> None:
+        """Send what is due."""
+        for topic in self._topics:
+            if now - topic.sent_s >= topic.every_s:
+                topic.sent_s = now
+                if topic.kept or topic.publisher.subscribers():
+                    topic.publisher.send(topic.message())
+
+    def _fix(self) -> Message:
+        at, lost = self._platform.position, self._platform.lost
+        variances = [0.0] * 9
+        if not lost:
+            variances[0], variances[4], variances[8] = (sigma**2 for sigma in _SIGMA_M)
+        return {
+            "header": self._stamped("gps"),
+            "status": {"status": _NO_FIX if lost else _CORRECTED, "service": 1},
+            "latitude": math.nan if lost else at.lat,
+            "longitude": math.nan if lost else at.lon,
+            "altitude": math.nan if lost else 0.0,
+            "position_covariance": tuple(variances),
+            "position_covariance_type": _UNKNOWN if lost else _DIAGONAL,
+        }
+
+    def _battery(self) -> Message:
+        binding = self._bindings.battery
+        message: Message = {}
+        if binding.topic.type == "sensor_msgs/msg/BatteryState":
+            unmeasured = ("voltage", "temperature", "current", "charge", "capacity", "design_capacity")
+            message = {"power_supply_status": _DISCHARGING, "present": True, **dict.fromkeys(unmeasured, math.nan)}
+        charge = field_value(self._interfaces, binding.topic.type, binding.value, self._platform.charge_percent)
+        message = {**message, **message_of({binding.value.path: charge})}
+        return with_header(self._interfaces, binding.topic.type, message, self._stamped("base_link"))
+
+    def _odometry(self) -> Message:
+        east, north = self._platform.odometry
+        yaw = math.radians(90.0 - self._platform.heading_deg)
+        return {
+            "header": self._stamped("odom"),
+            "child_frame_id": "base_link",
+            "pose": {
+                "pose": {
+                    "position": {"x": east, "y": north, "z": 0.0},
+                    "orientation": orientation(yaw),
+                }
+            },
+            "twist": {"twist": {"linear": {"x": self._platform.speed_m_s, "y": 0.0, "z": 0.0}}},
+        }
+
+    def _stop(self) -> Message:
+        binding = self._bindings.stop
+        assert binding is not None  # noqa: S101  sent only where there is one
+        pressed = self._platform.stopped is not None
+        message = message_of({binding.path: binding.stopped if pressed else not binding.stopped})
+        return with_header(self._interfaces, binding.topic.type, message, self._stamped("base_link"))

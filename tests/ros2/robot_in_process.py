@@ -1,0 +1,194 @@
+"""A robot in another process, over real DDS, on a time of its own that a test lets pass: no machine is too slow for it.
+
+While the robot lives both do their steps in turn. Once it was killed time passes five times as fast as on the wall, and
+so does the lease by which DDS forgets it: two seconds are as good as its ten.
+"""
+
+from __future__ import annotations
+
+import itertools
+import json
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from fieldhand.clock import SimulatedClock
+from fieldhand.execution.drivers.ros2.dds import open_dds
+from fieldhand.execution.drivers.ros2.dds.transport import DdsTransport
+from fieldhand.execution.drivers.ros2.driver import Ros2Driver
+from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.simulated_robot.robot import bindings_of
+from fieldhand.execution.guard import NoGuard
+from fieldhand.execution.mission_runner import Result, run
+from fieldhand.execution.vehicle import Connection, Vehicle
+from fieldhand.robot.bindings import Ros2Bindings
+from fieldhand.robot.loader import load_robot
+from fieldhand.robot.model import Patience, RobotProfile
+from fieldhand.site.geojson import open_site
+from fieldhand.task.frames import Task
+from fieldhand.task.plan import Act, Node, walk
+from patience import until
+from rig import authorized, husky, task_for
+from ros2.conftest import LOOPBACK
+from ros2.robot_process import ALL, FROM_ROBOT, NUMBER, TO_ROBOT
+from ros2.scripted_robot import SITE, SPEED, TICK_S, bindings, interfaces
+
+_FASTER = 5.0
+_LEASE = "<Discovery><LeaseDuration>2s</LeaseDuration></Discovery></Domain>"
+#: So that a mission need not wait for minutes.
+_PATIENCE = Patience(blocked_wait_s=2.0, lost_wait_s=4.0)
+
+
+class RobotInProcess:
+    """The process."""
+
+    def __init__(self) -> None:
+        self._process = subprocess.Popen(
+            [sys.executable, str(Path(__file__).with_name("robot_process.py"))],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            env=os.environ
+            | {
+                "PYTHONPATH": os.pathsep.join(p for p in sys.path if p),
+                "CYCLONEDDS_URI": LOOPBACK.replace("</Domain>", _LEASE),
+            },
+        )
+        self.state: dict[str, Any] = {}
+
+    @property
+    def alive(self) -> bool:
+        return self._process.poll() is None
+
+    def tell(self, what: str, **given: object) -> None:
+        self.begin(what, **given)
+        self.ended()
+
+    def begin(self, what: str, **given: object) -> None:
+        assert self._process.stdin is not None
+        self._process.stdin.write(json.dumps([what, given]) + "\n")
+        self._process.stdin.flush()
+
+    def ended(self) -> None:
+        assert self._process.stdout is not None
+        self.state = json.loads(self._process.stdout.readline())
+
+    def kill(self) -> None:
+        """As ``kill -9``."""
+        self._process.kill()
+        self._process.communicate()
+
+
+class Lockstep(SimulatedClock):
+    """Time that passes at both ends at once, at most ``tick_s`` in a step."""
+
+    def __init__(self, robot: RobotInProcess, node: DdsTransport, tick_s: float = TICK_S) -> None:
+        super().__init__()
+        self._tick_s = tick_s
+        #: What happens once, when something holds.
+        self.meanwhile: tuple[Callable[[], bool], Callable[[], None]] | None = None
+        self._robot, self._numbers = robot, itertools.count(1)
+        self._said = node.publish(TO_ROBOT, NUMBER, ALL)
+        self._heard = node.subscribe(FROM_ROBOT, NUMBER, ALL)
+        robot.begin("meet")
+        until(lambda: self._heard.publishers() == 1 and self._said.subscribers() == 1)
+        robot.ended()
+
+    def advance(self, seconds: float) -> None:
+        until_s = self.now() + max(0.0, seconds)
+        while self.now() < until_s - 1e-9:
+            if self.meanwhile is not None and self.meanwhile[0]():
+                (_, then), self.meanwhile = self.meanwhile, None
+                then()
+            step_s = min(self._tick_s, until_s - self.now())
+            if self._robot.alive:
+                number = next(self._numbers)
+                self._said.send({"data": number})
+                self._robot.tell("step", seconds=step_s, number=number)
+                until(lambda number=number: {"data": number} in self._heard.take())  # type: ignore[misc]
+            else:
+                time.sleep(step_s / _FASTER)
+            super().advance(step_s)
+
+
+class Meeting:
+    """A computer and a robot that have found each other.
+
+    Args:
+        robot: Made anew with these switches (:meth:`ros2.robot_process.Process.new`).
+        bound: What the computer takes the robot for.
+    """
+
+    def __init__(self, robot: RobotInProcess, bound: Ros2Bindings | None = None, **switches: Any) -> None:
+        bound = bound or bindings(distro=switches.get("distro", "jazzy"))
+        robot.tell("new", **switches)
+        self.robot = robot
+        self.profile: RobotProfile = replace(husky(), ros2=bound, speed_m_s=SPEED, patience=_PATIENCE)
+        self._interfaces = interfaces(bound.distro)
+        self.node = open_dds(self._interfaces)
+        self.clock = Lockstep(robot, self.node)
+
+    def connect(self, within_s: float = 1.0, **options: Any) -> Ros2Driver:
+        return Ros2Driver.connect(
+            self.node,
+            self._interfaces,
+            SITE,
+            self.profile,
+            clock=self.clock,
+            steady=self.clock.now,
+            sleep=self.clock.advance,
+            look_every_s=0.2,
+            within_s=within_s,
+            **options,
+        )
+
+    def fly(self, plan: Node | Task, driver: Ros2Driver | None = None) -> Result:
+        """A whole mission."""
+        task = plan if isinstance(plan, Task) else task_for(plan)
+        return run(
+            authorized(task, SITE, self.profile),
+            site=SITE,
+            robot=self.profile,
+            driver=driver or self.connect(),
+            guard=NoGuard(),
+            clock=self.clock,
+            emit=lambda _: None,
+        )
+
+
+@contextmanager
+def connected_simulated_robot(
+    site: str, robot: str, task: Task, *, seed: int, tick_s: float
+) -> Iterator[tuple[Vehicle, RobotInProcess]]:
+    """A simulated robot in another process, as the vehicle of a mission: both live on one time."""
+    far, profile = RobotInProcess(), load_robot(robot)
+    node: DdsTransport | None = None
+    try:
+        far.tell("new_simulated_robot", site=site, robot=robot, seed=seed)
+        bound = bindings_of(profile)
+        known = Interfaces.of(bound.distro, bound.interfaces)
+        node = open_dds(known)
+        clock = Lockstep(far, node, tick_s)
+        driver = Ros2Driver.connect(
+            node,
+            known,
+            open_site(site),
+            profile,
+            clock=clock,
+            steady=clock.now,
+            sleep=clock.advance,
+            look_every_s=tick_s,
+            actions={node.action for node in walk(task.composition.plan) if isinstance(node, Act)},
+        )
+        by = Connection(transport="dds", sim_time=True)
+        yield Vehicle(driver=driver, clock=clock, charge_percent=driver.charge_percent(), by=by), far
+    finally:
+        if node is not None:
+            node.close()
+        far.kill()
