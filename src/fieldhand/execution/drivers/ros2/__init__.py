@@ -1,4 +1,4 @@
-"""A robot over ROS 2: one driver above two transports, DDS without any ROS installed, and rclpy where ROS is sourced.
+"""Driver for robots over ROS 2, above two transports: DDS (no ROS installed) and rclpy (where ROS is sourced).
 
-Driver ──▶ actions, services, topics of the profile ──▶ Transport ──▶ dds | rclpy ──▶ the robot, or its twin
+Driver ──▶ actions, services, topics of the profile ──▶ Transport ──▶ dds | rclpy ──▶ the robot, or the simulated robot
 """

@@ -1,12 +1,12 @@
-"""The client of a ROS 2 action: one goal at a time, from the request to its end, whatever gets lost between.
+"""Client of a ROS 2 action: sends one goal at a time, cancels it, and tolerates lost or repeated messages.
 
-    start ──▶ found ──▶ sent ──▶ accepted ──▶ result
-      │         │        │  └──▶ rejected
-      └─────────┴────────┴──── cancel, or a limit is over ──▶ stopping ──▶ it confirms, is gone, or says nothing
+    start ──▶ server found ──▶ sent ──▶ accepted ──▶ result
+      │            │            │  └──▶ rejected
+      └────────────┴────────────┴──── cancel, or a time limit ──▶ cancelling ──▶ confirmed, server gone, or no answer
 
-An action is three services and two topics. Replies may be lost, come twice, or come when nobody waits any more, so each
-is known by its number and its goal; feedback and status tell the same a second time. A goal is sent once, never again.
-One that was given up is not forgotten: whatever shows later that the robot is at it gets it cancelled.
+An action consists of three services and two topics. Replies may be lost, arrive twice, or arrive late, so each is
+matched by its request number and goal; feedback and status carry the same information a second time. A goal is sent
+exactly once. A goal that was given up stays on record: it is cancelled if the robot later turns out to be executing it.
 """
 
 from __future__ import annotations
@@ -31,30 +31,31 @@ from fieldhand.execution.drivers.ros2.goal_outcome import (
 from fieldhand.execution.drivers.ros2.message_fields import value_at
 from fieldhand.execution.drivers.ros2.transport import STATUS_QOS, Client, Message, QosProfile, Transport
 
-#: Seconds without a sign of life, or since the end was told, after which the result is asked for again.
+#: Seconds without a sign of life, or since the end was reported, after which the result is requested again.
 RESULT_AGAIN_S = 3.0
-#: Seconds until a cancellation that was not answered is repeated.
+#: Seconds after which an unanswered cancel request is repeated.
 CANCEL_AGAIN_S = 1.0
-#: Stands for the number of a request that did not go out; none that did has it.
+#: Stands in for the number of a request that could not be sent.
 _LOST = -1
-#: Seconds in which a cancelled goal has to end. More than execution waits before it says that the robot does not stop.
+#: Seconds within which a cancelled goal must end. Longer than execution waits before it reports that the robot does not
+#: stop.
 CANCEL_S = 15.0
 
 
 class ActionClient:
-    """Asks an action of the robot.
+    """Client of one action of the robot.
 
     Args:
-        transport: Carries its messages.
-        name: Whole name of the action.
+        transport: Transport of the robot's graph.
+        name: Full name of the action.
         type_name: ``package/action/Name``.
-        steady: Seconds that pass whatever the mission's clock does: by them its limits are.
-        accept_s: Within that a server is found, and within that a goal is accepted or rejected.
-        quiet_s: Seconds without feedback after which a goal is given up; None for an action that need not give any.
-        new_id: Makes the 16 bytes that name a goal; no two of them may be the same in any process.
+        steady: Monotonic clock for the client's time limits, in seconds.
+        accept_s: Seconds to find a server, and again to get the goal accepted or rejected.
+        quiet_s: Seconds without feedback after which a goal is given up; None for an action without feedback.
+        new_id: Returns the 16 bytes of a goal id, unique across all processes.
 
     Raises:
-        Ros2Error: The type is not known.
+        Ros2Error: The type is unknown.
     """
 
     def __init__(
@@ -89,14 +90,19 @@ class ActionClient:
         self._stopping: set[bytes] = set()
         self._sweep_s, self._swept = -math.inf, False
 
-    # --- what is asked -------------------------------------------------------------------------------------------
+    # --- requests ------------------------------------------------------------------------------------------------
 
     def servers(self) -> int:
-        """How many servers answer all that a goal needs."""
+        """Return the number of servers that offer all services a goal needs."""
         return min(client.servers() for client in self._clients)
 
     def start(self, goal: Message, *, sending: Callable[[], None] = lambda: None) -> None:
-        """Begin a goal of these fields; the one before must be over. ``sending`` is called just before it is sent."""
+        """Start a goal with these fields; the previous goal must have ended.
+
+        Args:
+            goal: Fields of the goal.
+            sending: Called just before the goal is sent.
+        """
         if self.busy:
             raise RuntimeError(f"a goal of {self.name} is running: a client has one at a time")
         now = self._steady()
@@ -106,20 +112,20 @@ class ActionClient:
 
     @property
     def busy(self) -> bool:
-        """Whether a goal was begun that is not over."""
+        """True while a started goal has not ended."""
         return self._goal is not None and self._outcome is None
 
     def cancel(self, why: str = "") -> None:
-        """Ask for the end of the goal; it is over when :meth:`step` says so. Does nothing the second time.
+        """Request cancellation of the goal; :meth:`step` reports when it has ended. Repeated calls have no effect.
 
         Args:
-            why: Told in the outcome if the goal then does not succeed.
+            why: Reason, reported in the outcome unless the goal succeeds.
         """
         if self._goal is not None and self._outcome is None and self._goal.stop_s is None:
             self._goal.stop_s, self._goal.why = self._steady(), why
 
     def step(self) -> GoalOutcome | None:
-        """Hear what has arrived and do what is due. None while the goal runs, and before the first."""
+        """Process received messages and send what is due. Return None before the first goal and while a goal runs."""
         now = self._steady()
         self._hear(now)
         if self._goal is not None and self._outcome is None:
@@ -129,22 +135,22 @@ class ActionClient:
         return self._outcome
 
     def cancel_everything(self) -> bool:
-        """Ask for the end of every goal of this action, whoever sent it: again and again, until it is True.
+        """Cancel every goal of this action, whoever sent it; call repeatedly until it returns True.
 
         Returns:
-            Whether that was answered, and nothing is carried out any more.
+            True once the request was answered and no goal is active.
         """
         now = self._steady()
         self._hear(now)
         if not self._swept and now - self._sweep_s >= CANCEL_AGAIN_S:
             self._sweep_s = now
             self._sweeps.add(self._asked_of(self._cancel, {}))
-        # Statuses come on another way than the answer: those that it ends may not be told yet.
+        # Statuses arrive on a topic of their own and may lag behind the cancel response.
         self._stopping -= {goal_id for goal_id, status in self._statuses.items() if status in BY_STATUS}
         return self._swept and not self._stopping and not any(status in BUSY for status in self._statuses.values())
 
     def close(self) -> None:
-        """End it, without a word to the robot."""
+        """Close all endpoints without sending anything."""
         for client in self._clients:
             client.close()
         for subscription in (self._feedback, self._status):
@@ -154,7 +160,7 @@ class ActionClient:
     def _clients(self) -> tuple[Client, ...]:
         return self._send, self._result, self._cancel
 
-    # --- what is heard -------------------------------------------------------------------------------------------
+    # --- replies -------------------------------------------------------------------------------------------------
 
     def _hear(self, now: float) -> None:
         for message in self._feedback.take():
@@ -172,7 +178,7 @@ class ActionClient:
                 self._hear_swept(reply)
 
     def _alive(self, goal_id: bytes, now: float, feedback: Message | None = None) -> None:
-        """The robot is at a goal."""
+        """Record that the robot is executing a goal."""
         goal = self._goal
         if goal is not None and goal_id == goal.id and self._outcome is None:
             goal.accepted, goal.heard_s = True, now
@@ -223,17 +229,17 @@ class ActionClient:
         if goal is None or goal_id != goal.id:
             return
         goal.refused = code == CANCEL_REJECTED
-        # A request that was still on its way was not known then, either.
+        # A goal request still in transit was unknown to the server when it answered.
         goal.forgotten = goal.forgotten or code == CANCEL_TERMINATED or (code == CANCEL_UNKNOWN_GOAL and settled)
 
     def _hear_swept(self, reply: Message) -> None:
-        """Which goals it ends; one that refuses is asked again."""
+        """Record the goals that a cancel-all request ends; a rejected request is repeated."""
         listed = reply.get("goals_canceling")
         self._swept = self._swept or reply.get("return_code") != CANCEL_REJECTED
         for entry in listed if isinstance(listed, tuple) else ():
             self._stopping.add(_id(value_at(entry, "goal_id.uuid")))
 
-    # --- what is done --------------------------------------------------------------------------------------------
+    # --- decisions -----------------------------------------------------------------------------------------------
 
     def _decide(self, goal: GoalRecord, now: float) -> GoalOutcome | None:
         if goal.ended is not None:
@@ -254,7 +260,7 @@ class ActionClient:
         return None
 
     def _set_out(self, goal: GoalRecord, now: float) -> GoalOutcome | None:
-        """Send it once a server is there: before, its reply would get lost."""
+        """Send the goal once a server is matched; its reply would be lost before."""
         if goal.stop_s is not None:
             return GoalOutcome(how="cancelled", what=goal.why)
         servers = self.servers()
@@ -281,7 +287,7 @@ class ActionClient:
         return now - goal.absent_s >= GONE_S
 
     def _mind_limits(self, goal: GoalRecord, sent_s: float, now: float) -> None:
-        """Give a goal up that nobody seems to be at."""
+        """Give up a goal that the server does not seem to be executing."""
         if goal.forgotten:
             self.cancel(f"{self.name} does not know the goal any more: it was started anew")
         elif not goal.accepted and now - sent_s > self._accept_s:
@@ -290,7 +296,7 @@ class ActionClient:
             self.cancel(f"{self.name} was silent for {self._quiet_s:g} s")
 
     def _ask_result(self, goal: GoalRecord, now: float) -> None:
-        """Once it is accepted; again where it seems that the answer, or the question, got lost."""
+        """Request the result once the goal is accepted, and again if the request or reply seems lost."""
         asked_s = goal.asked_result_s
         silent = now - goal.heard_s >= RESULT_AGAIN_S or goal.ended is not None
         if goal.accepted and (asked_s is None or (silent and now - asked_s >= RESULT_AGAIN_S)):
@@ -303,14 +309,14 @@ class ActionClient:
 
     @staticmethod
     def _asked_of(client: Client, request: Message) -> int:
-        """Ask; what the network does not take is lost like any other, and asked again."""
+        """Send a request and return its number; a failed send is treated as a lost request and repeated."""
         try:
             return client.ask(request)
         except Ros2Error:
             return _LOST
 
     def _stop(self, goal: GoalRecord, sent_s: float, stop_s: float, now: float) -> GoalOutcome | None:
-        """Ask for its end until it is confirmed."""
+        """Request cancellation until it is confirmed."""
         if goal.forgotten and goal.asked_cancel_s is not None:
             return GoalOutcome(how="cancelled", what=goal.why)
         if now - stop_s > CANCEL_S:
@@ -324,7 +330,7 @@ class ActionClient:
         return None
 
     def _end(self, goal: GoalRecord, now: float) -> GoalOutcome | None:
-        """Its last status is known; its result is, too, or is asked for and waited for a while."""
+        """Return the outcome once the final status is known, waiting a while for the result."""
         assert goal.ended is not None  # noqa: S101  asked for where it is
         wanted = goal.result is None and (goal.stop_s is None or goal.ended == SUCCEEDED)
         if wanted and now - goal.ended_s < 2 * RESULT_AGAIN_S and self.servers() > 0:
@@ -333,13 +339,13 @@ class ActionClient:
         return GoalOutcome(how=BY_STATUS[goal.ended], result=goal.result or {}, what=goal.why)
 
     def _leave(self, goal: GoalRecord, now: float) -> None:
-        """It is over here; where the robot may still be at it, that is not forgotten."""
+        """Stop tracking the goal; if the robot may still be executing it, keep its id to cancel it later."""
         if goal.sent_s is not None and goal.ended is None:
             self._given_up[goal.id] = now - CANCEL_AGAIN_S
 
 
 def _id(value: object) -> bytes:
-    """The name of a goal; empty where there is none."""
+    """Return a goal id as bytes; empty if there is none."""
     if isinstance(value, bytes):
         return value
     if isinstance(value, tuple) and all(isinstance(v, int) and 0 <= v < 256 for v in value):

@@ -1,11 +1,11 @@
-"""Captures, as the profile binds them: a ROS action or service that is asked, topics that are listened to.
+"""Captures as the profile binds them: a ROS action or service call, and topics that carry the readings.
 
     request ──▶ call ──▶ readings of its result ──▶ next message of each topic ──▶ the mission
 
-A sensor that is triggered may send its reading before it answers, and nothing afterwards; one that sends all the time
-says old values until it has measured. So the next message after the answer counts, and if there is none in time, the
-last one since the call was sent. A value that is not there, or is NaN, is a reading that is absent: whether that will
-do is the mission's to judge. A topic on which nothing comes is a failure that says which.
+A triggered sensor may publish its reading before the call returns and nothing afterwards; a streaming sensor publishes
+old values until it has measured. So the first message after the reply counts; if none arrives in time, the last one
+since the call was sent. A missing or NaN value is a missing reading, which the mission judges. A topic without any
+message is a failure that names the topic.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ from fieldhand.execution.drivers.ros2.service_call import TimeLimit, call_servic
 from fieldhand.execution.drivers.ros2.transport import Client, Message, QosProfile, Subscription, Transport
 from fieldhand.robot.bindings import ActionBinding, CallBinding, NextMessage, RequestValue, Ros2Bindings
 
-#: Seconds in which an action is found, and accepts a goal.
+#: Seconds to find an action server, and to get a goal accepted.
 ACCEPT_S = 5.0
 
-#: Messages of a topic that are kept between two looks.
+#: Messages of a topic that are kept between two polls.
 _DEPTH = 10
 
 Steps = Generator[None, None, GoalEnd]
@@ -35,10 +35,10 @@ Readings = dict[str, float]
 
 @dataclass(frozen=True, kw_only=True)
 class BoundAction:
-    """An action of the profile, with what is asked and listened to.
+    """An action of the profile with the endpoints it is bound to.
 
     Attributes:
-        action, service: One of them where there is a call.
+        action, service: Client of the call; at most one of them is set.
     """
 
     binding: ActionBinding
@@ -47,25 +47,25 @@ class BoundAction:
     topics: Mapping[str, tuple[str, Subscription]] = field(default_factory=dict)
 
     def close(self) -> None:
-        """End it, without a word to the robot."""
+        """Close the endpoints without sending anything."""
         for end in (self.action, self.service, *(subscription for _, subscription in self.topics.values())):
             if end is not None:
                 end.close()
 
 
 class CaptureClient:
-    """Everything that the profile binds, ready to be asked.
+    """Clients and subscriptions for every action that the profile binds.
 
     Args:
-        transport: Carries its messages.
-        bindings: Of the robot.
-        clock: The mission's: how long a capture may last.
-        steady: Seconds that pass whatever that does: how long an answer may take.
-        new_id: Makes the names of goals.
-        only: The actions that will be asked for; None for all.
+        transport: Transport of the robot's graph.
+        bindings: ROS 2 bindings of the robot.
+        clock: Mission clock in seconds, for the time limit of a capture.
+        steady: Monotonic clock in seconds, for the time limit of a reply.
+        new_id: Returns goal ids.
+        only: Names of the actions to bind; None for all.
 
     Raises:
-        Ros2Error: A type is not known.
+        Ros2Error: A type is unknown.
     """
 
     def __init__(
@@ -87,15 +87,15 @@ class CaptureClient:
 
     @property
     def actions(self) -> tuple[ActionClient, ...]:
-        """The clients of those that are actions of ROS."""
+        """Clients of the captures that are ROS actions."""
         return tuple(bound.action for bound in self.bound.values() if bound.action is not None)
 
     def whole_name(self, name: str) -> str:
-        """A name with the robot's namespace."""
+        """Return a name with the robot's namespace."""
         return self._bindings.whole_name(name)
 
     def close(self) -> None:
-        """End it, without a word to the robot."""
+        """Close all endpoints without sending anything."""
         for bound in self.bound.values():
             bound.close()
 
@@ -120,26 +120,26 @@ class CaptureClient:
 
 
 class _LatestMessages:
-    """The last message of each topic since what was there before was forgotten."""
+    """Latest message of each topic since the last call of :meth:`forget`."""
 
     def __init__(self, topics: Mapping[str, tuple[str, Subscription]]) -> None:
         self._topics = topics
         self.last: dict[str, Message] = {}
 
     def forget(self) -> None:
-        """What has arrived until now counts for nothing."""
+        """Discard everything received so far."""
         self.listen()
         self.last.clear()
 
     def listen(self) -> None:
-        """Look at what has arrived."""
+        """Take the messages received since the last call."""
         for quantity, (_, subscription) in self._topics.items():
             for message in subscription.take()[-1:]:
                 self.last[quantity] = message
 
 
 class RunningCapture:
-    """One capture, step by step."""
+    """A capture in progress, advanced by :meth:`step`."""
 
     def __init__(self, captures: CaptureClient, goal: ActionGoal) -> None:
         self._captures, self._goal = captures, goal
@@ -148,7 +148,7 @@ class RunningCapture:
         self._ending: GoalEnd | None = None
 
     def step(self) -> GoalEnd | None:
-        """Do what is due; None while it goes on."""
+        """Advance the capture; return None while it runs."""
         if self._ending is None:
             try:
                 next(self._steps)
@@ -159,7 +159,7 @@ class RunningCapture:
         return self._ending
 
     def cancel(self) -> None:
-        """Ask for its end; it is over when :meth:`step` says so. A service that was asked does what it was asked."""
+        """Request cancellation; :meth:`step` reports the end. A service that was already called is not interrupted."""
         self._cancelled = True
 
     def _carry_out(self) -> Steps:
@@ -180,7 +180,7 @@ class RunningCapture:
         return (yield from self._listen(bound, heard, dict(ending.readings)))
 
     def _value(self, value: RequestValue) -> RequestValue:
-        """A constant, a parameter, or what stands for the place in hand."""
+        """Return a constant, a parameter, or a property of the capture's place."""
         place = self._goal.place
         if not isinstance(value, str) or not value.startswith("$"):
             return value
@@ -235,7 +235,7 @@ class RunningCapture:
         return GoalEnd(state="cancelled")
 
     def _listen(self, bound: BoundAction, heard: _LatestMessages, readings: Readings) -> Steps:
-        """Wait for the next message of each topic; where none comes, the one from before counts."""
+        """Wait for the next message of each topic; after the time limit, use the last one since the call was sent."""
         heard.listen()
         before = dict(heard.last)
         heard.forget()
@@ -259,7 +259,7 @@ class RunningCapture:
 
 
 def capture_end(result: Message, call: CallBinding, name: str) -> GoalEnd:
-    """What an answer means: readings, unless it says itself that it did not succeed."""
+    """Return the end of a capture from the reply of its call: its readings, or a failure that the reply reports."""
     if call.success and not value_at(result, call.success):
         return _failed(f"{name} did not succeed{_told(result, call)}")
     pairs = ((quantity, number_at(result, binding)) for quantity, binding in call.readings.items())
@@ -272,7 +272,7 @@ def _reading(quantity: str, value: float | None) -> Readings:
 
 
 def _told(result: Message, call: CallBinding) -> str:
-    """What the action says of why; empty where it says nothing."""
+    """Return the failure message of a reply, with a leading colon; empty if it has none."""
     words = value_at(result, call.message) if call.message else None
     return f": {words.strip()}" if isinstance(words, str) and words.strip() else ""
 

@@ -1,4 +1,4 @@
-"""The domain of a ROS 2 graph: nodes hear each other within one."""
+"""The ROS domain id: only nodes of one domain discover each other."""
 
 from __future__ import annotations
 
@@ -7,19 +7,19 @@ from collections.abc import Mapping
 
 from fieldhand.errors import InputError
 
-#: Where ports are left for 120 processes (RTPS 9.6.1).
+#: Highest domain that leaves ports for 120 processes (RTPS 9.6.1).
 MOST_DOMAIN = 232
 
 
 def domain_of(given: int | None, environ: Mapping[str, str] = os.environ) -> int:
-    """The domain that is meant.
+    """Return the domain id to use.
 
     Args:
-        given: None means ``ROS_DOMAIN_ID`` of the environment, else 0.
-        environ: The environment.
+        given: Domain id; None for ``ROS_DOMAIN_ID`` of the environment, else 0.
+        environ: Environment variables.
 
     Raises:
-        InputError: It is none.
+        InputError: The value is not a domain id.
     """
     text = str(given) if given is not None else environ.get("ROS_DOMAIN_ID", "").strip() or "0"
     if not text.isascii() or not text.isdigit() or int(text) > MOST_DOMAIN:

@@ -1,11 +1,11 @@
-"""A robot over ROS 2 as a :class:`~fieldhand.execution.drivers.protocol.Driver`.
+"""Driver of a robot over ROS 2, as a :class:`~fieldhand.execution.drivers.protocol.Driver`.
 
-    start_drive  ──▶ Drive   ──▶ Navigation ──▶ goals of Nav2
-    start_action ──▶ Capture ──▶ Captures   ──▶ actions, services, topics
-    position, charge, lost, stopped ◀── Senses ◀── topics
+    start_drive  ──▶ RunningDrive   ──▶ NavigationClient ──▶ goals of Nav2
+    start_action ──▶ RunningCapture ──▶ CaptureClient    ──▶ actions, services, topics
+    position, charge, lost, stopped ◀── Telemetry ◀── topics
 
-There is no thread and no callback: :meth:`Ros2Driver.poll` takes what has arrived and does what is due. No call raises
-because of the robot; what goes wrong ends the goal in hand, and says why.
+There are no threads and no callbacks: :meth:`Ros2Driver.poll` takes what has arrived and sends what is due. No method
+raises because of the robot; a fault ends the current goal with its reason.
 """
 
 from __future__ import annotations
@@ -31,34 +31,34 @@ from fieldhand.robot.bindings import Ros2Bindings
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
-#: Seconds of the wall clock between two looks at the robot.
+#: Seconds of the wall clock between two polls of the robot.
 LOOK_EVERY_S = 0.05
-#: Seconds until all of the robot must be there.
+#: Seconds within which all of the robot must be available.
 READY_WITHIN_S = 20.0
-#: Seconds for which a robot is lost once its navigation said so.
+#: Seconds for which the position counts as lost after navigation reported it.
 LOST_S = 5.0
-#: Messages that tell of metres after a drive is over until all of its own are told, and seconds to wait for them.
+#: Odometry messages to wait for after a drive, so that its last metres are counted, and the time limit in seconds.
 LAST_METRES, LAST_METRES_S = 2, 0.5
-#: Seconds in which what is left of a goal has to end when nobody looks any more.
+#: Seconds within which remaining goals must end when the driver is left.
 LEAVE_S = 3.0
-#: Metres from the site's start beyond which a robot is on another site.
+#: Metres from the site's start beyond which the robot is on another site.
 _FAR_M = 5_000.0
 
 
 class Ros2Driver:
-    """Drives one robot. Made by :meth:`connect`.
+    """Driver of one robot, created by :meth:`connect`.
 
     Args:
-        transport: Carries its messages; whoever made it closes it.
-        site, robot: Of the mission; the profile must have a ``ros2`` part.
-        clock: The mission's.
-        steady: Seconds of a clock that nobody sets.
-        look_every_s: Between two looks at a running goal, in seconds of the mission's clock.
-        actions: Those that will be asked for; None for all that the profile binds.
-        new_id: Makes the 16 bytes that name a goal.
+        transport: Transport of the robot's graph; closed by its owner.
+        site, robot: Site and robot of the mission; the profile must have a ``ros2`` part.
+        clock: Mission clock.
+        steady: Monotonic clock in seconds.
+        look_every_s: Seconds of the mission clock between two polls of a running goal.
+        actions: Names of the actions the mission needs; None for all that the profile binds.
+        new_id: Returns the 16 bytes of a goal id.
 
     Raises:
-        Ros2Error: The profile does not say how the robot is reached, or has types that are not known.
+        Ros2Error: The profile has no ROS 2 part, or uses unknown types.
     """
 
     def __init__(
@@ -114,16 +114,16 @@ class Ros2Driver:
         actions: Collection[str] | None = None,
         new_id: Callable[[], bytes] = lambda: uuid.uuid4().bytes,
     ) -> Self:
-        """A driver of a robot that is there, stands still and says where it is.
+        """Wait until the robot is available, idle and localized, and return its driver.
 
         Args:
-            transport, site, robot, clock, steady, look_every_s, actions, new_id: As for the driver itself.
-            interfaces: The types that the transport knows.
-            sleep: Waits so many seconds of the steady clock.
-            within_s: How long to wait for the robot.
+            transport, site, robot, clock, steady, look_every_s, actions, new_id: As for the constructor.
+            interfaces: Types that the transport can use.
+            sleep: Sleeps for the given seconds of the steady clock.
+            within_s: Seconds to wait for the robot.
 
         Raises:
-            Ros2Error: It is not all there; everything that is missing is named, with why where that can be told.
+            Ros2Error: A part of the robot is missing; all missing parts are named, with the cause where it is known.
         """
         driver = cls(
             transport,
@@ -204,10 +204,10 @@ class Ros2Driver:
         return self._telemetry.stopped()
 
     def leave(self, sleep: Callable[[float], None] = time.sleep) -> None:
-        """End what the robot is at, if anything is left of it: nobody looks any more. Waits a moment for that.
+        """Cancel any remaining goal and wait up to :data:`LEAVE_S` seconds for it to end.
 
         Args:
-            sleep: Waits so many seconds of the steady clock.
+            sleep: Sleeps for the given seconds of the steady clock.
         """
         clients = (self._navigation.client, *self._captures.actions)
         until = self._steady() + LEAVE_S
@@ -219,12 +219,12 @@ class Ros2Driver:
             sleep(LOOK_EVERY_S)
 
     def close(self) -> None:
-        """Let the robot go, without a word to it: what it is at is cancelled before, or goes on."""
+        """Close all endpoints without sending anything; call :meth:`leave` first to cancel a running goal."""
         self._telemetry.close()
         self._navigation.close()
         self._captures.close()
 
-    # --- a goal --------------------------------------------------------------------------------------------------
+    # --- goals ---------------------------------------------------------------------------------------------------
 
     def _begin(self, task: Callable[[], RunningDrive | RunningCapture]) -> None:
         if not self.poll().over:
@@ -234,16 +234,16 @@ class Ros2Driver:
             self._result = self._progress(refused)
             return
         self._cut, self._task, self._ended, self._counting = None, task(), None, None
-        self.poll()  # so that it goes out now
+        self.poll()  # sends the goal at once
 
     def _attend(self) -> None:
-        """Take what has arrived. A goal that was given up and turns out to be carried out is cancelled by that."""
+        """Process received messages. An abandoned goal that turns out to be running is cancelled here."""
         self._telemetry.listen()
         for client in (self._navigation.client, *self._captures.actions):
             client.step()
 
     def _why_not(self) -> GoalEnd | None:
-        """Why no goal can be carried out now, as the end that it comes to; None where one can."""
+        """Return why no goal can run now, as the end of such a goal; None if one can."""
         if (why := self._telemetry.stopped()) is not None:
             return GoalEnd(state="cancelled", what=why)
         if (why := self._is_lost()) is not None:
@@ -253,7 +253,7 @@ class Ros2Driver:
         return None
 
     def _is_counted(self) -> bool:
-        """Whether the last metres of a drive that is over were told: they come a moment after its end."""
+        """Return True once the last metres of a finished drive were counted: odometry arrives a moment late."""
         heard, now = self._telemetry.metres_heard, self._steady()
         if self._counting is None:
             self._counting = heard, now
@@ -262,7 +262,7 @@ class Ros2Driver:
 
     def _finish(self, ending: GoalEnd) -> Progress:
         cut = self._cut
-        # A lost robot makes no capture and has not arrived; whatever else cut it short, what was done is done.
+        # A lost robot makes no capture and has not arrived; otherwise a goal that succeeded stays succeeded.
         if cut is not None and (cut.fault == "lost" or ending.state != "succeeded"):
             more = f"; {ending.what}" if ending.state == "failed" and ending.what else ""
             ending = dataclasses.replace(cut, what=f"{cut.what}{more}")
@@ -286,7 +286,7 @@ class Ros2Driver:
             fault=ending.fault,
         )
 
-    # --- the robot -----------------------------------------------------------------------------------------------
+    # --- robot state ---------------------------------------------------------------------------------------------
 
     def _where(self) -> Position | None:
         return self._telemetry.position
@@ -299,7 +299,7 @@ class Ros2Driver:
         return why
 
     def _far_from(self, site: Site) -> str | None:
-        """Why the robot cannot be on the site; None where it can, or where it is not known."""
+        """Return why the robot cannot be on the site; None if it can, or if its position is unknown."""
         position = self._where()
         if position is None:
             return None
@@ -310,10 +310,10 @@ class Ros2Driver:
 
 
 def _bindings_of(robot: RobotProfile, actions: Collection[str] | None) -> Ros2Bindings:
-    """How a robot is reached.
+    """Return the ROS 2 bindings of a profile.
 
     Raises:
-        Ros2Error: Its profile does not say so, or not how an action is done that will be asked for.
+        Ros2Error: The profile has none, or does not bind an action that is needed.
     """
     if robot.ros2 is None:
         raise Ros2Error(

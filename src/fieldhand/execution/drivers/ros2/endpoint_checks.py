@@ -1,4 +1,4 @@
-"""One binding of a profile tried on a robot that is there, without asking it to do anything."""
+"""Checks of a single binding against a live robot, without commanding it."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ Kind = Literal["action", "service", "topic"]
 
 @dataclass(frozen=True, kw_only=True)
 class EndpointBinding:
-    """What the profile says of an endpoint.
+    """An endpoint that the profile names.
 
     Attributes:
-        part: Where: ``navigation``, ``battery``, ``actions: read_co2``.
+        part: Part of the profile: ``navigation``, ``battery``, ``actions: read_co2``.
     """
 
     part: str
@@ -46,13 +46,13 @@ class EndpointBinding:
 
 @dataclass(frozen=True, kw_only=True)
 class EndpointReport:
-    """What became of trying a binding.
+    """Result of checking an endpoint.
 
     Attributes:
-        usable: Whether a mission can use it.
-        what: What is there, or what is missing.
-        advice: What to do; empty where nothing has to be done.
-        rmw: By which middleware; empty where nothing is there.
+        usable: True if a mission can use it.
+        what: Description of what was found or is missing.
+        advice: Recommended action; empty if none is needed.
+        rmw: Middlewares that serve it; empty if nothing was found.
     """
 
     binding: EndpointBinding
@@ -63,24 +63,24 @@ class EndpointReport:
 
 
 class EndpointCheck(Protocol):
-    """Tries one binding."""
+    """Check of one endpoint."""
 
     def look(self) -> bool:
-        """Whether all is seen that there is to see; to be asked again while it is not."""
+        """Poll once and return True when the check is complete."""
         ...
 
     def report(self) -> EndpointReport:
-        """What was seen so far."""
+        """Return the result so far."""
         ...
 
 
 @dataclass
 class TopicCheck:
-    """Listens to a topic.
+    """Check of a topic that the robot publishes.
 
     Args:
-        judge: Of its first message.
-        rare: It may rightly be silent: it speaks when something changes, or after a call.
+        check_message: Checks the first message for plausibility.
+        rare: True if silence is normal: the topic is published on change, or after a call.
     """
 
     binding: EndpointBinding
@@ -110,7 +110,7 @@ class TopicCheck:
         if why is None and self.rare and self._subscription.publishers() > 0:
             return EndpointReport(binding=self.binding, usable=True, what="there; nothing was said so far", rmw=rmw)
         if why is None:
-            # One whose bytes do not fit its type is dropped by DDS without a word.
+            # DDS drops a message whose bytes do not fit its type, without an error.
             advice = "see whether the robot sends any; if it does, set its distro, or its definition in the profile"
             why = EndpointProblem(what="it is there, and no message came", advice=advice)
         return EndpointReport(binding=self.binding, usable=False, what=why.what, advice=why.advice, rmw=rmw)
@@ -118,10 +118,10 @@ class TopicCheck:
 
 @dataclass
 class ServiceCheck:
-    """Looks for the server of a service.
+    """Check of a service that the robot offers.
 
     Args:
-        question: What it is asked, where it only computes; nothing while there is None.
+        question: Returns a request to a service without side effects, or None while there is none to send.
     """
 
     binding: EndpointBinding
@@ -152,7 +152,7 @@ class ServiceCheck:
 
 @dataclass
 class ActionCheck:
-    """Looks for all that an action consists of."""
+    """Check of the services and topics of an action."""
 
     binding: EndpointBinding
     transport: Transport
@@ -181,7 +181,7 @@ class ActionCheck:
 
 @dataclass
 class SubscriberCheck:
-    """Looks for who hears a topic that is sent to the robot; sends nothing."""
+    """Check of a topic that the robot subscribes to; sends nothing."""
 
     binding: EndpointBinding
     transport: Transport

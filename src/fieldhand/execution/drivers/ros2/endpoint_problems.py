@@ -1,8 +1,7 @@
-"""Why an endpoint of the robot cannot be used, from what discovery has seen of it, and what to do about it.
+"""Diagnosis of endpoints that cannot be used: cause and remedy, from discovery data.
 
-DDS is silent about what does not fit: another type, another quality, another middleware is no match and no error. So
-whoever waits in vain asks here what there is instead. None means that nothing speaks against it: what is found only
-has to be matched, which takes a moment.
+DDS reports no error for a mismatch of type, quality of service or middleware; the endpoints simply do not match. These
+functions look up what exists instead. They return None if nothing prevents a match, which may still take a moment.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ FEEDBACK_QOS = QosProfile(reliable=True)
 
 @dataclass(frozen=True, kw_only=True)
 class EndpointProblem:
-    """What is wrong with an endpoint, without its name, and what to do."""
+    """Cause why an endpoint cannot be used, without its name, and the remedy."""
 
     what: str
     advice: str
@@ -43,17 +42,17 @@ class EndpointProblem:
 
 
 def rmw_package(rmw: Rmw) -> str:
-    """The package that a robot sets as ``RMW_IMPLEMENTATION``."""
+    """Return the package name that a robot sets as ``RMW_IMPLEMENTATION``."""
     return _PACKAGES.get(rmw, "an RMW that is not known")
 
 
 def topic_problem(
     transport: Transport, interfaces: Interfaces, topic: str, type_name: str, qos: QosProfile = SENSOR_QOS
 ) -> EndpointProblem | None:
-    """Why nothing comes from a topic.
+    """Return why no messages arrive on a topic.
 
     Args:
-        quality: As it is read.
+        qos: Quality of service of the reader.
     """
     peers = transport.writers_of(topic)
     if not peers:
@@ -69,7 +68,7 @@ def topic_problem(
 def service_problem(
     transport: Transport, interfaces: Interfaces, service: str, type_name: str
 ) -> EndpointProblem | None:
-    """Why a service does not answer."""
+    """Return why a service does not answer."""
     peers = transport.servers_of(service)
     if not peers:
         return _nobody("answers it")
@@ -100,7 +99,7 @@ def service_problem(
 
 
 def action_problem(transport: Transport, interfaces: Interfaces, action: str, type_name: str) -> EndpointProblem | None:
-    """Why goals of an action are not taken: the first of its services and topics that cannot be used."""
+    """Return why an action accepts no goals: the first of its services and topics that cannot be used."""
     for service, of in (
         ("send_goal", f"{type_name}_SendGoal"),
         ("get_result", f"{type_name}_GetResult"),
@@ -135,7 +134,7 @@ def _other_type(done: str, peers: Iterable[Peer], wanted: str) -> EndpointProble
 
 
 def _less(offered: QosProfile, wanted: QosProfile) -> EndpointProblem | None:
-    """What a writer does not offer."""
+    """Return the quality of service that a writer fails to offer."""
     if wanted.reliable and not offered.reliable:
         return EndpointProblem(
             what="it is sent best effort and read reliably, which never meets",
@@ -150,7 +149,7 @@ def _less(offered: QosProfile, wanted: QosProfile) -> EndpointProblem | None:
 
 
 def _other_definition(theirs: list[str], ours: str, shown: str) -> EndpointProblem | None:
-    """The same name and other fields: it would match, and be misread. From Iron on it can be told."""
+    """Return a mismatch of type definitions. Endpoints would match and misread messages; detectable from Iron on."""
     if all(said and said != ours for said in theirs):
         return EndpointProblem(
             what=f"the robot has another definition of {shown} than is known here",

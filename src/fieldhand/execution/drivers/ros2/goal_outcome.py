@@ -1,4 +1,4 @@
-"""What is known of one goal of a ROS 2 action, how it ended, and what that means to a mission."""
+"""State and outcome of one goal of a ROS 2 action, and the resulting end of a drive or capture."""
 
 from __future__ import annotations
 
@@ -9,33 +9,33 @@ from typing import Literal
 from fieldhand.execution.drivers.protocol import GoalFault, GoalState
 from fieldhand.execution.drivers.ros2.transport import Message
 
-#: Seconds without any server after which it is gone: shorter gaps are discovery's.
+#: Seconds without any server after which it counts as gone; shorter gaps occur in discovery.
 GONE_S = 2.0
-#: Seconds after which two servers are two robots: one that was killed still seems to be there, for the ten seconds of
-#: its lease, beside the one that took its place.
+#: Seconds after which two servers count as two robots. A killed server remains visible for the ten seconds of its
+#: lease, beside the one that replaces it.
 TWO_S = 12.0
-#: ``action_msgs/msg/GoalStatus``.
+#: Values of ``action_msgs/msg/GoalStatus``.
 ACCEPTED, EXECUTING, CANCELING, SUCCEEDED, CANCELED, ABORTED = range(1, 7)
-#: ``action_msgs/srv/CancelGoal``.
+#: Return codes of ``action_msgs/srv/CancelGoal``.
 CANCEL_REJECTED, CANCEL_UNKNOWN_GOAL, CANCEL_TERMINATED = 1, 2, 3
 
-#: How a goal ended. ``untold``: nobody said; what is known stands in :attr:`GoalOutcome.what`.
+#: How a goal ended. ``untold``: the server did not report it; see :attr:`GoalOutcome.what`.
 OutcomeKind = Literal["succeeded", "aborted", "cancelled", "rejected", "untold"]
 
-#: What is no more carried out.
+#: Final statuses.
 BY_STATUS: Mapping[int, OutcomeKind] = {SUCCEEDED: "succeeded", CANCELED: "cancelled", ABORTED: "aborted"}
-#: What is.
+#: Statuses of a goal that is still active.
 BUSY = (ACCEPTED, EXECUTING, CANCELING)
 
 
 @dataclass(frozen=True, kw_only=True)
 class GoalOutcome:
-    """How a goal ended.
+    """Outcome of a goal.
 
     Attributes:
-        result: What the action said; empty where it said nothing.
-        what: Why it did not succeed, where it is not the action that says so.
-        moving: Nobody confirmed that the robot is not at it any more.
+        result: Result message of the action; empty if there is none.
+        what: Cause of a failure that the action itself does not report.
+        moving: True if the robot did not confirm that it stopped executing the goal.
     """
 
     how: OutcomeKind
@@ -46,9 +46,7 @@ class GoalOutcome:
 
 @dataclass(frozen=True, kw_only=True)
 class GoalEnd:
-    """What that means to a mission: the end of a drive or a capture, as
-    :class:`~fieldhand.execution.drivers.protocol.Progress` tells it.
-    """
+    """End of a drive or a capture, as reported by :class:`~fieldhand.execution.drivers.protocol.Progress`."""
 
     state: GoalState
     what: str = ""
@@ -58,15 +56,15 @@ class GoalEnd:
 
 @dataclass(kw_only=True)
 class GoalRecord:
-    """What is known of a goal that was begun.
+    """Everything known about a started goal. Times are seconds of the steady clock.
 
     Attributes:
-        sending: Called just before it is sent.
-        heard_s: When there was a sign of life.
-        absent_s: Since when no server is there.
-        stop_s: When its end was asked for, and why if by a limit.
-        forgotten: The server does not know it any more.
-        ended: Its status, once that is its last.
+        sending: Called just before the goal is sent.
+        heard_s: Time of the last sign of life.
+        absent_s: Time since which no server is visible.
+        stop_s: Time at which cancellation was requested; ``why`` is the reason.
+        forgotten: True if the server no longer knows the goal.
+        ended: Final status, once known.
     """
 
     id: bytes

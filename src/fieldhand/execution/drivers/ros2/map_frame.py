@@ -1,4 +1,4 @@
-"""From degrees to the frame in which a robot navigates, and how poses are written there."""
+"""Conversion between degrees and the robot's map frame, and poses as ROS messages."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ from fieldhand.site.projection import Projection
 
 Point = tuple[float, float]
 
-#: What the robot's map makes of a leg may be so much longer or shorter: in parts, for maps that are scaled, and metres.
+#: Tolerated deviation of a leg's length in the robot's map: a fraction, for scaled maps, and metres.
 _SCALE, _SLACK_M = 0.01, 0.25
 
-#: Metres of a leg by which one can tell how the map is turned.
+#: Length in metres of the shortest leg from which the rotation of the map can be computed.
 _TURN_M = 1.0
 
 _X, _Y = FieldBinding(path="map_point.x"), FieldBinding(path="map_point.y")
@@ -30,12 +30,12 @@ _X, _Y = FieldBinding(path="map_point.x"), FieldBinding(path="map_point.y")
 
 @lru_cache(maxsize=16)
 def _around(datum: Datum) -> Projection:
-    """Making one takes a thousand times as long as asking it."""
+    """Return the projection around a datum; cached, because construction is slow."""
     return Projection(datum.lat, datum.lon)
 
 
 def degrees_to_map(datum: Datum, degrees: Sequence[Point]) -> tuple[Point, ...]:
-    """Metres along the map's axes of points in (lat, lon); less than 1 cm wrong within 5 km of the datum."""
+    """Return map coordinates in metres of points in (lat, lon); error below 1 cm within 5 km of the datum."""
     east, north = _around(datum).metres(*np.asarray(degrees, dtype=float).T).T
     sin, cos = math.sin(math.radians(datum.heading_deg)), math.cos(math.radians(datum.heading_deg))
     x, y = east * sin + north * cos, north * sin - east * cos
@@ -43,7 +43,7 @@ def degrees_to_map(datum: Datum, degrees: Sequence[Point]) -> tuple[Point, ...]:
 
 
 def map_to_degrees(datum: Datum, point: Point) -> Point:
-    """Latitude and longitude of a point of the map: the inverse of :func:`degrees_to_map`."""
+    """Return latitude and longitude of a map point: the inverse of :func:`degrees_to_map`."""
     sin, cos = math.sin(math.radians(datum.heading_deg)), math.cos(math.radians(datum.heading_deg))
     x, y = point
     lat, lon = _around(datum).degrees((x * sin - y * cos, x * cos + y * sin))[0]
@@ -53,10 +53,10 @@ def map_to_degrees(datum: Datum, point: Point) -> Point:
 def query_map_points(
     client: Client, name: str, goal: DriveGoal, limit: TimeLimit, steady: Callable[[], float]
 ) -> Generator[None, None, tuple[Point, ...]]:
-    """The corners of a drive, as the robot's own service says (``robot_localization/srv/FromLL``).
+    """Query the robot's own service (``robot_localization/srv/FromLL``) for the map coordinates of a drive's corners.
 
     Raises:
-        Ros2Error: It does not answer, or not with this way: one that is not ready says 0, 0 of everything.
+        Ros2Error: The service does not answer, or its points do not fit the path: before it is ready it returns 0, 0.
     """
     requests = [{"ll_point": {"latitude": lat, "longitude": lon, "altitude": 0.0}} for lat, lon in goal.path_degrees]
     replies = yield from call_service(client, name, requests, limit, steady)
@@ -78,14 +78,14 @@ def query_map_points(
 
 
 def site_to_map(path_m: Sequence[Point], points: Sequence[Point]) -> Callable[[Point], Point] | None:
-    """Where any point of the site lies in the map, from a way of which both is known.
+    """Return the transformation from site to map coordinates, fitted to one path known in both.
 
     Args:
-        path_m: Its corners in the site's metres.
-        points: The same in the map.
+        path_m: Corners in metres of the site.
+        points: The same corners in the map.
 
     Returns:
-        None where the way is too short to tell which way the map is turned.
+        None if the path is too short to compute the rotation.
     """
     legs = zip(itertools.pairwise(path_m), itertools.pairwise(points), strict=True)
     (here, there), (a, b) = max(legs, key=lambda leg: math.dist(*leg[0]))
@@ -102,19 +102,19 @@ def site_to_map(path_m: Sequence[Point], points: Sequence[Point]) -> Callable[[P
 
 
 def yaw_of(here: Point, there: Point) -> float:
-    """The heading of a leg: radians from the x axis towards the y axis."""
+    """Return the yaw of a leg in radians, from the x axis towards the y axis."""
     return math.atan2(there[1] - here[1], there[0] - here[0])
 
 
 def orientation(yaw: float) -> Message:
-    """A ``geometry_msgs/msg/Quaternion``."""
+    """Return a ``geometry_msgs/msg/Quaternion`` for a yaw in radians."""
     return {"x": 0.0, "y": 0.0, "z": math.sin(yaw / 2.0), "w": math.cos(yaw / 2.0)}
 
 
 def pose(frame: str, here: Point, there: Point) -> Message:
-    """A ``geometry_msgs/msg/PoseStamped`` at the end of a leg, looking along it.
+    """Return a ``geometry_msgs/msg/PoseStamped`` at the end of a leg, facing along it.
 
-    Its stamp stays 0: the newest transform is meant, so the clocks of robot and computer need not agree.
+    Its stamp stays 0, which selects the newest transform: the clocks of robot and computer need not agree.
     """
     position = {"x": there[0], "y": there[1], "z": 0.0}
     return {
@@ -124,6 +124,6 @@ def pose(frame: str, here: Point, there: Point) -> Message:
 
 
 def geographic_pose(degrees: Point, yaw: float) -> Message:
-    """A ``geographic_msgs/msg/GeoPose``."""
+    """Return a ``geographic_msgs/msg/GeoPose``."""
     position = {"latitude": degrees[0], "longitude": degrees[1], "altitude": 0.0}
     return {"position": position, "orientation": orientation(yaw)}

@@ -1,6 +1,6 @@
-"""Paths into messages: ``pose.pose.position.x``, ``cells[0].value``.
+"""Access to message fields by path: ``pose.pose.position.x``, ``cells[0].value``.
 
-What is not there is None when it is read, and is made when it is written.
+A missing field reads as None and is created when written.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ _STEP = re.compile(r"([A-Za-z]\w*)((?:\[\d{1,6}\])*)")
 
 @lru_cache(maxsize=1024)
 def steps_of(path: str) -> tuple[Step, ...]:
-    """The names and positions that a path goes through.
+    """Parse a path into its field names and array indices.
 
     Raises:
-        Ros2Error: It is none.
+        Ros2Error: The text is not a path.
     """
     steps: list[Step] = []
     for part in path.split("."):
@@ -41,7 +41,7 @@ def steps_of(path: str) -> tuple[Step, ...]:
 
 
 def value_at(message: Message, path: str) -> object:
-    """What stands at a path; None where nothing does."""
+    """Return the value at a path; None if there is none."""
     value: object = message
     for step in steps_of(path):
         if isinstance(step, str):
@@ -52,7 +52,7 @@ def value_at(message: Message, path: str) -> object:
 
 
 def number_at(message: Message, binding: FieldBinding) -> float | None:
-    """The number of a binding in its own unit; None where there is none, or one that is not finite."""
+    """Return the number at a binding's path, scaled to its unit; None if it is missing or not finite."""
     value = value_at(message, binding.path)
     if not isinstance(value, (bool, int, float)):
         return None
@@ -61,7 +61,7 @@ def number_at(message: Message, binding: FieldBinding) -> float | None:
 
 
 def seconds_at(message: Message, path: str) -> float | None:
-    """Return the seconds of the ``builtin_interfaces/msg/Time`` at a path; None where there is none or it is 0."""
+    """Return the seconds of the ``builtin_interfaces/msg/Time`` at a path; None if it is missing or 0."""
     stamp = value_at(message, path)
     if not isinstance(stamp, Mapping):
         return None
@@ -72,10 +72,10 @@ def seconds_at(message: Message, path: str) -> float | None:
 
 
 def message_of(values: Mapping[str, object]) -> Message:
-    """A message of values by their paths. Of an array, every element up to the last that is named must be.
+    """Build a message from values by path. Of an array, all elements up to the last one named must be given.
 
     Raises:
-        Ros2Error: Paths contradict each other, or leave elements out.
+        Ros2Error: Paths contradict each other, or leave out array elements.
     """
     root: dict[Step, Any] = {}
     for path, value in values.items():
@@ -91,7 +91,7 @@ def message_of(values: Mapping[str, object]) -> Message:
 
 
 def _whole(node: object, path: str) -> object:
-    """A node whose keys are positions as a tuple, any other as a mapping."""
+    """Convert a node: to a tuple if its keys are indices, otherwise to a mapping."""
     if not isinstance(node, dict):
         return node
     positions = sorted(k for k in node if isinstance(k, int))

@@ -1,9 +1,9 @@
-"""What the failure codes of Nav2 mean.
+"""Error codes of Nav2 and the faults they mean.
 
-From Iron on the result of a navigation carries the code of the server that failed. Each server has a hundred of its
-own: controller 100, planner 200, planner through poses 300, route 400, smoother 500, waypoints 600, behaviors 700, the
-navigator itself 9000 and 9100 (Kilted). Taken from the constants of nav2_msgs/action/*.action on the branches iron,
-jazzy, kilted and main of github.com/ros-navigation/navigation2. Humble gives none.
+From Iron on, the result of a navigation action carries the code of the server that failed. Each server has a range of a
+hundred codes: controller 100, planner 200, planner through poses 300, route 400, smoother 500, waypoints 600, behaviors
+700, the navigator itself 9000 and 9100 (Kilted). Taken from the constants of nav2_msgs/action/*.action on the branches
+iron, jazzy, kilted and main of github.com/ros-navigation/navigation2. Humble reports no codes.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ _NAVIGATOR: Mapping[int, tuple[str, NavigationFault]] = {
     3: ("the navigator took too long", "failed"),
 }
 
-#: By code: in words, and the kind of failure that it is to a mission.
+#: Description and kind of fault of each code.
 CODES: Mapping[int, tuple[str, NavigationFault]] = {
     100: ("the controller failed", "failed"),
     101: ("the controller that is configured does not exist", "failed"),
@@ -83,5 +83,5 @@ CODES: Mapping[int, tuple[str, NavigationFault]] = {
     **{base + n: meaning for base in (9000, 9100) for n, meaning in _NAVIGATOR.items()},
 }
 
-#: Says only that a waypoint was missed: its own code says why.
+#: Only reports that a waypoint was missed; the code of the waypoint gives the cause.
 MISSED_WAYPOINT = 603

@@ -1,11 +1,11 @@
-"""Drives, as goals of Nav2, and what became of them.
+"""Drives as goals of Nav2, and the meaning of their outcomes.
 
     corners in degrees ──▶ map frame ──▶ NavigateToPose, one corner after the other     ──▶ arrived? ──▶ the mission
                            (datum or     NavigateThroughPoses, all corners at once
                             fromLL)      FollowGPSWaypoints, as degrees
 
-At each corner the robot looks along the leg that led there, so that it comes to stand along the aisle. That it has
-arrived it must show: its own position is held against where it was to go.
+At each corner the robot faces along the leg that led there, so it stops parallel to the aisle. Arrival is verified: the
+robot's own position is compared with the target.
 """
 
 from __future__ import annotations
@@ -36,13 +36,13 @@ from fieldhand.robot.bindings import FieldBinding, NavigationBinding, Navigation
 
 FROM_LL, SPEED_LIMIT = "robot_localization/srv/FromLL", "nav2_msgs/msg/SpeedLimit"
 
-#: Seconds after the end of a goal in which the position must have come within the tolerance: fixes come late.
+#: Seconds after the end of a goal within which the position must come within tolerance: fixes lag behind.
 SETTLE_S = 3.0
-#: Metres by which the robot's place in its map may differ from its fix of the same moment: antennas stand elsewhere.
+#: Metres by which the robot's map position may differ from its simultaneous fix: antennas are mounted off centre.
 ELSEWHERE_M = 5.0
 _FRAME, _STAMP = "current_pose.header.frame_id", "current_pose.header.stamp"
 _X, _Y = (FieldBinding(path=f"current_pose.pose.position.{axis}") for axis in "xy")
-#: Metres below which a leg has no direction.
+#: Length in metres below which a leg has no direction.
 _NO_LEG_M = 0.01
 
 Steps = Generator[None, None, GoalEnd]
@@ -50,11 +50,11 @@ Steps = Generator[None, None, GoalEnd]
 
 @dataclass(frozen=True, kw_only=True)
 class NavigationGoals:
-    """A drive as Nav2 is to carry it out.
+    """Goals of Nav2 that carry out a drive.
 
     Attributes:
-        goals: Each with where it ends in the site's metres.
-        in_map: Where a point of the site lies in the map; None where nobody here knows.
+        goals: Goal messages, each with its end point in metres of the site.
+        site_to_map: Transformation from site to map coordinates; None if it is unknown.
     """
 
     goals: Sequence[tuple[Message, Point]]
@@ -62,20 +62,20 @@ class NavigationGoals:
 
 
 class NavigationClient:
-    """Drives a robot through Nav2.
+    """Client of the robot's Nav2 stack.
 
     Args:
-        transport: Carries its messages.
-        bindings: Of the robot.
-        speed_m_s: Of the robot, as Nav2 drives it.
-        position: Where it is, None where it never said.
-        stamp_s: When that was measured, in seconds of the robot's clock; None where it does not say.
-        clock: The mission's: how long a drive may last.
-        steady: Seconds that pass whatever that does: how long an answer may take.
-        new_id: Makes the names of goals.
+        transport: Transport of the robot's graph.
+        bindings: ROS 2 bindings of the robot.
+        speed_m_s: Driving speed of the robot in m/s.
+        position: Returns the robot's position; None before the first fix.
+        stamp_s: Returns the time of that fix in seconds of the robot's clock; None if it carries no stamp.
+        clock: Mission clock in seconds, for the time limit of a drive.
+        steady: Monotonic clock in seconds, for the time limit of a reply.
+        new_id: Returns goal ids.
 
     Raises:
-        Ros2Error: A type is not known.
+        Ros2Error: A type is unknown.
     """
 
     def __init__(
@@ -116,10 +116,10 @@ class NavigationClient:
         return self.binding.type == "nav2_msgs/action/FollowGPSWaypoints"
 
     def plan(self, goal: DriveGoal) -> Generator[None, None, NavigationGoals]:
-        """The goals of Nav2 that make up a drive.
+        """Compute the goals of Nav2 for a drive, in steps that yield while waiting for the robot.
 
         Raises:
-            Ros2Error: The robot's service that knows its map does not answer, or not rightly.
+            Ros2Error: The robot's map service does not answer, or answers with implausible points.
         """
         binding = self.binding
         if self._by_degrees:
@@ -134,7 +134,7 @@ class NavigationClient:
         placed = site_to_map(goal.path_m, points)
         poses = [pose(binding.frame, points[i], points[j]) for i, j in _legs(goal.path_m)]
         if binding.type == "nav2_msgs/action/NavigateThroughPoses":
-            # Kilted: nav_msgs/Goals, a header with the poses.
+            # Kilted uses nav_msgs/Goals: a header, then the poses.
             header: Message = {"frame_id": binding.frame}
             listed = {"header": header, "goals": tuple(poses)} if self.distro == "kilted" else tuple(poses)
             whole: Message = {"poses": listed, "behavior_tree": binding.behavior_tree}
@@ -144,10 +144,10 @@ class NavigationClient:
         return NavigationGoals(goals=list(zip(each, ends, strict=True)), site_to_map=placed)
 
     def limit_speed(self, speed_m_s: float) -> None:
-        """Let the robot drive no faster.
+        """Limit the robot's speed.
 
         Raises:
-            Ros2Error: It cannot be told.
+            Ros2Error: The robot accepts no speed limit.
         """
         if self.speed is not None:
             if self.speed.subscribers() == 0:
@@ -160,7 +160,7 @@ class NavigationClient:
             )
 
     def close(self) -> None:
-        """End it, without a word to the robot."""
+        """Close all endpoints without sending anything."""
         self.client.close()
         if self.speed is not None:
             self.speed.close()
@@ -169,7 +169,7 @@ class NavigationClient:
 
 
 class RunningDrive:
-    """One drive, step by step."""
+    """A drive in progress, advanced by :meth:`step`."""
 
     def __init__(self, navigation: NavigationClient, goal: DriveGoal) -> None:
         binding = navigation.binding
@@ -183,7 +183,7 @@ class RunningDrive:
         self._ending: GoalEnd | None = None
 
     def step(self) -> GoalEnd | None:
-        """Do what is due; None while it goes on."""
+        """Advance the drive; return None while it runs."""
         if self._ending is None:
             try:
                 next(self._steps)
@@ -194,7 +194,7 @@ class RunningDrive:
         return self._ending
 
     def cancel(self) -> None:
-        """Ask for its end; it is over when :meth:`step` says so."""
+        """Request cancellation; :meth:`step` reports the end."""
         self._cancelled = True
 
     def _carry_out(self) -> Steps:
@@ -216,7 +216,7 @@ class RunningDrive:
         return GoalEnd(state="succeeded")
 
     def _drive(self, message: Message, there: Point, plan: NavigationGoals) -> Steps:
-        """One goal of Nav2."""
+        """Carry out one goal of Nav2."""
         client = self._navigation.client
         client.start(message)
         while (outcome := client.step()) is None:
@@ -233,13 +233,15 @@ class RunningDrive:
         return ending
 
     def _elsewhere(self, plan: NavigationGoals) -> str | None:
-        """Why the robot's map is not what it is taken for: it would drive to somewhere else from the first metre on."""
+        """Return why the robot's map position contradicts its fix: it would drive to the wrong place; None if they
+        agree.
+        """
         navigation = self._navigation
         feedback, at = navigation.client.feedback, navigation.position()
         if feedback is self._judged:
-            return None  # the robot has driven on since
+            return None  # this feedback was already compared; the robot has moved since
         self._judged = feedback
-        # A message that was not filled in has no frame.
+        # A message that was not filled in has an empty frame.
         if plan.site_to_map is None or at is None or value_at(feedback, _FRAME) != navigation.binding.frame:
             return None
         x, y = number_at(feedback, _X), number_at(feedback, _Y)
@@ -254,13 +256,15 @@ class RunningDrive:
         )
 
     def _driven_between_m(self, feedback: Message) -> float:
-        """Return the metres that the robot may have driven between its fix and this feedback, by their stamps."""
+        """Return the distance in metres that the robot may have driven between its fix and this feedback, by their
+        stamps.
+        """
         navigation = self._navigation
         fixed_s, told_s = navigation.stamp_s(), seconds_at(feedback, _STAMP)
         return 0.0 if fixed_s is None or told_s is None else navigation.speed_m_s * abs(told_s - fixed_s)
 
     def _arrive(self, there: Point) -> Steps:
-        """Hold the robot's own position against where it was to go."""
+        """Wait until the robot's own position is within tolerance of the target."""
         navigation = self._navigation
         tolerance, until = navigation.binding.tolerance_m, navigation.steady() + SETTLE_S
         while (away := _away(navigation.position(), there)) > tolerance:
@@ -278,10 +282,10 @@ class RunningDrive:
 
 
 def end_of(outcome: GoalOutcome, binding: NavigationBinding, *, cancelled: bool) -> GoalEnd:
-    """What the end of a goal of Nav2 means to a mission.
+    """Return the end of a drive from the outcome of a Nav2 goal.
 
     Args:
-        cancelled: Its end was asked for.
+        cancelled: True if cancellation was requested.
     """
     missed = outcome.result.get("missed_waypoints")
     if outcome.how == "succeeded" and not (isinstance(missed, Sequence) and missed):
@@ -299,7 +303,7 @@ def end_of(outcome: GoalOutcome, binding: NavigationBinding, *, cancelled: bool)
 
 
 def _failed(result: Message, binding: NavigationBinding) -> GoalEnd:
-    """Why Nav2 failed: by its code, where there is one."""
+    """Return a failure described by the error code of Nav2, if it has one."""
     code, words = _code(result), _words(result)
     fault: NavigationFault
     if code == 0 or (code == MISSED_WAYPOINT and code not in binding.codes):
@@ -313,7 +317,7 @@ def _failed(result: Message, binding: NavigationBinding) -> GoalEnd:
 
 
 def _code(result: Message) -> int:
-    """The failure code; that of the first waypoint that was missed says more than that of the whole."""
+    """Return the error code; that of the first missed waypoint is more specific than the overall code."""
     missed = result.get("missed_waypoints")
     for entry in missed if isinstance(missed, Sequence) else ():
         if isinstance(entry, Mapping) and isinstance(code := entry.get("error_code"), int) and code:
@@ -328,7 +332,7 @@ def _words(result: Message) -> str:
 
 
 def _legs(path: Sequence[Point]) -> list[tuple[int, int]]:
-    """Corners from and to which a leg leads; a way of no length still ends at its last."""
+    """Return the corners between which legs run, as pairs of indices; a path of no length still has one leg."""
     corners = [0]
     for n in range(1, len(path)):
         if math.dist(path[n], path[corners[-1]]) > _NO_LEG_M:
@@ -337,7 +341,7 @@ def _legs(path: Sequence[Point]) -> list[tuple[int, int]]:
 
 
 def _by_degrees(goal: DriveGoal) -> Message:
-    # Nav2 takes the orientation as one in its map, which lies east and north there (REP 105).
+    # Nav2 interprets the orientation in its map frame, whose axes point east and north here (REP 105).
     legs = [(goal.path_degrees[j], yaw_of(goal.path_m[i], goal.path_m[j])) for i, j in _legs(goal.path_m)]
     poses = [geographic_pose(degrees, yaw) for degrees, yaw in legs]
     return {"number_of_loops": 0, "goal_index": 0, "gps_poses": tuple(poses)}

@@ -1,4 +1,4 @@
-"""What carries messages to a robot, by its name."""
+"""Opening a transport by its name."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ if TYPE_CHECKING:
 
 
 def open_transport(name: str, interfaces: Interfaces, domain: int | None = None) -> Transport:
-    """A node in a ROS 2 graph.
+    """Open a node in a ROS 2 graph.
 
     Args:
         name: One of :data:`~fieldhand.execution.vehicle.TransportName`.
-        interfaces: The types that DDS knows; rclpy knows those that are sourced.
-        domain: Of ROS; None means ``ROS_DOMAIN_ID`` of the environment, else 0.
+        interfaces: Types for DDS; rclpy uses the sourced ones.
+        domain: ROS domain id; None for ``ROS_DOMAIN_ID`` of the environment, else 0.
 
     Raises:
-        InputError: There is no such transport, the domain is none, or what it needs is not here.
+        InputError: The transport does not exist, the domain id is invalid, or a required package is missing.
         Ros2Error: The network cannot be used.
     """
     if name == "rclpy":

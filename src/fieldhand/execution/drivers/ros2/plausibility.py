@@ -1,4 +1,4 @@
-"""Whether what a robot says can be meant: the first message of a topic, held against what its binding takes it for.
+"""Plausibility checks on the first message of each topic.
 
 Each function returns the content of a message as text, or raises :class:`ImplausibleMessage`.
 """
@@ -18,11 +18,11 @@ MessageCheck = Callable[[Message], str]
 
 
 class ImplausibleMessage(Exception):
-    """A message came and cannot be used.
+    """Raised for a message that a mission cannot use.
 
     Args:
-        what: Why not.
-        advice: What to do.
+        what: Reason.
+        advice: Recommended action.
     """
 
     def __init__(self, what: str, advice: str) -> None:
@@ -31,7 +31,7 @@ class ImplausibleMessage(Exception):
 
 
 def position(binding: PositionBinding) -> MessageCheck:
-    """Of a ``sensor_msgs/msg/NavSatFix``."""
+    """Return a check of ``sensor_msgs/msg/NavSatFix`` messages."""
 
     def check_message(fix: Message) -> str:
         doubt = fix_problem(fix, binding)
@@ -43,7 +43,7 @@ def position(binding: PositionBinding) -> MessageCheck:
 
 
 def battery(binding: BatteryBinding) -> MessageCheck:
-    """Of the charge, in percent."""
+    """Return a check of the charge in percent."""
 
     def check_message(message: Message) -> str:
         charge = _number(message, binding.value)
@@ -57,13 +57,13 @@ def battery(binding: BatteryBinding) -> MessageCheck:
 
 
 def odometry(message: Message) -> str:
-    """Of a ``nav_msgs/msg/Odometry``."""
+    """Check a ``nav_msgs/msg/Odometry`` message."""
     x, y = (_number(message, FieldBinding(path=f"pose.pose.position.{axis}")) for axis in "xy")
     return f"{x:.2f}, {y:.2f} m"
 
 
 def stop(binding: StopBinding) -> MessageCheck:
-    """Of an emergency stop."""
+    """Return a check of emergency stop messages."""
 
     def check_message(message: Message) -> str:
         value = value_at(message, binding.path)
@@ -79,13 +79,13 @@ def stop(binding: StopBinding) -> MessageCheck:
 
 
 def clock(message: Message) -> str:
-    """Of ``/clock``."""
+    """Check a ``/clock`` message."""
     seconds = value_at(message, "clock.sec")
     return f"{seconds} s"
 
 
 def reading(binding: FieldBinding, quantity: Quantity) -> MessageCheck:
-    """Of a quantity that is measured."""
+    """Return a check of the readings of a quantity."""
 
     def check_message(message: Message) -> str:
         value = _number(message, binding)

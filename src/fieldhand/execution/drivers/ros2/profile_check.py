@@ -1,7 +1,7 @@
-"""Every binding of a profile held against its types, and tried on the robot itself: what is missing, and what to do.
+"""Check of a profile's ROS 2 bindings against their types and against a live robot.
 
-Nothing is asked of the robot that moves or measures: it is listened to, and who would answer is looked for. Only the
-map service of its localization is asked where a point lies.
+The check commands nothing: it subscribes, and looks for servers. Only the map service of the robot's localization is
+called, with one point.
 """
 
 from __future__ import annotations
@@ -33,39 +33,39 @@ from fieldhand.robot.model import Action, RobotProfile
 
 _NUMBERS = (*INTEGERS, *FLOATS, "bool")
 _CORRECT = "correct it in the profile's ros2 part"
-#: Seconds of the steady clock between two looks.
+#: Seconds of the steady clock between two polls.
 _LOOK_S = 0.02
-#: Seconds after which a second robot has been found, too, if there is one.
+#: Seconds after which a second robot on the domain would have been discovered.
 _SETTLED_S = 1.0
 
-#: Paths into a message, each with the kinds of value that are right there.
+#: Field paths of a message, each with the allowed types.
 _Paths = Sequence[tuple[str, tuple[str, ...]]]
 
 
 @dataclass(frozen=True, kw_only=True)
 class ProfileReport:
-    """What a robot has of what its profile says."""
+    """Results for all endpoints of a profile."""
 
     endpoints: tuple[EndpointReport, ...]
 
     @property
     def rmw(self) -> tuple[Rmw, ...]:
-        """Which middleware it runs, by everything that was seen of it."""
+        """Middlewares of the robot, by the endpoints that were discovered."""
         return tuple(sorted({rmw for endpoint in self.endpoints for rmw in endpoint.rmw}))
 
     @property
     def missing(self) -> tuple[EndpointReport, ...]:
-        """What a mission could not use."""
+        """Endpoints that a mission could not use."""
         return tuple(f for f in self.endpoints if not f.usable)
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Bound:
-    """A binding.
+    """An endpoint with its check.
 
     Attributes:
-        wrong: What of it does not fit its type, whatever the robot has.
-        make: How it is tried.
+        wrong: Mismatches with its type, independent of the robot.
+        make: Creates the check against a robot.
     """
 
     binding: EndpointBinding
@@ -74,10 +74,10 @@ class _Bound:
 
 
 def bindings_of(profile: RobotProfile) -> Ros2Bindings:
-    """What a profile says of ROS 2.
+    """Return the ROS 2 bindings of a profile.
 
     Raises:
-        ProfileError: Nothing.
+        ProfileError: The profile has none.
     """
     if profile.ros2 is None:
         raise ProfileError(
@@ -89,10 +89,10 @@ def bindings_of(profile: RobotProfile) -> Ros2Bindings:
 
 
 def check_types(profile: RobotProfile, interfaces: Interfaces) -> ProfileReport:
-    """Hold every binding against its type, without a robot.
+    """Check every binding against its type, without a robot.
 
     Raises:
-        ProfileError: The profile says nothing of ROS 2.
+        ProfileError: The profile has no ROS 2 part.
     """
     bound = _Bindings(profile, interfaces).all()
     return ProfileReport(
@@ -109,16 +109,16 @@ def check_live(
     steady: Callable[[], float],
     sleep: Callable[[float], None],
 ) -> ProfileReport:
-    """Try every binding on the robot.
+    """Check every binding against a live robot.
 
     Args:
-        interfaces: Of the profile's release, with its own.
-        within_s: How long to wait for what is not there yet.
-        steady: Seconds of a clock that nobody sets.
-        sleep: Waits so many of them.
+        interfaces: Types of the profile's release and its own.
+        within_s: Seconds to wait for missing endpoints.
+        steady: Monotonic clock in seconds.
+        sleep: Sleeps for the given seconds of that clock.
 
     Raises:
-        ProfileError: The profile says nothing of ROS 2.
+        ProfileError: The profile has no ROS 2 part.
     """
     tried = [_unfit(b) or b.make(transport) for b in _Bindings(profile, interfaces).all()]
     checks = [t for t in tried if not isinstance(t, EndpointReport)]
@@ -138,14 +138,14 @@ def _unfit(bound: _Bound) -> EndpointReport | None:
 
 
 class _Bindings:
-    """Everything that a profile binds, in its order."""
+    """All endpoints that a profile binds."""
 
     def __init__(self, profile: RobotProfile, interfaces: Interfaces) -> None:
         self._profile, self._ros2, self._interfaces = profile, bindings_of(profile), interfaces
         self._fix: TopicCheck | None = None
 
     def all(self) -> tuple[_Bound, ...]:
-        """In the order of the profile."""
+        """Return the endpoints in the order of the profile."""
         return tuple(self._each(self._ros2))
 
     def _each(self, ros2: Ros2Bindings) -> Iterator[_Bound]:
@@ -191,7 +191,7 @@ class _Bindings:
         return _Bound(binding=bound.binding, wrong=bound.wrong, make=make)
 
     def _here(self) -> Message | None:
-        """Where the robot is, for the map service; None while nobody knows."""
+        """Return a request with the robot's position for the map service; None without a valid fix."""
         fix = self._fix.message if self._fix is not None else None
         if fix is None or fix_problem(fix, self._ros2.position) is not None:
             return None
@@ -206,11 +206,12 @@ class _Bindings:
         *,
         rare: bool = False,
     ) -> _Bound:
-        """A topic.
+        """Return a topic that the robot publishes.
 
         Args:
-            paths: Into its messages, with the kinds of value that are right there.
-            rare: It speaks when it is asked to. What is kept for who comes late speaks when something changes.
+            paths: Field paths that the mission reads, with their allowed types.
+            rare: True if the topic is published on demand. Transient local topics are published on change, so they are
+                rare, too.
         """
         binding = EndpointBinding(part=part, kind="topic", name=self._ros2.whole_name(bound.topic), type=bound.type)
         qos = QosProfile(reliable=bound.reliable, transient=bound.transient)
@@ -222,7 +223,7 @@ class _Bindings:
         )
 
     def _told(self, part: str, topic: str, type_name: str) -> _Bound:
-        """A topic by which the robot is told something."""
+        """Return a topic that the robot subscribes to."""
         binding = EndpointBinding(part=part, kind="topic", name=self._ros2.whole_name(topic), type=type_name)
         wrong = tuple(self._wrong(type_name, type_name, ()))
         return _Bound(binding=binding, wrong=wrong, make=lambda transport: SubscriberCheck(binding, transport))
@@ -248,7 +249,7 @@ class _Bindings:
         return _Bound(binding=binding, wrong=unknown or wrong, make=make)
 
     def _wrong_call(self, call: CallBinding, action: Action) -> Iterator[str]:
-        """What of a call does not fit its type."""
+        """Yield the mismatches between a call and its type."""
         asked, told = ("Goal", "Result") if call.kind == "action" else ("Request", "Response")
         try:
             values = message_of({path: _example(value, action) for path, value in call.request.items()})
@@ -260,7 +261,7 @@ class _Bindings:
         yield from self._wrong(call.type, f"{call.type}_{told}", paths)
 
     def _wrong(self, type_name: str, message: str, paths: _Paths) -> Iterator[str]:
-        """Paths that do not lead to a value of the right kind, or that the type is not known at all."""
+        """Yield an unknown type, or the paths that do not lead to a value of an allowed type."""
         try:
             self._interfaces.definition(message)
         except Ros2Error as error:
@@ -277,7 +278,7 @@ class _Bindings:
 
 
 def _example(value: RequestValue, action: Action) -> RequestValue:
-    """What could stand for a reference in a request."""
+    """Return an example value for a reference in a request."""
     if not isinstance(value, str) or not value.startswith("$"):
         return value
     if value in ("$place", "$kind"):

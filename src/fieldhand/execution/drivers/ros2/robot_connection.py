@@ -1,4 +1,4 @@
-"""A robot over ROS 2, reached for a mission; and a look whether it is there, without asking anything of it."""
+"""Connecting to a robot over ROS 2 for a mission, and watching whether it is present."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ from fieldhand.task.plan import acts
 
 
 def effective_bindings(robot: RobotProfile, by: Connection) -> Ros2Bindings:
-    """What the profile says of ROS 2, with what the connection says in its place.
+    """Return the profile's ROS 2 bindings with the connection's overrides.
 
     Raises:
-        ProfileError: It says nothing of ROS 2.
+        ProfileError: The profile has no ROS 2 part.
     """
     if robot.ros2 is None:
         raise ProfileError(
@@ -41,11 +41,11 @@ def effective_bindings(robot: RobotProfile, by: Connection) -> Ros2Bindings:
 
 
 def open_node(by: Connection, bindings: Ros2Bindings) -> tuple[Transport, Interfaces]:
-    """A node in the robot's graph, and the types that it knows.
+    """Open a node in the robot's graph and load its types.
 
     Raises:
-        InputError: What it needs is not installed.
-        ProfileError: The profile's own interfaces cannot be read.
+        InputError: A required package is not installed.
+        ProfileError: An interface definition of the profile cannot be parsed.
         Ros2Error: The network cannot be used.
     """
     interfaces = Interfaces.of(bindings.distro, bindings.interfaces)
@@ -56,19 +56,19 @@ def open_node(by: Connection, bindings: Ros2Bindings) -> tuple[Transport, Interf
 def connected_robot(
     site: Site, robot: RobotProfile, task: Task, by: Connection, within_s: float = READY_WITHIN_S
 ) -> Iterator[Vehicle]:
-    """The robot as long as it is needed, standing still: what it was left at is cancelled.
+    """Connect to the robot for the duration of the context; goals left over from earlier missions are cancelled.
 
     Args:
-        site: Of the mission: positions are given in its metres.
-        robot: The profile.
-        task: What is to be done: what it needs of the robot has to be there.
-        by: How it is reached.
-        within_s: Seconds of the wall clock within which all of it has to answer.
+        site: Site of the mission; positions are in its local metres.
+        robot: Profile of the robot.
+        task: Task of the mission; all actions it needs must be available.
+        by: Transport, domain and namespace.
+        within_s: Seconds of the wall clock within which the whole robot must respond.
 
     Raises:
-        ProfileError: The profile does not say how it is reached.
-        InputError: What reaches it is not installed.
-        Ros2Error: It does not answer, or not as the profile says; everything that is wrong is named.
+        ProfileError: The profile has no ROS 2 part.
+        InputError: A required package is not installed.
+        Ros2Error: The robot does not respond, or not as its profile says; every problem is named.
     """
     bindings = effective_bindings(robot, by)
     transport, interfaces = open_node(by, bindings)
@@ -88,7 +88,7 @@ def connected_robot(
             driver=driver,
             clock=clock,
             charge_percent=driver.charge_percent(),
-            # The time of day says nothing of a simulation that runs at a pace of its own.
+            # The time of day is meaningless in a simulation that runs at its own pace.
             wall=None if bindings.use_sim_time else SystemWallClock(),
             by=by,
             remark="" if bindings.use_sim_time else ros_clock.unused_clock_remark(transport),
@@ -100,11 +100,11 @@ def connected_robot(
 
 
 class RobotPresence:
-    """Presence of a robot, from what it has announced; sends nothing. Safe for several threads.
+    """Presence of a robot, derived from discovery; sends nothing. Thread-safe.
 
     Args:
-        transport: Open for as long as this is asked.
-        bindings: Of the robot.
+        transport: Open transport; closed by :meth:`close`.
+        bindings: ROS 2 bindings of the robot.
     """
 
     def __init__(self, transport: Transport, bindings: Ros2Bindings) -> None:
@@ -126,6 +126,6 @@ class RobotPresence:
         return tuple(f"{what} ({name})" for what, name in missing)
 
     def close(self) -> None:
-        """Leave the graph."""
+        """Leave the ROS graph."""
         with self._guard:
             self._transport.close()

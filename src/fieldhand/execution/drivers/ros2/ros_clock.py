@@ -1,8 +1,8 @@
-"""The time of a robot that is itself a simulation: ``/clock``, as ROS has it where ``use_sim_time`` is set.
+"""Mission clock that follows ``/clock`` of a simulated robot, as ROS nodes do with ``use_sim_time``.
 
-It passes as fast as that simulation goes, stands still while it is paused, and does not go back when it is started
-anew: what has passed until then stays passed. Where the simulation has gone, time passes as ours: whoever waits for a
-robot that was killed stops waiting.
+It runs at the simulation's pace, stops while the simulation is paused, and never goes back when the simulation
+restarts: elapsed time is kept. If the simulation disappears, the clock continues in real time, so that waiting for a
+killed robot ends.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from fieldhand.language import message
 
 TOPIC, TYPE = "/clock", "rosgraph_msgs/msg/Clock"
 
-#: Seconds of the wall clock: between two looks at the topic, at most in one wait, and over which the pace is measured.
+#: Seconds of the wall clock: between two polls, longest single wait, and interval over which the pace is measured.
 _LOOK_S, _WAIT_S, _PACE_S = 0.01, 0.1, 0.5
-#: The pace that is reckoned with at least: a simulation that stands goes on some time.
+#: Lower bound of the assumed pace: a paused simulation is expected to continue.
 _SLOWEST = 0.01
 
 
@@ -27,9 +27,9 @@ class RosClock:
     """A :class:`~fieldhand.clock.PacedClock` that follows ``/clock``.
 
     Args:
-        transport: Where it is heard.
-        steady: Seconds of a clock that nobody sets.
-        sleep: Waits so many of them.
+        transport: Transport of the robot's graph.
+        steady: Monotonic clock in seconds.
+        sleep: Sleeps for the given seconds of that clock.
     """
 
     def __init__(
@@ -39,7 +39,7 @@ class RosClock:
         steady: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
-        # Best effort hears writers of either kind; only the newest counts.
+        # A best-effort reader matches writers of either kind; only the newest message counts.
         self._topic = transport.subscribe(TOPIC, TYPE, QosProfile(reliable=False, depth=1))
         self._transport, self._steady, self._sleep = transport, steady, sleep
         self._said_s: float | None = None
@@ -57,14 +57,14 @@ class RosClock:
         steady: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], None] = time.sleep,
     ) -> Self:
-        """The clock, once it was heard for the first time, from one alone.
+        """Wait for the first message on ``/clock`` from a single publisher and return the clock.
 
         Args:
-            transport, steady, sleep: As for the clock itself.
-            within_s: How long to wait for that, in seconds of the steady clock.
+            transport, steady, sleep: As for the constructor.
+            within_s: Seconds of the steady clock to wait.
 
         Raises:
-            Ros2Error: Nothing was heard, or several say the time.
+            Ros2Error: There was no message, or several publishers.
         """
         clock = cls(transport, steady=steady, sleep=sleep)
         until_s = steady() + within_s
@@ -88,22 +88,22 @@ class RosClock:
 
     @property
     def known(self) -> bool:
-        """Whether it was heard at least once."""
+        """True once a message was received."""
         self._hear()
         return self._said_s is not None
 
     @property
     def speed(self) -> float:
-        """Seconds that pass here in one second of the wall clock, as was measured last."""
+        """Seconds that pass here in one second of the wall clock, as last measured."""
         return max(_SLOWEST, self._pace)
 
     def now(self) -> float:
-        """Seconds that have passed since the topic was first heard."""
+        """Return the seconds since the first message."""
         self._hear()
         return self._passed_s
 
     def advance(self, seconds: float) -> None:
-        """Wait until so many seconds have passed, or a tenth of a second of the wall clock: it may stand still."""
+        """Wait until the given seconds have passed, at most 0.1 s of the wall clock: the simulation may be paused."""
         until_s, until_wall_s = self.now() + seconds, self._steady() + _WAIT_S
         while self.now() < until_s and self._steady() < until_wall_s:
             self._sleep(_LOOK_S)
@@ -124,7 +124,7 @@ class RosClock:
             self._measured = wall_s, self._passed_s
 
     def _go_on_alone(self) -> None:
-        """Nobody says the time any more."""
+        """Advance in real time after the publisher has disappeared."""
         wall_s = self._steady()
         if self._alone_s is not None:
             self._passed_s += wall_s - self._alone_s
@@ -132,7 +132,7 @@ class RosClock:
 
 
 def unused_clock_remark(transport: Transport) -> str:
-    """What to know where the time of :data:`TOPIC` is not taken; empty where nobody says one."""
+    """Return a remark if ``/clock`` is published but not used; empty otherwise."""
     if not any(peer.type == TYPE for peer in transport.writers_of(TOPIC)):
         return ""
     return message(
@@ -142,6 +142,6 @@ def unused_clock_remark(transport: Transport) -> str:
 
 
 def _seconds(stamp: object) -> float:
-    """Seconds of a ``builtin_interfaces/msg/Time``."""
+    """Return the seconds of a ``builtin_interfaces/msg/Time``."""
     assert isinstance(stamp, Mapping)  # noqa: S101  the transport gives what the type says
     return float(stamp["sec"]) + 1e-9 * float(stamp["nanosec"])

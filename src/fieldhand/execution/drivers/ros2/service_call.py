@@ -1,4 +1,4 @@
-"""To ask a service and wait for its answer, step by step, and how long to wait for anything."""
+"""Service calls in non-blocking steps, and time limits."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.ros2.goal_outcome import GONE_S, TWO_S
 from fieldhand.execution.drivers.ros2.transport import Client, Message
 
-#: Requests that are on the way at once: services keep ten.
+#: Requests in flight at once: services keep ten.
 _AT_ONCE = 8
 
-#: Where the mission's clock stands still, because the simulation that it follows is gone, a limit holds all the same.
+#: A limit expires by the steady clock, too, for when the mission clock stands still because its simulation is gone.
 _SLOWEST, _SPARE_S = 10.0, 60.0
 
 
 class TimeLimit:
-    """So many seconds of the mission from now on.
+    """A time limit in seconds of the mission clock, counted from now.
 
     Args:
-        clock: The mission's.
-        steady: Seconds that pass whatever that does.
+        clock: Mission clock in seconds.
+        steady: Monotonic clock in seconds.
     """
 
     def __init__(self, seconds: float, clock: Callable[[], float], steady: Callable[[], float]) -> None:
@@ -29,12 +29,12 @@ class TimeLimit:
         self.renew()
 
     def renew(self) -> None:
-        """They count from now on."""
+        """Restart the time limit."""
         self._begun, self._begun_steady = self._clock(), self._steady()
 
     @property
     def over(self) -> bool:
-        """Whether they have passed."""
+        """True once the time limit has passed."""
         if self._clock() - self._begun > self.seconds:
             return True
         return self._steady() - self._begun_steady > _SLOWEST * self.seconds + _SPARE_S
@@ -49,19 +49,19 @@ def call_service(
     *,
     sending: Callable[[], None] = lambda: None,
 ) -> Generator[None, None, tuple[Message, ...]]:
-    """Ask a service once for each request, as steps that wait.
+    """Call a service once for each request, in steps that yield while waiting.
 
     Args:
-        name: Of the service, for errors.
+        name: Name of the service, for error messages.
         sending: Called just before each request is sent.
 
     Returns:
         The replies, in the order of the requests.
 
     Raises:
-        Ros2Error: Nothing answers, several do, one does not in time, or a request does not fit the type.
+        Ros2Error: No server or several servers answer, a reply is late, or a request does not fit the type.
     """
-    client.replies()  # those that nobody waited for any more
+    client.replies()  # discards late replies to earlier calls
     answers: dict[int, Message] = {}
     asked: dict[int, int] = {}
     absent_s = two_s = None
@@ -79,7 +79,7 @@ def call_service(
             yield
             continue
         if two_s is not None and not asked:
-            limit.renew()  # what was asked is not asked again: a service may do something
+            limit.renew()  # a request is never repeated: the service may have side effects
         two_s = None
         if servers == 1 and len(asked) < len(requests) and len(asked) - len(answers) < _AT_ONCE:
             sending()

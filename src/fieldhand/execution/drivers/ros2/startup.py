@@ -1,4 +1,4 @@
-"""Before a mission begins: wait until all of the robot is there, and say at once what is not, and why."""
+"""Readiness check before a mission: wait for every part of the robot, and report what is missing and why."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from fieldhand.execution.drivers.ros2.navigation import FROM_LL, NavigationClien
 from fieldhand.execution.drivers.ros2.telemetry import Telemetry, TelemetryTopic
 from fieldhand.execution.drivers.ros2.transport import Client, QosProfile, Transport
 
-#: How many of the things that are missing are named.
+#: Largest number of missing parts that are named.
 _MOST_NAMED = 8
 
-#: What is missing, and what to do; empty where nothing is to be said.
+#: Description of a missing part, and advice; the advice may be empty.
 _Missing = tuple[str, str]
 
 _ONE_WAY = (
@@ -32,14 +32,14 @@ _ONE_WAY = (
 
 
 class Startup:
-    """Looks whether all that a mission needs of a robot is there.
+    """Checks that all parts of the robot that a mission needs are available.
 
     Args:
-        transport, interfaces: To tell why something is not.
-        navigation, captures, senses: What is needed.
-        far: Why the robot cannot be on the mission's site, None where it can.
-        rest: Lets a moment pass.
-        steady: Seconds of a clock that nobody sets.
+        transport, interfaces: Used to diagnose missing parts.
+        navigation, captures, telemetry: Required parts.
+        far: Returns why the robot cannot be on the mission's site; None if it can.
+        rest: Sleeps until the next poll.
+        steady: Monotonic clock in seconds.
     """
 
     def __init__(
@@ -59,10 +59,10 @@ class Startup:
         self._far, self._rest, self._steady = far, rest, steady
 
     def wait(self, within_s: float) -> None:
-        """Wait until all is there.
+        """Wait until all parts are available.
 
         Raises:
-            Ros2Error: Something is not by then; all of it is named.
+            Ros2Error: Some part is missing after ``within_s``; the missing parts are named.
         """
         until = self._steady() + within_s
         while missing := list(self._missing()):
@@ -72,10 +72,10 @@ class Startup:
             self._telemetry.listen()
 
     def clear(self) -> None:
-        """End what the robot is at: a mission that was cut off may have left a goal behind, which nobody watches.
+        """Cancel all goals of the robot: an interrupted mission may have left one running unsupervised.
 
         Raises:
-            Ros2Error: It does not end.
+            Ros2Error: The goals do not end.
         """
         clients = (self._navigation.client, *self._captures.actions)
         until = self._steady() + CANCEL_S
@@ -115,7 +115,7 @@ class Startup:
         for quantity, (topic, subscription) in bound.topics.items():
             message = bound.binding.topics[quantity]
             if subscription.publishers() == 0:
-                # What is sent when it is asked for is not heard before.
+                # A topic that is published on demand has no messages yet.
                 qos = QosProfile(reliable=message.reliable)
                 why = topic_problem(self._transport, self._interfaces, topic, message.type, qos)
                 yield _line(f"{quantity} of {name}", topic, why)
@@ -148,7 +148,7 @@ def _line(what: str, name: str, why: EndpointProblem | None) -> _Missing:
 
 
 def _told(missing: list[_Missing]) -> str:
-    """All of it in one line; an advice that several share stands once, behind the last of them."""
+    """Join all missing parts in one line; shared advice is given once, after the last part it applies to."""
     named = missing[:_MOST_NAMED]
     advised: dict[str, list[str]] = {}
     for what, advice in named:

@@ -1,10 +1,10 @@
-"""What the robot says of itself without being asked: where it is, its battery, its odometry, its emergency stop.
+"""Telemetry of a robot: position, battery, odometry, emergency stop.
 
     NavSatFix ──▶ position, lost          Odometry ──▶ metres (without it, along the fixes)
     BatteryState ──▶ charge               emergency stop ──▶ stopped, for good
 
-A topic that has been silent for longer than its binding allows is not believed any more. Times are those of the steady
-clock at which messages are taken: the clocks of robot and computer need not agree.
+A value is outdated once its topic was silent for longer than its binding allows. Messages are timed by the steady clock
+at which they are taken: the clocks of robot and computer need not agree.
 """
 
 from __future__ import annotations
@@ -19,36 +19,36 @@ from fieldhand.execution.drivers.ros2.transport import Message, QosProfile, Subs
 from fieldhand.robot.bindings import FieldBinding, PositionBinding, Ros2Bindings, TopicBinding
 from fieldhand.site.projection import Projection
 
-#: ``sensor_msgs/msg/NavSatStatus``: no fix; below it, the receiver has not said.
+#: No fix (``sensor_msgs/msg/NavSatStatus``); lower values mean that the receiver has not reported yet.
 _NO_FIX = -1
 
-#: Metres that two points must be apart for the way between them to count: what is less is noise.
+#: Distance in metres below which the step between two points is noise and not counted.
 _ODOMETRY_STEP_M, _FIX_STEP_M = 0.02, 0.25
-#: A step that would have taken more than that many times the robot's speed is no driving: the odometry was set anew.
+#: A step that exceeds this multiple of the robot's speed, plus metres, is a reset of the odometry, not driving.
 _JUMP, _JUMP_M = 5.0, 2.0
 
-#: Percent: batteries that are full say somewhat more than 100.
+#: Highest plausible charge in percent: full batteries report somewhat more than 100.
 MOST_PERCENT = 105.0
-#: Seconds for which fixes must follow each other elsewhere until they are believed: the robot was carried there, or its
-#: receiver corrects itself. Until then it is lost: one that jumps to and fro is two robots, or none.
+#: Seconds for which fixes must be consistent at a new place before they are accepted: the robot was carried there, or
+#: its receiver corrects itself. Until then it is lost; fixes that alternate come from two robots.
 JUMPED_S = 3.0
-#: Times the standard deviation that is allowed: so much fixes may jump.
+#: Multiple of the standard deviation by which fixes may jump.
 _NOISE = 5.0
 
-#: Where metres are counted.
+#: Fields from which the odometry is read.
 _ODOMETRY_X, _ODOMETRY_Y = FieldBinding(path="pose.pose.position.x"), FieldBinding(path="pose.pose.position.y")
 
 
 @dataclass
 class TelemetryTopic:
-    """A topic, and when it said something.
+    """A topic and the time of its last valid message.
 
     Attributes:
-        what: What it is to people.
-        name: Its whole name.
-        heard: A message came.
-        at_s: When the last one came that said something, by the steady clock; None before the first.
-        doubt: Why the last message said nothing.
+        what: Name for people.
+        name: Full topic name.
+        heard: True once a message was received.
+        at_s: Time of the last valid message by the steady clock; None before the first.
+        doubt: Reason why the last message was invalid.
     """
 
     what: str
@@ -61,18 +61,18 @@ class TelemetryTopic:
     doubt: str = ""
 
     def known(self) -> bool:
-        """Whether it has said something. What is kept for who comes late, and never was sent, never changed."""
+        """Return True if the value is known. A transient local topic without a message has not changed yet."""
         kept = self.binding.transient and not self.heard
         return self.at_s is not None or (kept and self.subscription.publishers() > 0)
 
     def take(self) -> tuple[Message, ...]:
-        """What has arrived."""
+        """Return the messages received since the last call."""
         messages = self.subscription.take()
         self.heard = self.heard or bool(messages)
         return messages
 
     def silent(self, now: float) -> str | None:
-        """Why nothing is known any more; None while something is."""
+        """Return why the value is unknown or outdated; None if it is current."""
         if self.at_s is None:
             return None if self.known() else self.doubt or f"nothing came on {self.name} yet"
         passed = now - self.at_s
@@ -80,7 +80,7 @@ class TelemetryTopic:
 
 
 class _Odometer:
-    """Metres along points that follow each other."""
+    """Distance in metres along successive points."""
 
     def __init__(self, step_m: float, speed_m_s: float, clock: Callable[[], float]) -> None:
         self.metres = 0.0
@@ -89,7 +89,7 @@ class _Odometer:
         self.heard = 0
 
     def add(self, xy: tuple[float, float], message: Message) -> None:
-        """The next point, from a message with a header."""
+        """Add the next point, from a message with a header."""
         self.heard += 1
         now, stamp = self._clock(), _stamp_of(message)
         if self._last is None:
@@ -99,7 +99,7 @@ class _Odometer:
         step = math.dist(before, xy)
         if step < self._step_m:
             return
-        # Messages that were taken together were not sent together.
+        # Messages taken together were not sent together.
         passed = max(now - since, stamp - before_stamp)
         if step <= _JUMP * self._speed * passed + _JUMP_M:
             self.metres += step
@@ -107,13 +107,13 @@ class _Odometer:
 
 
 class _JumpDetector:
-    """Whether fixes follow each other as a robot drives.
+    """Detects fixes that a driving robot cannot reach.
 
     Args:
-        slack_m: Metres that they may be apart without any time between.
-        speed_m_s: Of the robot.
-        clock: In whose seconds it drives as fast as that.
-        steady: Seconds that pass whatever that does.
+        slack_m: Distance in metres allowed without any time between two fixes.
+        speed_m_s: Speed of the robot in m/s.
+        clock: Mission clock in seconds, by which the robot drives.
+        steady: Monotonic clock in seconds.
     """
 
     def __init__(
@@ -124,7 +124,7 @@ class _JumpDetector:
         self._elsewhere: tuple[float, _Point] | None = None
 
     def jumped_m(self, xy: tuple[float, float], message: Message) -> float:
-        """How far away a fix lies from those that are believed; 0 where it follows them."""
+        """Return the distance in metres of a fix from the accepted ones; 0 if it follows them."""
         point = _Point(self._clock(), _stamp_of(message), xy)
         if self._last is None or self._follows(self._last, point):
             self._last, self._elsewhere = point, None
@@ -139,14 +139,14 @@ class _JumpDetector:
         return 0.0
 
     def _follows(self, before: _Point, point: _Point) -> bool:
-        # Messages that were taken together were not sent together.
+        # Messages taken together were not sent together.
         passed = max(point.taken_s - before.taken_s, point.stamp_s - before.stamp_s)
         return math.dist(before.xy, point.xy) <= _JUMP * self._speed * passed + self._slack_m
 
 
 @dataclass(frozen=True)
 class _Point:
-    """Where a fix lies, when it was taken, and when it was made."""
+    """A fix: when it was taken, its stamp, and its place."""
 
     taken_s: float
     stamp_s: float
@@ -154,18 +154,18 @@ class _Point:
 
 
 class Telemetry:
-    """Listens to a robot.
+    """Subscriptions to the robot's state.
 
     Args:
-        transport: Carries its messages.
-        bindings: Which topics say what.
-        projection: Of the site.
-        speed_m_s: Of the robot: a jump of its odometry is no driving.
-        clock: In whose seconds it drives as fast as that.
-        steady: Seconds that pass whatever the mission's clock does.
+        transport: Transport of the robot's graph.
+        bindings: ROS 2 bindings of the robot.
+        projection: Projection of the site.
+        speed_m_s: Speed of the robot in m/s, to detect jumps.
+        clock: Mission clock in seconds, by which the robot drives.
+        steady: Monotonic clock in seconds.
 
     Raises:
-        Ros2Error: A type is not known.
+        Ros2Error: A type is unknown.
     """
 
     def __init__(
@@ -202,36 +202,36 @@ class Telemetry:
 
     @property
     def metres(self) -> float:
-        """Driven since this was made."""
+        """Metres driven since construction."""
         return self._odometer.metres
 
     @property
     def metres_heard(self) -> int:
-        """How many messages have told of metres."""
+        """Number of messages that contributed to the odometry."""
         return self._odometer.heard
 
     @property
     def position(self) -> Position | None:
-        """The last that was known; None before the first."""
+        """Last known position; None before the first fix."""
         return self._position
 
     @property
     def stamp_s(self) -> float | None:
-        """Return when that position was measured, in seconds of the robot's clock; None if its message does not say."""
+        """Time of that position in seconds of the robot's clock; None if its message has no stamp."""
         return self._stamp_s
 
     @property
     def charge_percent(self) -> float | None:
-        """The last that was said, as it was said; None before the first."""
+        """Last charge, as reported; None before the first message."""
         return self._charge
 
     @property
     def all(self) -> tuple[TelemetryTopic, ...]:
-        """Every topic that is listened to."""
+        """All subscribed topics."""
         return tuple(s for s in (self._fix, self._battery, self._odometry, self._stop) if s is not None)
 
     def listen(self) -> None:
-        """Take what has arrived."""
+        """Process the received messages."""
         now = self._steady()
         for message in self._fix.take():
             self._hear_fix(message, now)
@@ -243,11 +243,11 @@ class Telemetry:
             self._hear_stop(message, now)
 
     def lost(self) -> str | None:
-        """Why the robot does not know where it is; None while it does."""
+        """Return why the robot's position is unknown; None if it is known."""
         return self._fix.doubt or self._fix.silent(self._steady())
 
     def silent(self) -> str | None:
-        """Why no goal can be carried out: the battery, the emergency stop, or what counts metres is silent."""
+        """Return why no goal can run: battery, emergency stop or odometry is silent; None if all report."""
         now = self._steady()
         for topic in (self._battery, self._stop, self._odometry):
             if topic is not None and (why := topic.silent(now)) is not None:
@@ -255,11 +255,11 @@ class Telemetry:
         return None
 
     def stopped(self) -> str | None:
-        """Why the robot will not move again: its emergency stop was pressed, even if it was released since."""
+        """Return why the robot will not move again: its emergency stop was pressed, even if released since."""
         return self._stopped
 
     def close(self) -> None:
-        """End it."""
+        """Close all subscriptions."""
         for topic in self.all:
             topic.subscription.close()
 
@@ -284,7 +284,7 @@ class Telemetry:
     def _hear_battery(self, message: Message, now: float) -> None:
         charge = number_at(message, self._battery_value)
         if charge is None:
-            # NaN is what a battery says that does not measure: it has said nothing.
+            # Batteries report NaN for values they do not measure.
             self._battery.doubt = f"it says no number at {self._battery_value.path}"
         elif not 0.0 <= charge <= MOST_PERCENT:
             advice = "correct its scale or unit in the profile's ros2 part"
@@ -304,7 +304,7 @@ class Telemetry:
         assert self._stop_binding is not None  # noqa: S101
         value = value_at(message, self._stop_binding.path)
         if not isinstance(value, bool):
-            # Else one that nobody can read would pass for one that is not pressed.
+            # An unreadable emergency stop must not pass for one that is not pressed.
             self._stop.doubt = f"{self._stop_binding.path} is {value!r}, neither true nor false"
             return
         self._stop.at_s = now
@@ -313,16 +313,16 @@ class Telemetry:
 
 
 def _stamp_of(message: Message) -> float:
-    """Return the seconds of a message's header; 0 where it has none."""
+    """Return the stamp of a message's header in seconds; 0 if it has none."""
     return seconds_at(message, "header.stamp") or 0.0
 
 
 def fix_problem(fix: Message, binding: PositionBinding) -> str | None:
-    """Why a ``sensor_msgs/msg/NavSatFix`` does not say where the robot is; None where it does."""
+    """Return why a ``sensor_msgs/msg/NavSatFix`` gives no usable position; None if it does."""
     lat, lon, status = fix.get("latitude"), fix.get("longitude"), value_at(fix, "status.status")
     if status == _NO_FIX or not isinstance(lat, float) or not isinstance(lon, float):
         return "no satellite fix"
-    if not (abs(lat) <= 90.0 and abs(lon) <= 180.0):  # NaN is not, either
+    if not (abs(lat) <= 90.0 and abs(lon) <= 180.0):  # also excludes NaN
         return "no satellite fix"
     covariance, known = fix.get("position_covariance"), fix.get("position_covariance_type")
     if isinstance(covariance, tuple) and len(covariance) == 9 and isinstance(known, int) and known > 0:

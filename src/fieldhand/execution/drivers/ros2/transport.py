@@ -1,16 +1,16 @@
-"""What carries messages to a robot and back: the seam between the driver and DDS or rclpy.
+"""Transport protocol between the driver and DDS or rclpy.
 
-Nothing blocks: what has arrived is taken, what is to go is sent. Whoever asks decides how long to wait. The state
-machines of goals stand above it (:mod:`fieldhand.execution.drivers.ros2.action_client`); an action is three services and
-two topics here, as ROS 2 makes one.
+No call blocks: received messages are taken, outgoing ones are sent, and the caller decides how long to wait. The state
+machines of goals are built on top (:mod:`fieldhand.execution.drivers.ros2.action_client`); an action is three services
+and two topics here, as in ROS 2.
 
 A message is a mapping from field names to values: bool, int, float, str, bytes (of ``uint8[]``, ``byte[]`` and
-``char[]``), a tuple (of any other array), or another mapping. A message that is sent may leave fields out: they keep
-the default of their type.
+``char[]``), a tuple (of any other array), or another mapping. A message that is sent may omit fields: they keep the
+default of their type.
 
-Names here are whole (they begin with ``/``); types are ``package/msg/Name`` for topics and ``package/srv/Name`` for
-services. Those of an action are ``package/action/Name_SendGoal`` and ``package/action/Name_GetResult``, its feedback
-``package/action/Name_FeedbackMessage``.
+Names are fully qualified (they begin with ``/``); types are ``package/msg/Name`` for topics and ``package/srv/Name``
+for services. The services of an action are ``package/action/Name_SendGoal`` and ``package/action/Name_GetResult``, its
+feedback is ``package/action/Name_FeedbackMessage``.
 """
 
 from __future__ import annotations
@@ -21,25 +21,27 @@ from typing import Literal, Protocol
 
 Message = Mapping[str, object]
 
-#: Bytes of a message that is read. Nothing that a mission needs is larger, and in memory it grows a hundredfold.
+#: Size limit in bytes of a received message. No mission needs larger ones, and decoded they grow a hundredfold.
 MOST_BYTES = 4 * 1024 * 1024
 
-#: What implements ROS's middleware at the other end, where it can be told.
+#: Middleware at the other end, if it can be identified.
 Rmw = Literal["cyclonedds", "fastrtps", "connext", "zenoh", "unknown"]
 
 
 def services_interoperate(one: Rmw, other: Rmw) -> bool:
-    """Whether services go between two middlewares: Cyclone's say otherwise than the rest whose a request is."""
+    """Return True if services work between two middlewares: Cyclone DDS identifies requests differently from the
+    others.
+    """
     return "unknown" in (one, other) or one == other or "cyclonedds" not in (one, other)
 
 
 @dataclass(frozen=True, kw_only=True)
 class QosProfile:
-    """Quality of service. A reader and a writer find each other only if the writer offers what the reader asks for.
+    """Quality of service. A reader and a writer match only if the writer offers what the reader requests.
 
     Attributes:
-        transient: Transient local: who comes late gets what was sent before.
-        depth: How many messages are kept.
+        transient: Transient local durability: late subscribers receive earlier messages.
+        depth: Number of messages kept.
     """
 
     reliable: bool = True
@@ -47,22 +49,22 @@ class QosProfile:
     depth: int = 10
 
 
-#: Of sensors: the newest values, and none twice.
+#: For sensors: the newest values.
 SENSOR_QOS = QosProfile(reliable=False, depth=5)
-#: Of an action's status topic.
+#: For the status topic of an action.
 STATUS_QOS = QosProfile(reliable=True, transient=True, depth=1)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Peer:
-    """An endpoint of another process that discovery has found.
+    """An endpoint of another process, found by discovery.
 
     Attributes:
-        participant: Tells processes apart, not more.
-        type: Its type, in ROS's form where it can be told, else as the wire has it.
-        quality: What it offers, or asks for.
-        type_hash: Of its type's definition (``RIHS01_...``), from Iron on; empty where it gives none.
-        reply_hash: The same of the replies of a server, whose type is that of its requests.
+        participant: Identifies its process.
+        type: Type in ROS form if it can be converted, otherwise as on the wire.
+        qos: Quality of service offered or requested.
+        type_hash: Hash of its type definition (``RIHS01_...``), from Iron on; empty if it gives none.
+        reply_hash: Hash of the reply type of a server, whose ``type_hash`` is that of its requests.
     """
 
     participant: str
@@ -74,81 +76,81 @@ class Peer:
 
 
 class Subscription(Protocol):
-    """Reads a topic."""
+    """Reader of a topic."""
 
     def take(self) -> tuple[Message, ...]:
-        """What has arrived since the last call, the oldest first; at most as many as the depth of its quality."""
+        """Return the messages received since the last call, oldest first; at most as many as the depth of its QoS."""
         ...
 
     def publishers(self) -> int:
-        """How many send to it: those whose type and quality match."""
+        """Return the number of matched publishers."""
         ...
 
     def close(self) -> None:
-        """End it. Does nothing the second time."""
+        """Close the endpoint. Repeated calls have no effect."""
         ...
 
 
 class Publisher(Protocol):
-    """Writes a topic."""
+    """Writer of a topic."""
 
     def send(self, message: Message) -> None:
         """Send one message.
 
         Raises:
-            Ros2Error: It does not fit the type; the field is named.
+            Ros2Error: The message does not fit the type; the field is named.
         """
         ...
 
     def subscribers(self) -> int:
-        """How many hear it."""
+        """Return the number of matched subscribers."""
         ...
 
     def close(self) -> None:
-        """End it."""
+        """Close the endpoint."""
         ...
 
 
 class Client(Protocol):
-    """Asks a service."""
+    """Client of a service."""
 
     def servers(self) -> int:
-        """How many servers can hear a request **and** be heard: of less than that, replies get lost."""
+        """Return the number of servers matched in **both** directions; otherwise replies would be lost."""
         ...
 
     def ask(self, request: Message) -> int:
         """Send a request.
 
         Returns:
-            Its number, by which :meth:`replies` names its reply.
+            Number of the request, as given by :meth:`replies`.
 
         Raises:
-            Ros2Error: It does not fit the type; the field is named.
+            Ros2Error: The request does not fit the type; the field is named.
         """
         ...
 
     def replies(self) -> tuple[tuple[int, Message], ...]:
-        """The replies to requests of this client that have arrived since the last call, each with its number."""
+        """Return the replies received since the last call, each with the number of its request."""
         ...
 
     def close(self) -> None:
-        """End it."""
+        """Close the endpoint."""
         ...
 
 
 class Server(Protocol):
-    """Answers a service."""
+    """Server of a service."""
 
     def requests(self) -> tuple[tuple[object, Message], ...]:
-        """Requests that have arrived since the last call, each with what :meth:`reply` needs to answer it."""
+        """Return the requests received since the last call, each with the handle that :meth:`reply` needs."""
         ...
 
     def reply(self, to: object, response: Message) -> None:
-        """Answer a request."""
+        """Reply to a request."""
         ...
 
     def close(self) -> None:
-        """End it."""
+        """Close the endpoint."""
         ...
 
 
@@ -162,49 +164,49 @@ class Transport(Protocol):
 
     @property
     def rmw(self) -> Rmw:
-        """The middleware whose services it understands."""
+        """Middleware with which its services are compatible."""
         ...
 
     def subscribe(self, topic: str, type_name: str, qos: QosProfile = SENSOR_QOS) -> Subscription:
-        """Read a topic.
+        """Subscribe to a topic.
 
         Raises:
-            Ros2Error: The type is not known.
+            Ros2Error: The type is unknown.
         """
         ...
 
     def publish(self, topic: str, type_name: str, qos: QosProfile = QosProfile()) -> Publisher:
-        """Write a topic.
+        """Create a publisher of a topic.
 
         Raises:
-            Ros2Error: The type is not known.
+            Ros2Error: The type is unknown.
         """
         ...
 
     def client(self, service: str, type_name: str) -> Client:
-        """Ask a service.
+        """Create a client of a service.
 
         Raises:
-            Ros2Error: The type is not known.
+            Ros2Error: The type is unknown.
         """
         ...
 
     def serve(self, service: str, type_name: str) -> Server:
-        """Answer a service.
+        """Create a server of a service.
 
         Raises:
-            Ros2Error: The type is not known.
+            Ros2Error: The type is unknown.
         """
         ...
 
     def writers_of(self, topic: str) -> tuple[Peer, ...]:
-        """Everything that discovery has found to write a topic, whether it matches or not: to say what is wrong."""
+        """Return all discovered writers of a topic, matched or not, for diagnosis."""
         ...
 
     def servers_of(self, service: str) -> tuple[Peer, ...]:
-        """Everything that discovery has found to answer a service, whether it matches or not."""
+        """Return all discovered servers of a service, matched or not."""
         ...
 
     def close(self) -> None:
-        """Leave the graph, with all that was made here."""
+        """Close all endpoints and leave the ROS graph."""
         ...

@@ -1,16 +1,16 @@
-"""ROS 2 over DDS, with no ROS installed: the transport of the extra ``ros2-dds``.
+"""ROS 2 over DDS without a ROS installation: the transport of the extra ``ros2-dds``.
 
-What ROS 2's middleware on Cyclone DDS (``rmw_cyclonedds``) puts on the wire, measured against it:
+Wire format of ROS 2's Cyclone DDS middleware (``rmw_cyclonedds``), verified against it:
 
 - topics are ``rt/NAME``, requests ``rq/NAMERequest``, replies ``rr/NAMEReply``; types ``package::msg::dds_::Name_``;
-- a request and its reply begin with the client's number and the request's number, before the fields;
-- a client says who it is in the user data of its two endpoints (``clientid=``), a server likewise (``serviceid=``):
-  a reply gets lost if it is sent before the server has found the client's reader;
-- from Iron on, user data say the hash of the type (``typehash=``);
+- a request and its reply start with the client's id and the request's number, before the fields;
+- the user data of a client's two endpoints carry its id (``clientid=``), those of a server ``serviceid=``: a reply is
+  lost if it is sent before the server has discovered the client's reader;
+- from Iron on, user data carry the hash of the type (``typehash=``);
 - a message without fields has one byte.
 
-``codec`` makes types, ``qos`` and ``names`` translate, ``topics`` and ``services`` are the endpoints, ``discovery``
-is what the others have, ``transport`` puts them together.
+``message_codec`` defines types and converts messages, ``qos`` and ``names`` convert quality of service and names,
+``topics`` and ``services`` are the endpoints, ``discovery`` lists remote endpoints, ``transport`` combines them.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ __all__ = ["open_dds"]
 
 
 def open_dds(interfaces: Interfaces, domain: int | None = None) -> DdsTransport:
-    """Join a ROS 2 graph.
+    """Join a ROS 2 graph over DDS.
 
     Args:
-        domain: Of DDS; None means ``ROS_DOMAIN_ID`` of the environment, else 0.
+        domain: DDS domain id; None for ``ROS_DOMAIN_ID`` of the environment, else 0.
 
     Raises:
-        InputError: The domain is none, or what speaks DDS is not installed.
+        InputError: The domain id is invalid, or Cyclone DDS is not installed.
         Ros2Error: The network cannot be used.
     """
     try:

@@ -1,4 +1,4 @@
-"""What other processes have on the graph, whether it fits us or not."""
+"""Endpoints of other processes on the graph, compatible or not."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from fieldhand.execution.drivers.ros2.dds.qos import from_dds_qos, user_data_of
 from fieldhand.execution.drivers.ros2.transport import Peer
 
 _AT_ONCE = 256
-#: Endpoints that are remembered; a large robot has some hundreds.
+#: Limit of remembered endpoints; a large robot has several hundred.
 _MOST = 20_000
 
 
 class DdsDiscovery:
-    """Follows DDS's own topics on which endpoints say that they are there.
+    """Discovered endpoints, from the built-in topics of DDS.
 
     Args:
-        participant: Ours; its own endpoints are not told.
+        participant: Own participant; its endpoints are excluded.
     """
 
     def __init__(self, participant: DomainParticipant) -> None:
@@ -31,12 +31,12 @@ class DdsDiscovery:
         self._readers = _EndpointList(BuiltinDataReader(participant, BuiltinTopicDcpsSubscription))
 
     def writers_of(self, topic: str) -> tuple[Peer, ...]:
-        """Everything that writes a topic."""
+        """Return all writers of a topic."""
         return self._peers(self._writers, topic_name(topic))
 
     def servers_of(self, service: str) -> tuple[Peer, ...]:
-        """Everything that reads the requests of a service."""
-        # Of several servers in one process it cannot be told whose replies are which.
+        """Return all readers of a service's requests."""
+        # Replies of several servers in one process cannot be told apart.
         replies = {p.participant: p.type_hash for p in self._peers(self._writers, reply_name(service))}
         found = self._peers(self._readers, request_name(service))
         return tuple(replace(p, reply_hash=replies.get(p.participant, "")) for p in found)
@@ -47,7 +47,7 @@ class DdsDiscovery:
 
 
 class _EndpointList:
-    """The endpoints of one direction."""
+    """Discovered endpoints of one direction."""
 
     def __init__(self, reader: BuiltinDataReader) -> None:
         self._reader = reader

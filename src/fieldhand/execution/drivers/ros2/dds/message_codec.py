@@ -1,4 +1,4 @@
-"""Types on the wire, made from the definitions of interfaces: they are written nowhere else."""
+"""DDS types and samples, generated from interface definitions."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from fieldhand.execution.drivers.ros2.dds.names import wire_type
 from fieldhand.execution.drivers.ros2.interfaces import FieldType, Interfaces
 from fieldhand.execution.drivers.ros2.transport import MOST_BYTES, Message
 
-#: No field of ROS ends like this, and no name of Python's does: ``from``, ``serialize``.
+#: Suffix that no ROS field name has; avoids Python keywords and attributes such as ``from`` and ``serialize``.
 _END = "_"
 _FILLER = "structure_needs_at_least_one_member_"
-_MANY: Any = types  # it says of array and sequence that they are plain classes, and they are generic
+_MANY: Any = types  # the library declares array and sequence as plain classes, but they are generic
 _PRIMITIVES: dict[str, Any] = {
     "bool": bool,
     "byte": types.uint8,
@@ -28,7 +28,7 @@ _PRIMITIVES: dict[str, Any] = {
 
 
 class Unreadable:
-    """Stands for a message that arrived and cannot be read."""
+    """Placeholder for a received message that cannot be decoded."""
 
     sample_info: Any = None
 
@@ -38,17 +38,17 @@ class Unreadable:
 
 @dataclass(frozen=True)
 class Header:
-    """What stands before the fields of a request and its reply: whose it is, and which of theirs."""
+    """Header of a request and its reply: id of the client and number of the request."""
 
     client: int
     number: int
 
 
 class MessageCodec:
-    """Makes types, and messages of them.
+    """Creates DDS types, and encodes and decodes messages.
 
     Args:
-        interfaces: All that are known.
+        interfaces: Known interface definitions.
     """
 
     def __init__(self, interfaces: Interfaces) -> None:
@@ -57,26 +57,26 @@ class MessageCodec:
         self._outer: dict[tuple[str, bool], Any] = {}
 
     def type_of(self, message: str, *, with_header: bool = False) -> Any:
-        """The type of a topic.
+        """Return the DDS type of a topic.
 
         Args:
-            headed: A request or a reply.
+            with_header: True for requests and replies.
 
         Raises:
-            Ros2Error: It is not known.
+            Ros2Error: The type is unknown.
         """
         if (message, with_header) not in self._outer:
             made = self._idl_type(message, with_header=with_header)
-            # One bad message must not hide the good ones that are taken with it.
+            # One malformed message must not hide the valid ones taken with it.
             made.deserialize = classmethod(_deserialize)
             self._outer[message, with_header] = made
         return self._outer[message, with_header]
 
     def encode(self, message: str, given: Message, header: Header | None = None) -> Any:
-        """A message as it is sent.
+        """Encode a message as a DDS sample.
 
         Raises:
-            Ros2Error: It does not fit its type; the field is named.
+            Ros2Error: The message does not fit its type; the field is named.
         """
         whole = self.interfaces.complete(message, given)
         made = self.type_of(message, with_header=header is not None)
@@ -84,7 +84,7 @@ class MessageCodec:
         return made(**values) if header is None else made(guid=header.client, seq=header.number, **values)
 
     def decode(self, message: str, sample: Any) -> dict[str, object]:
-        """A message that has arrived."""
+        """Decode a received sample."""
         return {n: self._decode(k, getattr(sample, n + _END)) for n, k in self.interfaces.fields(message).items()}
 
     def _idl_type(self, message: str, *, with_header: bool = False) -> Any:

@@ -1,4 +1,4 @@
-"""What topics, services and types are called on the wire, and back."""
+"""Names of topics, services and types on the wire, and back."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from fieldhand.execution.drivers.ros2.transport import Rmw
 
 Half = Literal["Request", "Response"]
 
-#: Whose services find ours and do not understand them: they tell otherwise which reply is to which request.
+#: Middlewares whose services match ours but do not interoperate: they identify the request of a reply differently.
 INCOMPATIBLE_SERVICES: tuple[Rmw, ...] = ("fastrtps", "connext")
 
 _NAME = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+")
@@ -19,28 +19,28 @@ _TYPE = re.compile(r"(?P<package>[a-z][a-z0-9_]*)::(?P<kind>msg|srv|action)::dds
 
 
 def topic_name(topic: str) -> str:
-    """A topic on the wire."""
+    """Return the DDS name of a topic."""
     return f"rt{_checked(topic)}"
 
 
 def request_name(service: str) -> str:
-    """The requests of a service on the wire."""
+    """Return the DDS name of a service's request topic."""
     return f"rq{_checked(service)}Request"
 
 
 def reply_name(service: str) -> str:
-    """The replies of a service on the wire."""
+    """Return the DDS name of a service's reply topic."""
     return f"rr{_checked(service)}Reply"
 
 
 def wire_type(message: str) -> str:
-    """``package/msg/Name`` as ``package::msg::dds_::Name_``."""
+    """Convert ``package/msg/Name`` to ``package::msg::dds_::Name_``."""
     package, kind, name = message.split("/")
     return f"{package}::{kind}::dds_::{name}_"
 
 
 def ros_type(type_name: str) -> str:
-    """A type as ROS writes it; a request is called by its service. What is not ROS's stays as it is."""
+    """Convert a DDS type name to ROS form, a request's to its service; return other names unchanged."""
     found = _TYPE.fullmatch(type_name)
     if found is None:
         return type_name
@@ -51,25 +51,25 @@ def ros_type(type_name: str) -> str:
 
 
 def rmw_of(participant: bytes) -> Rmw:
-    """What implements DDS, by the first two bytes of a participant's key: its vendor (RTPS 9.3.1.5)."""
+    """Return the middleware of a participant from its vendor id, the first two bytes of its key (RTPS 9.3.1.5)."""
     vendors: dict[bytes, Rmw] = {b"\x01\x10": "cyclonedds", b"\x01\x0f": "fastrtps", b"\x01\x01": "connext"}
     return vendors.get(participant[:2], "unknown")
 
 
 @dataclass(frozen=True, kw_only=True)
 class UserData:
-    """What an endpoint says of itself: ``key=value;`` and so on."""
+    """User data of an endpoint: pairs ``key=value;``."""
 
     values: dict[str, str] = field(default_factory=dict)
 
     @classmethod
     def parse(cls, data: bytes) -> UserData:
-        """What is no such list says nothing."""
+        """Parse user data; other formats give no values."""
         parts = (part.partition("=") for part in data[:4096].decode("utf-8", "replace").split(";"))
         return cls(values={key.strip(): value.strip() for key, between, value in parts if between})
 
     def encoded(self) -> bytes:
-        """As it stands on the wire."""
+        """Encode the pairs as bytes."""
         return "".join(f"{key}={value};" for key, value in self.values.items()).encode()
 
 

@@ -1,4 +1,4 @@
-"""Quality of service in the words of DDS, and back."""
+"""Conversion of quality of service to DDS and back."""
 
 from __future__ import annotations
 
@@ -8,22 +8,22 @@ from cyclonedds.util import duration
 from fieldhand.execution.drivers.ros2.dds.names import UserData
 from fieldhand.execution.drivers.ros2.transport import QosProfile
 
-#: A writer waits that long for room, then the message is lost, as on any network.
+#: Milliseconds that a writer waits for buffer space before the message is dropped.
 _BLOCKS_MS = 100
 
 
 def to_dds_qos(qos: QosProfile, user_data: UserData) -> Qos:
-    """What an endpoint offers or asks for.
+    """Return the DDS quality of service of an own endpoint.
 
     Args:
-        said: What it says of itself.
+        user_data: User data of the endpoint.
     """
     reliable = Policy.Reliability.Reliable(duration(milliseconds=_BLOCKS_MS))
     return Qos(
         reliable if qos.reliable else Policy.Reliability.BestEffort,
         Policy.Durability.TransientLocal if qos.transient else Policy.Durability.Volatile,
         Policy.History.KeepLast(qos.depth),
-        # ROS writes the first version of the encoding, and what asks for the second never meets it.
+        # ROS uses the first version of the encoding; an endpoint that requests the second would not match.
         Policy.DataRepresentation(use_cdrv0_representation=True),
         Policy.WriterDataLifecycle(autodispose=False),
         Policy.Userdata(data=user_data.encoded()),
@@ -31,7 +31,7 @@ def to_dds_qos(qos: QosProfile, user_data: UserData) -> Qos:
 
 
 def from_dds_qos(qos: Qos) -> QosProfile:
-    """What another endpoint offers or asks for; the depth is its own matter, and mostly not told."""
+    """Return the quality of service of a remote endpoint; its depth is rarely announced."""
     keeps = Policy.History in qos and isinstance(qos[Policy.History], Policy.History.KeepLast)
     return QosProfile(
         reliable=Policy.Reliability in qos and isinstance(qos[Policy.Reliability], Policy.Reliability.Reliable),
@@ -41,5 +41,5 @@ def from_dds_qos(qos: Qos) -> QosProfile:
 
 
 def user_data_of(qos: Qos) -> UserData:
-    """What another endpoint says of itself."""
+    """Return the user data of a remote endpoint."""
     return UserData.parse(bytes(qos[Policy.Userdata].data)) if Policy.Userdata in qos else UserData()

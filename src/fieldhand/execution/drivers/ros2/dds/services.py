@@ -1,4 +1,4 @@
-"""Endpoints of services: one topic of requests, one of replies."""
+"""Service endpoints: a request topic and a reply topic."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ from fieldhand.execution.drivers.ros2.dds.qos import user_data_of
 from fieldhand.execution.drivers.ros2.dds.topics import close, samples, write
 from fieldhand.execution.drivers.ros2.transport import Message, QosProfile
 
-#: Of both topics: reliable, volatile, keep the last 10 (measured).
+#: For both topics: reliable, volatile, depth 10, as measured.
 SERVICE_QOS = QosProfile()
 
-#: Replies that wait for their client to be found; of more, the oldest are given up.
+#: Limit of replies that wait for their client to be discovered; the oldest are dropped.
 _MOST_WAITING = 100
-#: How often a reply is tried before its client is taken to be gone.
+#: Attempts to send a reply before its client counts as gone.
 _TRIES = 2000
 
 
 class DdsClient:
-    """A :class:`~fieldhand.execution.drivers.ros2.transport.Client`.
+    """A :class:`~fieldhand.execution.drivers.ros2.transport.Client` over DDS.
 
     Args:
-        writer: Of requests.
-        reader: Of replies; it hears those to other clients, too.
+        writer: Writer of requests.
+        reader: Reader of replies; receives those to other clients, too.
     """
 
     def __init__(
@@ -70,7 +70,7 @@ class DdsClient:
 
 @dataclass(frozen=True)
 class _Request:
-    """Whom a reply is for: what the request said, and the endpoint that it came from."""
+    """Origin of a request: its header, and the endpoint that wrote it."""
 
     header: Header
     writer: int
@@ -84,10 +84,10 @@ class _PendingReply:
 
 
 class DdsServer:
-    """A :class:`~fieldhand.execution.drivers.ros2.transport.Server`.
+    """A :class:`~fieldhand.execution.drivers.ros2.transport.Server` over DDS.
 
-    A client that has just come may be heard before it can hear: its reply then waits until it is found. Whoever asks
-    for requests sends what has waited.
+    The requests of a new client may arrive before its reply reader is discovered: the reply is then queued, and sent by
+    a later call of :meth:`requests` or :meth:`reply`.
     """
 
     def __init__(
@@ -133,20 +133,20 @@ class DdsServer:
                 self._waiting.append(reply)
 
     def _found(self, asker: int) -> bool:
-        """Whether the client's reader is matched, or nothing tells which it is."""
+        """Return True if the client's reader is matched, or cannot be identified."""
         client = _id_of(self._reader.get_matched_publication_data(asker), "clientid")
         return client is None or client in self._clients.ids()
 
 
 class _Matched:
-    """Who stands behind the endpoints that are matched: by what they say, else by their process.
+    """Identities of the matched endpoints: the id in their user data, otherwise their process.
 
-    What an endpoint says does not change while it is there, and is asked for once: it takes long.
+    User data do not change while an endpoint exists and are slow to query, so each is queried once.
 
     Args:
-        handles: Gives the endpoints.
-        data_of: Gives what one of them says.
-        key: Under which it says who it is.
+        handles: Returns the handles of the matched endpoints.
+        data_of: Returns the discovery data of one of them.
+        key: Key of the id in the user data.
     """
 
     def __init__(self, handles: Callable[[], list[int]], data_of: Callable[[int], Any], key: str) -> None:
@@ -154,7 +154,7 @@ class _Matched:
         self._known: dict[int, str | None] = {}
 
     def ids(self) -> set[str]:
-        """Those that are there now and understand what is said."""
+        """Return the ids of the matched endpoints that are compatible."""
         for handle in (there := set(self._handles())) - self._known.keys():
             endpoint = self._data_of(handle)
             if endpoint is not None and endpoint.qos is not None:

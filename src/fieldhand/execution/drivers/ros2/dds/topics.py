@@ -1,4 +1,4 @@
-"""Endpoints of topics."""
+"""Topic endpoints over DDS."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from fieldhand.execution.drivers.ros2.transport import Message
 
 
 def samples(reader: Any, most: int) -> list[Any]:
-    """What has arrived and can be read: not what only says that a writer has gone."""
+    """Return the received valid samples; skips notifications that a writer has gone."""
     return [s for s in reader.take(N=most) if s.sample_info.valid_data and not isinstance(s, Unreadable)]
 
 
 def write(writer: Any, sample: Any) -> None:
-    """Send. Where the other end does not keep up the message is lost; whoever waits for an answer has a time limit.
+    """Send a sample. It is dropped if the reader is too slow; callers that expect a reply have a time limit.
 
     Raises:
-        Ros2Error: DDS does not take it.
+        Ros2Error: DDS rejects the sample.
     """
     try:
         writer.write(sample)
@@ -32,13 +32,13 @@ def write(writer: Any, sample: Any) -> None:
 
 
 def close(*entities: Any) -> None:
-    """Take endpoints off the network now, not when memory is tidied up."""
+    """Remove endpoints from the network now instead of at garbage collection."""
     for entity in entities:
         entity.__del__()
 
 
 class DdsSubscription:
-    """A :class:`~fieldhand.execution.drivers.ros2.transport.Subscription`."""
+    """A :class:`~fieldhand.execution.drivers.ros2.transport.Subscription` over DDS."""
 
     def __init__(self, codec: MessageCodec, message: str, reader: DataReader[Any], depth: int) -> None:
         self._codec, self._message, self._reader, self._depth = codec, message, reader, depth
@@ -60,7 +60,7 @@ class DdsSubscription:
 
 
 class DdsPublisher:
-    """A :class:`~fieldhand.execution.drivers.ros2.transport.Publisher`."""
+    """A :class:`~fieldhand.execution.drivers.ros2.transport.Publisher` over DDS."""
 
     def __init__(self, codec: MessageCodec, message: str, writer: DataWriter[Any]) -> None:
         self._codec, self._message, self._writer = codec, message, writer

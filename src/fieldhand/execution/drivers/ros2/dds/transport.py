@@ -25,7 +25,7 @@ from fieldhand.execution.drivers.ros2.domain import domain_of
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.transport import SENSOR_QOS, Peer, QosProfile, Rmw
 
-#: What DDS takes off the network before we see it: more than a picture of a good camera has.
+#: Size limit of samples that DDS accepts from the network: larger than a picture of a good camera.
 _MOST_RECEIVED = "32 MiB"
 
 _End = TypeVar("_End", DdsSubscription, DdsPublisher, DdsClient, DdsServer)
@@ -34,14 +34,14 @@ _End = TypeVar("_End", DdsSubscription, DdsPublisher, DdsClient, DdsServer)
 class DdsTransport:
     """A :class:`~fieldhand.execution.drivers.ros2.transport.Transport` over Cyclone DDS.
 
-    No thread of ours, no callback: what has arrived lies with DDS until it is taken.
+    It starts no threads and uses no callbacks: received samples stay with DDS until they are taken.
 
     Args:
-        interfaces: All types that can be sent and read.
-        domain: Of DDS; None means ``ROS_DOMAIN_ID`` of the environment, else 0.
+        interfaces: Types that can be sent and received.
+        domain: DDS domain id; None for ``ROS_DOMAIN_ID`` of the environment, else 0.
 
     Raises:
-        InputError: The domain is none.
+        InputError: The domain id is invalid.
         Ros2Error: The network cannot be used.
     """
 
@@ -132,9 +132,9 @@ class DdsTransport:
 
 @cache
 def _bounded(domain: int) -> Domain | None:
-    """Let DDS drop what is larger than anything that is read here. Whoever has made the domain before keeps it."""
+    """Limit the size of samples that DDS accepts. Return None if the domain was already created in this process."""
     configured = os.environ.get("CYCLONEDDS_URI", "")
-    if not configured.isascii():  # the library takes no other
+    if not configured.isascii():  # the library accepts ASCII only
         return None
     limit = f"<CycloneDDS><Domain><Internal><MaxSampleSize>{_MOST_RECEIVED}</MaxSampleSize></Internal></Domain>"
     try:
@@ -146,5 +146,5 @@ def _bounded(domain: int) -> Domain | None:
 
 
 def _new_id() -> str:
-    """Who a client or a server is, among all of them: sixteen bytes, as ROS writes them."""
+    """Return a random id of a client or server: sixteen bytes in ROS's notation."""
     return ".".join(f"{byte:x}" for byte in secrets.token_bytes(16))

@@ -1,13 +1,13 @@
-"""Interfaces of ROS 2 as text: what messages, services and actions look like, and what fits them.
+"""ROS 2 interface definitions: parsing, lookup, and validation of messages.
 
-Definitions come from three places, the later before the earlier: those of ROS's own packages in rosbags, for the
-release of the robot; texts of Nav2 and of what else ROS's own packages lack (``text/``, a folder for each release
-where they differ, ``common`` where they do not); and those that a profile brings along (``interfaces``). Nothing here
-is written twice: what goes over the wire is made from these by the transports.
+Definitions come from three sources, the later ones overriding the earlier: ROS's own packages from rosbags, for the
+robot's release; definitions of Nav2 and other packages that rosbags lacks (``text/``, one folder per release where they
+differ, ``common`` where they do not); and the profile's own (``interfaces``). The transports generate their types from
+these definitions.
 
-- ``definitions``: what a text says, as data; the parts of services and actions as messages of their own.
-- ``store``: :class:`Interfaces`, all of them for one robot.
-- ``values``: messages held against their definition, and completed by defaults.
+- ``definitions``: parses definition texts; derives the parts of services and actions.
+- ``store``: :class:`Interfaces`, all definitions for one robot.
+- ``validation``: checks messages against their definition and fills in defaults.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""What the text of an interface says, as data.
+"""Parser of interface definitions.
 
-A service is two messages, an action is three, and by these five more of the topics and services that it consists of
+A service consists of two messages. An action consists of three, plus five of the topics and services it is built from
 (design.ros2.org, "Actions"): ``N_SendGoal_Request``, ``N_SendGoal_Response``, ``N_GetResult_Request``,
 ``N_GetResult_Response``, ``N_FeedbackMessage``.
 """
@@ -17,30 +17,30 @@ from fieldhand.errors import InputError, ProfileError
 #: ``package/kind/Name``.
 INTERFACE_NAME = re.compile(r"[a-z][a-z0-9_]*/(msg|srv|action)/[A-Za-z][A-Za-z0-9_]*")
 
-#: Types of single values; all others are messages.
+#: Primitive types; all others are messages.
 INTEGERS = {f"{sign}int{bits}": bits for sign in ("", "u") for bits in (8, 16, 32, 64)} | {"byte": 8, "char": 8}
 FLOATS = ("float32", "float64")
 PRIMITIVES = (*INTEGERS, *FLOATS, "bool", "string")
 
-#: Arrays of these are ``bytes`` in a message: each value is one byte without a sign.
+#: Arrays of these are ``bytes`` in a message, one unsigned byte per value.
 OCTETS = ("uint8", "byte", "char")
 
-#: What rosbags writes into a message that has no field, as the wire needs one.
+#: Field that rosbags adds to a message without fields, because the wire format needs one.
 _FILLER = "structure_needs_at_least_one_member"
 
-#: Characters of one definition; those of real robots have some thousand.
+#: Size limit of one definition in characters; those of real robots have a few thousand.
 _LONGEST = 100_000
 
 
 @dataclass(frozen=True, kw_only=True)
 class FieldType:
-    """The type of one field.
+    """Type of a field.
 
     Attributes:
-        base: ``float64``, ``string``, ..., or the message that stands there.
-        many: Whether it is one value, a fixed number of them, or any number.
-        count: Of an array, how many; of a sequence, the most, 0 where there is no limit.
-        most_characters: Of a string; 0 where there is no limit.
+        base: ``float64``, ``string``, ..., or the name of a message.
+        many: ``one`` value, a fixed ``array``, or a ``sequence`` of variable length.
+        count: Length of an array; maximum length of a sequence, 0 for no limit.
+        most_characters: Maximum length of a string; 0 for no limit.
     """
 
     base: str
@@ -50,12 +50,12 @@ class FieldType:
 
     @property
     def primitive(self) -> bool:
-        """Whether it is made of single values, not of messages."""
+        """True if the base type is primitive."""
         return self.base in PRIMITIVES
 
     @property
     def octets(self) -> bool:
-        """Whether it is ``bytes`` in a message."""
+        """True if values are ``bytes`` in a message."""
         return self.many != "one" and self.base in OCTETS
 
     def __str__(self) -> str:
@@ -68,13 +68,13 @@ class FieldType:
 
 @dataclass(frozen=True, kw_only=True)
 class Definition:
-    """A message, or one part of a service or an action.
+    """Definition of a message, or of one part of a service or an action.
 
     Attributes:
         name: ``sensor_msgs/msg/NavSatFix``, ``std_srvs/srv/Trigger_Response``,
             ``nav2_msgs/action/NavigateToPose_SendGoal_Request``.
-        defaults: Of the fields that have one of their own; as the text has them, not checked.
-        constants: By name.
+        defaults: Explicit defaults by field, as in the text, not validated.
+        constants: Constants by name.
     """
 
     name: str
@@ -84,14 +84,14 @@ class Definition:
 
 
 def read_definitions(name: str, text: str, *, where: str) -> tuple[Definition, ...]:
-    """The messages that a ``.msg``, ``.srv`` or ``.action`` file consists of.
+    """Parse the messages of a ``.msg``, ``.srv`` or ``.action`` file.
 
     Args:
         name: ``package/msg/Name``, ``package/srv/Name`` or ``package/action/Name``.
-        where: File or part of a profile, for errors.
+        where: File or part of a profile, for error messages.
 
     Raises:
-        ProfileError: It cannot be read; the line is named where it can be told.
+        ProfileError: The text cannot be parsed; the line is named if it is known.
     """
     if not INTERFACE_NAME.fullmatch(name):
         raise ProfileError(f"{name!r} is no interface", where=where, advice="call it package/msg/Name, srv or action")
@@ -110,7 +110,7 @@ def read_definitions(name: str, text: str, *, where: str) -> tuple[Definition, .
 
 
 def from_rosbags(name: str, parsed: tuple[Any, Any]) -> Definition:
-    """A definition as rosbags keeps it: constants, then fields."""
+    """Convert a definition from rosbags: constants, then fields."""
     constants, fields = parsed
     return Definition(
         name=name,
@@ -120,7 +120,7 @@ def from_rosbags(name: str, parsed: tuple[Any, Any]) -> Definition:
 
 
 def to_rosbags(definition: Definition) -> tuple[list[Any], list[Any]]:
-    """A definition as rosbags hashes it."""
+    """Convert a definition to the form that rosbags hashes."""
     from rosbags.interfaces import Nodetype
 
     fields = []
@@ -135,10 +135,10 @@ def to_rosbags(definition: Definition) -> tuple[list[Any], list[Any]]:
 
 
 def require_rosbags() -> None:
-    """Say what to install where it is missing.
+    """Raise an error with installation advice if rosbags is missing.
 
     Raises:
-        InputError: It is.
+        InputError: rosbags is not installed.
     """
     try:
         import rosbags.typesys  # noqa: F401
@@ -150,7 +150,7 @@ def require_rosbags() -> None:
 
 
 def _read(package: str, name: str, text: str, where: str) -> Definition:
-    """One part. rosbags resolves names beside ``msg`` alone, so that each part is read as a message."""
+    """Parse one part as a message: rosbags resolves names only next to ``msg``."""
     from rosbags.typesys.base import TypesysError
     from rosbags.typesys.msg import MSGParser
 

@@ -1,4 +1,4 @@
-"""All interfaces that are known for one robot."""
+"""All interface definitions for one robot."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ from fieldhand.execution.drivers.ros2.message_fields import steps_of
 from fieldhand.execution.drivers.ros2.transport import Message
 from fieldhand.robot.bindings import Distro
 
-#: Values that one message has before anything is put into its sequences: a text may ask for more than memory holds.
+#: Limit of values in a message with empty sequences: a definition could demand more than memory holds.
 _MOST_VALUES = 100_000
-#: Messages within messages.
+#: Limit of nesting.
 _DEEPEST = 20
 
 
 class Interfaces:
     """Messages, services and actions by name, for one release of ROS.
 
-    Names of messages are ``package/msg/Name``, or the parts of services and actions: ``package/srv/Name_Request``,
+    Message names are ``package/msg/Name``, or the parts of services and actions: ``package/srv/Name_Request``,
     ``package/action/Name_FeedbackMessage``.
 
     Args:
-        definitions: By name, with everything that they consist of.
+        definitions: Definitions by name, including all nested ones.
     """
 
     def __init__(self, definitions: Mapping[str, Definition]) -> None:
@@ -43,14 +43,14 @@ class Interfaces:
 
     @classmethod
     def of(cls, distro: Distro, own: Mapping[str, str] | None = None) -> Interfaces:
-        """Those of a release, and before them those that a profile brings along.
+        """Load the definitions of a release, overridden by those of a profile.
 
         Args:
             own: Texts of ``.msg``, ``.srv`` and ``.action`` files, by ``package/kind/Name``.
 
         Raises:
-            ProfileError: One of them cannot be read, or names a type that is not known.
-            InputError: What reads definitions is not installed.
+            ProfileError: A text cannot be parsed, or names an unknown type.
+            InputError: rosbags is not installed.
         """
         require_rosbags()
         brought: dict[str, Definition] = {}
@@ -66,18 +66,18 @@ class Interfaces:
         return store
 
     def names(self) -> tuple[str, ...]:
-        """All messages, in the order of the alphabet."""
+        """Return the names of all messages in alphabetical order."""
         return tuple(sorted(self._definitions))
 
     def knows(self, name: str) -> bool:
-        """Whether a message, a service or an action is known, or one of the services of an action."""
+        """Return True if a message, a service, an action, or a service of an action is known."""
         return any(f"{name}{ending}" in self._definitions for ending in ("", "_Request", "_Goal"))
 
     def definition(self, message: str) -> Definition:
-        """What a message consists of.
+        """Return the definition of a message.
 
         Raises:
-            Ros2Error: It is not known.
+            Ros2Error: The message is unknown.
         """
         if message not in self._definitions:
             short = message if "/msg/" in message else message.rpartition("_")[0].removesuffix("_SendGoal")
@@ -88,18 +88,18 @@ class Interfaces:
         return self._definitions[message]
 
     def fields(self, message: str) -> Mapping[str, FieldType]:
-        """The fields of a message in their order."""
+        """Return the fields of a message in order."""
         return self.definition(message).fields
 
     def constants(self, message: str) -> Mapping[str, object]:
-        """The constants of a message."""
+        """Return the constants of a message."""
         return self.definition(message).constants
 
     def field_at(self, message: str, path: str) -> FieldType:
-        """What stands at the end of a path.
+        """Return the type of the field at a path.
 
         Raises:
-            Ros2Error: The path does not lead anywhere in this message; what stands there instead is named.
+            Ros2Error: The path leads nowhere in this message; the error describes where it fails.
         """
         at, kind = message, FieldType(base=message)
         for step in steps_of(path):
@@ -123,22 +123,22 @@ class Interfaces:
         return kind
 
     def default(self, message: str) -> dict[str, object]:
-        """A message with every field at the default of its type."""
+        """Return a message with every field at its default."""
         return self.complete(message, {})
 
     def complete(self, message: str, given: Message) -> dict[str, object]:
-        """A message with all its fields, each of the right kind: what is sent.
+        """Return a message with all fields, validated, as it is sent.
 
         Raises:
-            Ros2Error: Something in it does not fit; the path of the field is named.
+            Ros2Error: A value does not fit; the path of its field is named.
         """
         return validation.complete(self.definition, message, given)
 
     def type_hash(self, message: str) -> str:
-        """``RIHS01_...`` of a message (REP 2016): from Iron on, endpoints say which definition they have.
+        """Return the hash ``RIHS01_...`` of a message (REP 2016); endpoints announce it from Iron on.
 
         Raises:
-            Ros2Error: It is not known.
+            Ros2Error: The message is unknown.
         """
         if message not in self._hashes:
             from rosbags.typesys.store import Typestore
@@ -149,7 +149,7 @@ class Interfaces:
         return self._hashes[message]
 
     def _within(self, message: str) -> tuple[Definition, ...]:
-        """A message and everything that it consists of."""
+        """Return the definitions of a message and of all messages nested in it."""
         found: dict[str, Definition] = {}
         wanted = [message]
         while wanted:
@@ -178,7 +178,7 @@ class Interfaces:
             raise ProfileError(str(error), where=f"ros2: interfaces: {message}") from error
 
     def _values(self, message: str, within: tuple[str, ...], known: dict[str, int]) -> int:
-        """How many values a message has before anything is put into its sequences."""
+        """Count the values of a message with empty sequences."""
         if message in within:
             raise ProfileError(f"{message} contains itself", where="ros2: interfaces")
         if message not in known:

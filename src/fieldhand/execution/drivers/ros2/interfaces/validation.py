@@ -1,4 +1,4 @@
-"""Messages held against their definition: every value has its kind and range, what is left out gets its default."""
+"""Validation of messages against their definitions: types, ranges, and defaults of omitted fields."""
 
 from __future__ import annotations
 
@@ -15,14 +15,15 @@ DefinitionOf = Callable[[str], Definition]
 
 
 def complete(definition_of: DefinitionOf, message: str, given: Mapping[str, object], at: str = "") -> dict[str, object]:
-    """A message with all its fields, in the order of its definition.
+    """Return a message with all its fields, in the order of its definition.
 
     Args:
-        given: What is not there gets its default. Lists stand for tuples, and whole numbers for floats.
-        at: Where it stands in the message around it.
+        given: Values of some fields; omitted ones get their default. Lists are accepted for tuples, integers for
+            floats.
+        at: Path of the message within the enclosing one.
 
     Raises:
-        Ros2Error: Something does not fit; its path is named.
+        Ros2Error: A value does not fit; its path is named.
     """
     definition = definition_of(message)
     for name in given:

@@ -1,13 +1,12 @@
-"""ROS 2 by its own client library: the transport for where a ROS 2 environment is sourced, with any middleware.
+"""ROS 2 through rclpy: the transport for machines with a sourced ROS environment, with any middleware.
 
-Nothing of it is imported anywhere else, and what is imported here is imported when a node is made: most machines have
-no ROS. No thread, no executor, no callback: an executor of rclpy waits until the middleware has something and takes it
-then, by ``take_message``, ``take_response`` and ``service_take_request``; here the same is taken when the driver looks.
-So nothing can starve, nothing waits for a lock of ours, and where a node of somebody else lives in the same process,
-its executor and ours cannot meet: the context is our own, too.
+Nothing outside this folder imports rclpy, and these modules are imported only when a node is created: most machines
+have no ROS. There are no threads, executors or callbacks: instead of an executor that waits for the middleware, the
+driver polls with the same functions (``take_message``, ``take_response``, ``service_take_request``). The context is
+separate, so a node of another program in the same process and its executor are unaffected.
 
-``message_types`` knows the interfaces that are sourced, and turns messages into mappings and back; ``qos`` translates,
-``topics`` and ``services`` are the endpoints, ``discovery`` is what the others have, ``transport`` puts them together.
+``message_types`` finds the sourced interfaces and converts messages, ``qos`` converts quality of service, ``topics``
+and ``services`` are the endpoints, ``discovery`` lists remote endpoints, ``transport`` combines them.
 """
 
 from __future__ import annotations
@@ -25,14 +24,14 @@ __all__ = ["open_rclpy"]
 
 
 def open_rclpy(domain: int | None = None) -> RclpyTransport:
-    """Join a ROS 2 graph with the ROS that is sourced.
+    """Join a ROS 2 graph with the sourced ROS.
 
     Args:
-        domain: Of ROS; None means ``ROS_DOMAIN_ID`` of the environment, else 0.
+        domain: ROS domain id; None for ``ROS_DOMAIN_ID`` of the environment, else 0.
 
     Raises:
-        InputError: The domain is none, no ROS 2 is sourced, or it is one for another Python.
-        Ros2Error: No node can be made.
+        InputError: The domain id is invalid, no ROS 2 is sourced, or it is built for another Python.
+        Ros2Error: No node can be created.
     """
     try:
         from fieldhand.execution.drivers.ros2.rclpy.transport import RclpyTransport

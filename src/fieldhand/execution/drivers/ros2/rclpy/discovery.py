@@ -1,4 +1,4 @@
-"""What other processes have on the graph, whether it fits us or not."""
+"""Endpoints of other processes on the graph, compatible or not."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from fieldhand.execution.drivers.ros2.dds.names import request_name, rmw_of, ros
 from fieldhand.execution.drivers.ros2.rclpy.qos import from_rclpy_qos, meets
 from fieldhand.execution.drivers.ros2.transport import Peer, QosProfile, Rmw
 
-#: The bytes of an endpoint's name that are its process (RTPS 9.3.1.2).
+#: Number of leading bytes of an endpoint's GID that identify its process (RTPS 9.3.1.2).
 _PARTICIPANT = 12
 
 _NAMED: tuple[Rmw, ...] = ("cyclonedds", "fastrtps", "connext", "zenoh")
 
 
 class RclpyDiscovery:
-    """Asks ROS's graph.
+    """Discovered endpoints, from the ROS graph.
 
     Args:
-        node: Ours; its own endpoints are not told.
+        node: Own node; its endpoints are excluded.
     """
 
     def __init__(self, node: Any) -> None:
@@ -30,23 +30,23 @@ class RclpyDiscovery:
         self._zenoh = self.rmw == "zenoh"
 
     def writers_of(self, topic: str) -> tuple[Peer, ...]:
-        """Everything that writes a topic."""
+        """Return all writers of a topic."""
         return tuple(self._peer(e) for e in self._node.get_publishers_info_by_topic(topic) if self._other(e))
 
     def matched(self, topic: str, type_name: str, reader: Any) -> int:
-        """How many write a topic with a type and a quality that a reader hears."""
+        """Return the number of writers that match a reader's type and quality of service."""
         writers = self._node.get_publishers_info_by_topic(topic)
         return sum(ros_type(w.topic_type) == type_name and meets(w.qos_profile, reader) for w in writers)
 
     def servers_of(self, service: str) -> tuple[Peer, ...]:
-        """Everything that answers a service: over DDS, who reads its requests; else, which nodes say so."""
+        """Return all servers of a service: over DDS the readers of its requests, otherwise the nodes that offer it."""
         if self._zenoh:
             return self._nodes_with(service)
         readers = self._node.get_subscriptions_info_by_topic(request_name(service), no_mangle=True)
         return tuple(self._peer(e) for e in readers if self._other(e))
 
     def _nodes_with(self, service: str) -> tuple[Peer, ...]:
-        """Where requests are no topics."""
+        """Return the servers by node, for middlewares whose requests are not topics."""
         own = self._node.get_name()
         return tuple(
             Peer(participant=f"{space.rstrip('/')}/{node}", rmw="zenoh", type=kind, qos=QosProfile())

@@ -1,5 +1,7 @@
-"""The interfaces that are sourced, and their messages as mappings: generated classes of ROS on one side, ours on the
-other. What is sent is held against the same definitions by the same checks as over DDS."""
+"""Sourced interfaces, and conversion between their generated classes and mappings.
+
+Messages are validated by the same definitions and checks as over DDS.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,7 @@ from fieldhand.execution.drivers.ros2.interfaces.definitions import INTERFACE_NA
 from fieldhand.execution.drivers.ros2.interfaces.validation import complete
 from fieldhand.execution.drivers.ros2.transport import Message
 
-#: The parts of services and actions, as the ends of their names.
+#: Parts of services and actions, as suffixes of their names.
 _PART = re.compile(r"(?P<whole>\w+?)_(?P<part>(?:(?:SendGoal|GetResult)_)?(?:Request|Response)|Goal|Result|Feedback)")
 _OF_ACTION = re.compile(r"(?P<whole>\w+?)_(?P<part>SendGoal|GetResult|FeedbackMessage)")
 _IMPLIED = {"SendGoal": "SendGoalService", "GetResult": "GetResultService", "FeedbackMessage": "FeedbackMessage"}
@@ -28,14 +30,14 @@ _BASICS = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "fl
 
 @cache
 def class_of(name: str) -> Any:
-    """What rclpy takes as the type of a topic or a service, and the message classes within.
+    """Return the generated class of a topic's or service's type, or of a message within it.
 
     Args:
         name: ``package/msg/Name``, ``package/srv/Name``, ``package/action/Name_SendGoal``, or a part of one, such as
             ``package/srv/Name_Request``.
 
     Raises:
-        Ros2Error: It is not sourced; what is missing is named.
+        Ros2Error: The interface is not sourced; the missing part is named.
     """
     outer, inner = _divided(name)
     _require_sourced(outer, name)
@@ -45,7 +47,7 @@ def class_of(name: str) -> Any:
         found.__class__.__import_type_support__()
         for step in inner:
             found = getattr(found, step)
-    except Exception as error:  # a package that was not built whole raises whatever it misses
+    except Exception as error:  # an incompletely built package may raise anything
         raise Ros2Error(
             f"the sourced ROS has {outer}, but it cannot be loaded ({error})",
             advice=f"build the package {package} anew",
@@ -54,25 +56,25 @@ def class_of(name: str) -> Any:
 
 
 def to_ros(message: str, given: Message) -> Any:
-    """A message as ROS sends it.
+    """Convert a mapping to a ROS message.
 
     Raises:
-        Ros2Error: It does not fit its type, which is the sourced one; the field is named.
+        Ros2Error: The message does not fit its sourced type; the field is named.
     """
     return _to_ros_message(message, complete(definition_of, message, given))
 
 
 def from_ros(message: str, sample: Any) -> dict[str, object]:
-    """A message that has arrived."""
+    """Convert a received ROS message to a mapping."""
     return {name: _from_ros_value(kind, getattr(sample, name)) for name, kind in definition_of(message).fields.items()}
 
 
 @cache
 def definition_of(message: str) -> Definition:
-    """What a message that is sourced consists of.
+    """Return the definition of a sourced message.
 
     Raises:
-        Ros2Error: It is not sourced, or has a field that is not read here.
+        Ros2Error: The message is not sourced, or has a field of an unsupported type.
     """
     made = class_of(message)
     fields = {
@@ -85,7 +87,7 @@ def definition_of(message: str) -> Definition:
 
 
 def _divided(name: str) -> tuple[str, tuple[str, ...]]:
-    """The interface that a type belongs to, and the way to it from there: rclpy nests the parts."""
+    """Return the interface of a type, and the attribute path to the type: rclpy nests the parts."""
     if not INTERFACE_NAME.fullmatch(name):
         raise Ros2Error(f"{name!r} is no type of ROS", advice="write package/msg/Name, package/srv/Name or action")
     package, kind, short = name.split("/")
@@ -100,7 +102,7 @@ def _divided(name: str) -> tuple[str, tuple[str, ...]]:
 
 
 def _require_sourced(interface: str, wanted: str) -> None:
-    """See whether a package is there, and has it, before anything of it is imported."""
+    """Raise an error unless the package is sourced and has the interface; nothing of it is imported before."""
     package, _, rest = interface.partition("/")
     try:
         has, _ = get_resource("rosidl_interfaces", package)
@@ -146,7 +148,7 @@ def _to_ros_message(message: str, whole: Mapping[str, Any]) -> Any:
 
 
 def _to_ros_value(kind: FieldType, value: Any) -> Any:
-    """A value as the generated classes take it."""
+    """Convert a value for the generated classes."""
     if kind.base == "byte":
         return bytes([value]) if kind.many == "one" else [bytes([v]) for v in value]
     if kind.octets:
@@ -157,7 +159,7 @@ def _to_ros_value(kind: FieldType, value: Any) -> Any:
 
 
 def _from_ros_value(kind: FieldType, value: Any) -> object:
-    """A value of the generated classes as it stands in a mapping."""
+    """Convert a value of the generated classes for a mapping."""
     if kind.base == "byte":
         return value[0] if kind.many == "one" else b"".join(value)
     if kind.octets:

@@ -1,4 +1,4 @@
-"""Quality of service in the words of rclpy, and back."""
+"""Conversion of quality of service to rclpy and back."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from fieldhand.execution.drivers.ros2.transport import QosProfile
 
 
 def to_rclpy_qos(qos: QosProfile) -> Any:
-    """What an endpoint offers or asks for."""
+    """Return the rclpy profile of an own endpoint."""
     return QoSProfile(
         history=HistoryPolicy.KEEP_LAST,
         depth=qos.depth,
@@ -27,7 +27,7 @@ def to_rclpy_qos(qos: QosProfile) -> Any:
 
 
 def from_rclpy_qos(profile: Any) -> QosProfile:
-    """What another endpoint offers or asks for; the depth is its own matter, and mostly not told."""
+    """Return the quality of service of a remote endpoint; its depth is rarely announced."""
     return QosProfile(
         reliable=profile.reliability == ReliabilityPolicy.RELIABLE,
         transient=profile.durability == DurabilityPolicy.TRANSIENT_LOCAL,
@@ -36,6 +36,6 @@ def from_rclpy_qos(profile: Any) -> QosProfile:
 
 
 def meets(writer: Any, reader: Any) -> bool:
-    """Whether what a writer offers is what a reader asks for."""
+    """Return True if a writer's offer satisfies a reader's request."""
     verdict, _ = qos_check_compatible(writer, reader)
     return bool(verdict != QoSCompatibility.ERROR)

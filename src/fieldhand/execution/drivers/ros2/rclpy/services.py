@@ -1,4 +1,4 @@
-"""Endpoints of services."""
+"""Service endpoints through rclpy."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from fieldhand.execution.drivers.ros2.transport import Message, QosProfile, serv
 
 RCLError = rclpy_implementation.RCLError
 
-#: Reliable, volatile, keep the last 10, as ROS has it.
+#: Reliable, volatile, depth 10, as in ROS.
 SERVICE_QOS = QosProfile()
 
 
 class RclpyClient:
-    """A :class:`~fieldhand.execution.drivers.ros2.transport.Client`.
+    """A :class:`~fieldhand.execution.drivers.ros2.transport.Client` through rclpy.
 
-    Requests go past rclpy's own futures, which would wait for an executor: the middleware numbers them, and replies
-    carry the number.
+    Requests bypass rclpy's futures, which would need an executor: the middleware numbers them, and replies carry the
+    number.
     """
 
     def __init__(self, node: Any, discovery: RclpyDiscovery, service: str, service_type: str, client: Any) -> None:
@@ -30,7 +30,7 @@ class RclpyClient:
         self.open = True
 
     def servers(self) -> int:
-        # Ready means that one can hear and be heard; some middlewares ask for the name alone.
+        # Ready should mean matched in both directions; some middlewares compare only the name.
         if not self.open or not self._client.service_is_ready():
             return 0
         own = self._discovery.rmw
@@ -56,7 +56,7 @@ class RclpyClient:
                     break
                 reply = message_types.from_ros(f"{self._type}_Response", response)
             except (RCLError, ValueError):
-                continue  # what does not fit its type is lost, as on any network
+                continue  # a message that does not fit its type is dropped
             taken.append((int(header.request_id.sequence_number), reply))
         return tuple(taken)
 
@@ -67,7 +67,7 @@ class RclpyClient:
 
 
 class RclpyServer:
-    """A :class:`~fieldhand.execution.drivers.ros2.transport.Server`."""
+    """A :class:`~fieldhand.execution.drivers.ros2.transport.Server` through rclpy."""
 
     def __init__(self, node: Any, service_type: str, service: Any) -> None:
         self._node, self._type, self._server = node, service_type, service
@@ -83,7 +83,7 @@ class RclpyServer:
                     break
                 taken.append((header, message_types.from_ros(f"{self._type}_Request", request)))
             except (RCLError, ValueError):
-                continue  # what does not fit its type is lost, as on any network
+                continue  # a message that does not fit its type is dropped
         return tuple(taken)
 
     def reply(self, to: object, response: Message) -> None:

@@ -1,4 +1,4 @@
-"""Endpoints of topics."""
+"""Topic endpoints through rclpy."""
 
 from __future__ import annotations
 
@@ -15,17 +15,13 @@ RCLError = rclpy_implementation.RCLError
 
 
 class RclpySubscription:
-    """A :class:`~fieldhand.execution.drivers.ros2.transport.Subscription`.
-
-    Args:
-        subscription: One of rclpy that gives the bytes, so that nothing large is taken apart.
-    """
+    """A :class:`~fieldhand.execution.drivers.ros2.transport.Subscription` through rclpy."""
 
     def __init__(self, node: Any, discovery: RclpyDiscovery, message: str, subscription: Any) -> None:
         self._node, self._discovery, self._message, self._subscription = node, discovery, message, subscription
         self._topic = subscription.topic_name
         self.open = True
-        #: Why the last message that could not be read could not, and how many there were.
+        #: Why the last undecodable message could not be decoded, and the number of such messages.
         self.unreadable = ""
         self.unread = 0
 
@@ -63,7 +59,7 @@ class RclpySubscription:
 
 
 class RclpyPublisher:
-    """A :class:`~fieldhand.execution.drivers.ros2.transport.Publisher`."""
+    """A :class:`~fieldhand.execution.drivers.ros2.transport.Publisher` through rclpy."""
 
     def __init__(self, node: Any, message: str, publisher: Any) -> None:
         self._node, self._message, self._publisher = node, message, publisher

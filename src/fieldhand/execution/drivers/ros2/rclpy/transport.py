@@ -1,4 +1,4 @@
-"""A node of a ROS 2 graph by rclpy."""
+"""A node of a ROS 2 graph through rclpy."""
 
 from __future__ import annotations
 
@@ -28,17 +28,17 @@ _End = TypeVar("_End", RclpySubscription, RclpyPublisher, RclpyClient, RclpyServ
 
 
 class RclpyTransport:
-    """A :class:`~fieldhand.execution.drivers.ros2.transport.Transport` of the ROS that is sourced.
+    """A :class:`~fieldhand.execution.drivers.ros2.transport.Transport` of the sourced ROS.
 
-    Its context is its own and hears no arguments of the process: a node of somebody else that lives here keeps its
-    name, its remappings and its signals.
+    Its context is separate and ignores the arguments of the process: another node in the same process keeps its name,
+    remappings and signal handlers.
 
     Args:
-        domain: Of ROS; None means ``ROS_DOMAIN_ID`` of the environment, else 0.
+        domain: ROS domain id; None for ``ROS_DOMAIN_ID`` of the environment, else 0.
 
     Raises:
-        InputError: The domain is none.
-        Ros2Error: No node can be made.
+        InputError: The domain id is invalid.
+        Ros2Error: No node can be created.
     """
 
     def __init__(self, domain: int | None = None) -> None:
@@ -48,7 +48,7 @@ class RclpyTransport:
         self._context = Context()
         try:
             self._context.init([], initialize_logging=False, domain_id=self.domain)
-            # Names tell our own endpoints from the others', so no two nodes may share one.
+            # Own endpoints are recognized by the node's name, so it must be unique.
             self._node = Node(
                 f"fieldhand_{secrets.token_hex(4)}",
                 context=self._context,
@@ -124,13 +124,13 @@ class RclpyTransport:
 
 @contextmanager
 def _in_words(name: str, type_name: str) -> Iterator[None]:
-    """What rclpy cannot make, said as over DDS."""
+    """Convert rclpy's errors to those of the DDS transport."""
     try:
         yield
     except (RCLError, NameValidationException, ValueError) as error:
-        why = str(error).partition(", at ")[0]  # what follows are lines of ROS's source
+        why = str(error).partition(", at ")[0]  # the rest is line numbers of ROS's source
         raise Ros2Error(f"{name} cannot be used as {type_name} ({why})") from error
 
 
 def _never(*_: object) -> None:
-    """For an executor, which there is not."""
+    """Callback that is never called: there is no executor."""

@@ -1,14 +1,15 @@
-"""A simulated ROS 2 robot without ROS: serves what a robot's profile binds, above any transport.
+"""A simulated ROS 2 robot without ROS: serves what a robot's profile binds, over any transport.
 
-    requests ──▶ navigation, captures ──▶ body ──▶ SimulatedDriver (site, world file, seed)
-                                            │
-    topics   ◀── senses, feeds ◀────────────┘
+    requests ──▶ navigation_server, capture_servers ──▶ robot_platform ──▶ SimulatedDriver (site, world file, seed)
+                                                              │
+    topics   ◀── telemetry_topics, sensor_topics ◀────────────┘
 
-- ``robot``: :class:`SimulatedRobot`, all of it; whoever has it calls ``step`` again and again.
-- ``action_server``: the server of a ROS action, from the request of a goal to its result.
-- ``navigation``: the action of Nav2 that the profile names; ``limit``: how fast it may drive.
-- ``captures``: the actions and services that the profile binds its actions to; ``feeds``: the topics.
-- ``senses``: battery, fix, odometry, emergency stop, ``/clock``.
-- ``platform``: the robot beneath, which does one thing at a time; ``ground``: which place is meant.
-- ``state``: the file by which it goes on where it stood; ``serving``: runs it in real time.
+- ``robot``: :class:`SimulatedRobot`, the whole robot; its owner calls ``step`` repeatedly.
+- ``action_server``: server of a ROS action, from goal request to result.
+- ``navigation_server``: the Nav2 action that the profile names; ``speed_limit``: its maximum speed.
+- ``capture_servers``: actions and services that the profile's actions are bound to; ``sensor_topics``: sensor topics.
+- ``telemetry_topics``: battery, fix, odometry, emergency stop.
+- ``robot_platform``: the simulated vehicle, one activity at a time; ``place_lookup``: the place that a request means.
+- ``field_values``: readings as message fields.
+- ``state_file``: file from which the robot continues after a restart; ``main_loop``: runs it in real time.
 """

@@ -1,4 +1,4 @@
-"""The server of a ROS 2 action: three services and two topics, as rclcpp's server has them."""
+"""Server of a ROS 2 action: three services and two topics, with the behavior of rclcpp's server."""
 
 from __future__ import annotations
 
@@ -10,28 +10,28 @@ from typing import Protocol
 from fieldhand.execution.drivers.ros2.goal_outcome import ABORTED, ACCEPTED, CANCELED, CANCELING, EXECUTING, SUCCEEDED
 from fieldhand.execution.drivers.ros2.transport import STATUS_QOS, Message, Transport
 
-#: ``action_msgs/srv/CancelGoal``: how a request to cancel was answered.
+#: Return codes of ``action_msgs/srv/CancelGoal``.
 NO_ERROR, UNKNOWN_GOAL, TERMINATED = 0, 2, 3
 
 _OVER = (SUCCEEDED, CANCELED, ABORTED)
-#: Goals that are over and still known: whoever asks late gets the result.
+#: Finished goals that are remembered, for clients that request the result late.
 _MOST_KEPT = 50
 _NO_ID = bytes(16)
 
 
 class GoalHandler(Protocol):
-    """Carries goals out."""
+    """Carries out the goals of an action server."""
 
     def rejection_reason(self, goal: Message) -> str | None:
-        """Why a goal is rejected; None where it is accepted."""
+        """Return why a goal is rejected; None to accept it."""
         ...
 
     def begin(self, goal: ServerGoal) -> None:
-        """Begin a goal that was accepted."""
+        """Start an accepted goal."""
         ...
 
     def cancel(self, goal: ServerGoal) -> None:
-        """End a goal that is cancelled: by :meth:`ServerGoal.cancelled`, now or later."""
+        """Cancel a goal; confirmed by :meth:`ServerGoal.cancelled`, now or later."""
         ...
 
 
@@ -40,9 +40,9 @@ class ServerGoal:
     """A goal of a server.
 
     Attributes:
-        id: Its 16 bytes.
-        asked: What was asked for.
-        since: When it was accepted, as ``builtin_interfaces/msg/Time``.
+        id: Goal id, 16 bytes.
+        asked: Goal message.
+        since: Time of acceptance, as ``builtin_interfaces/msg/Time``.
     """
 
     id: bytes
@@ -55,39 +55,39 @@ class ServerGoal:
 
     @property
     def over(self) -> bool:
-        """Whether it has come to its end."""
+        """True once the goal has ended."""
         return self.status in _OVER
 
     def feedback(self, message: Message) -> None:
-        """Say how far it is."""
+        """Publish feedback."""
         self.server.tell(self, message)
 
     def succeeded(self, result: Message) -> None:
-        """End it well."""
+        """End the goal as succeeded."""
         self.server.end(self, SUCCEEDED, result)
 
     def aborted(self, result: Message) -> None:
-        """End it because it could not be carried out."""
+        """End the goal as aborted."""
         self.server.end(self, ABORTED, result)
 
     def cancelled(self, result: Message) -> None:
-        """End it as was asked."""
+        """End the goal as cancelled."""
         self.server.end(self, CANCELED, result)
 
 
 class ActionServer:
-    """Serves an action.
+    """Server of an action.
 
     Args:
-        transport: Carries its messages.
-        name: Whole name.
+        transport: Transport of the robot's graph.
+        name: Full name of the action.
         type_name: ``package/action/Name``.
-        handler: Carries its goals out.
-        stamp: What time it is, as ``builtin_interfaces/msg/Time``.
-        refused: Told of each goal that was rejected, with why.
+        handler: Carries out the goals.
+        stamp: Returns the current time as ``builtin_interfaces/msg/Time``.
+        refused: Called with the reason of each rejected goal.
 
     Raises:
-        Ros2Error: The type is not known.
+        Ros2Error: The type is unknown.
     """
 
     def __init__(
@@ -109,7 +109,7 @@ class ActionServer:
         self._goals: OrderedDict[bytes, ServerGoal] = OrderedDict()
 
     def step(self) -> None:
-        """Answer what was asked meanwhile."""
+        """Answer the requests received since the last call."""
         for to, request in self._send.requests():
             self._accept(to, request)
         for to, request in self._cancel.requests():
@@ -124,11 +124,11 @@ class ActionServer:
                 goal.waiting.append(to)
 
     def tell(self, goal: ServerGoal, message: Message) -> None:
-        """Send feedback."""
+        """Publish feedback of a goal."""
         self._feedback.send({"goal_id": {"uuid": goal.id}, "feedback": message})
 
     def end(self, goal: ServerGoal, status: int, result: Message) -> None:
-        """A goal is over."""
+        """Record the end of a goal and send its result."""
         if goal.over:
             return
         goal.status, goal.result = status, result
@@ -155,7 +155,7 @@ class ActionServer:
         self._handler.begin(goal)
 
     def _cancelling(self, info: Message) -> Message:
-        """Cancel one goal, those accepted until a moment, or all: the rules of ``action_msgs/srv/CancelGoal``."""
+        """Cancel one goal, those accepted up to a time, or all, by the rules of ``action_msgs/srv/CancelGoal``."""
         identity, until = _id(info.get("goal_id")), _nanoseconds(info.get("stamp"))
         named = self._goals.get(identity)
         if identity != _NO_ID and named is None and not until:
@@ -195,7 +195,7 @@ def _part(message: Message, name: str) -> Message:
 
 
 def _id(value: object) -> bytes:
-    """The bytes of a ``unique_identifier_msgs/msg/UUID``."""
+    """Return the bytes of a ``unique_identifier_msgs/msg/UUID``."""
     uuid = value.get("uuid") if isinstance(value, Mapping) else None
     return uuid if isinstance(uuid, bytes) else bytes(uuid) if isinstance(uuid, tuple) else _NO_ID
 

@@ -1,4 +1,4 @@
-"""The actions and services of ROS that a profile binds its actions to: each makes a capture of the body."""
+"""Servers of the ROS actions and services that a profile binds its actions to; each makes a capture."""
 
 from __future__ import annotations
 
@@ -18,23 +18,23 @@ from fieldhand.robot.model import Action
 from fieldhand.site.model import Place
 
 Parameters = dict[str, str | float]
-#: Told of each capture: of which action, where, and how it ended.
+#: Called after each capture with the action, the place, and the result.
 CaptureCallback = Callable[[str, Place, Progress], None]
 
 
 class CaptureCall:
-    """What both kinds of calls have in common: which capture is meant, and what is answered.
+    """A call that makes a capture, served as an action or as a service.
 
     Args:
-        action: Of the profile.
-        call: What it is bound to.
-        interfaces: With the type of the call.
-        body: Makes the capture.
-        places: Which place is meant.
-        say: Told of each capture that is over.
+        action: Action of the profile.
+        call: Action or service that it is bound to.
+        interfaces: Definitions that include the type of the call.
+        platform: Makes the capture.
+        places: Finds the place of a request.
+        report: Called after each capture.
 
     Raises:
-        Ros2Error: A path of the binding leads nowhere in its type.
+        Ros2Error: A path of the binding does not exist in its type.
     """
 
     def __init__(
@@ -55,10 +55,10 @@ class CaptureCall:
             interfaces.field_at(self._answer, path)
 
     def begin(self, request: Message, over: Callable[[Message, bool], None]) -> None:
-        """Make the capture that a request asks for.
+        """Start the capture that a request asks for.
 
         Args:
-            over: Told what is to be answered, and whether it succeeded.
+            over: Called at the end with the reply, and True if the capture succeeded.
         """
         place = self._place(request)
 
@@ -69,7 +69,7 @@ class CaptureCall:
         self.platform.capture(self.action.name, place, self._parameters(request), done)
 
     def answer(self, progress: Progress) -> tuple[Message, bool]:
-        """What a capture came to, as the type of the call has it, and whether it succeeded."""
+        """Return the reply for the end of a capture, and True if it succeeded."""
         if progress.state != "succeeded":
             return self.failure(progress.what or progress.state), False
         values: dict[str, object] = {self.call.success: True} if self.call.success else {}
@@ -80,7 +80,7 @@ class CaptureCall:
         return message_of(values), True
 
     def failure(self, why: str) -> Message:
-        """An answer that says why not, as far as its type can."""
+        """Return a reply that reports a failure, as far as its type has fields for it."""
         said = ((self.call.success, False), (self.call.message, why))
         return message_of({path: value for path, value in said if path})
 
@@ -101,7 +101,7 @@ class CaptureCall:
 
 
 class CaptureActionHandler:
-    """Goal handler that serves a capture as a ROS action."""
+    """A :class:`GoalHandler` that serves a capture as a ROS action."""
 
     def __init__(self, capture_call: CaptureCall) -> None:
         self._call = capture_call
@@ -128,14 +128,16 @@ class CaptureActionHandler:
 
 
 class CaptureServiceServer:
-    """A capture as a service, answered when it is over. A failure that its type cannot say is not answered at all."""
+    """Serves a capture as a ROS service; replies when it ends. If the type cannot report failure, a failed call gets no
+    reply.
+    """
 
     def __init__(self, capture_call: CaptureCall, transport: Transport, name: str) -> None:
         self._call = capture_call
         self._server: Server = transport.serve(name, capture_call.call.type)
 
     def step(self) -> None:
-        """Take what was asked meanwhile."""
+        """Process the requests received since the last call."""
         for to, request in self._server.requests():
             activity = self._call.platform.activity
             if activity:
@@ -159,10 +161,10 @@ def capture_server(
     stamp: Callable[[], Mapping[str, int]],
     refused: Callable[[str], None],
 ) -> CaptureServer:
-    """Serve a call of a profile under its whole name.
+    """Create the server of a call under its full name.
 
     Raises:
-        Ros2Error: Its type is not known.
+        Ros2Error: The type is unknown.
     """
     if capture_call.call.kind == "service":
         return CaptureServiceServer(capture_call, transport, name)
@@ -171,6 +173,6 @@ def capture_server(
 
 
 def _text(request: Message, path: str | None) -> str:
-    """What stands at a path, as text; numbers as people write them."""
+    """Return the value at a path as text."""
     value = None if path is None else value_at(request, path)
     return "" if value is None else str(value)

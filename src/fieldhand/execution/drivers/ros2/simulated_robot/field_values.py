@@ -1,4 +1,4 @@
-"""Numbers put into messages: what the driver takes out by a profile's bindings, the other way round."""
+"""Readings written into message fields: the inverse of what the driver reads by a profile's bindings."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.transport import Message
 from fieldhand.robot.bindings import FieldBinding
 
-#: Larger than any whole number that a type of ROS holds is no reading.
+#: Larger magnitudes than any integer type of ROS are no reading.
 _MOST = 2.0**63
 
 
 def field_value(
     interfaces: Interfaces, type_name: str, binding: FieldBinding, reading: float | None
 ) -> bool | float | None:
-    """A reading as the field has it that a binding names.
+    """Return a reading as the value of a bound field.
 
     Args:
-        reading: In the unit of its quantity; None of a sensor that gave nothing, which is NaN.
+        reading: Value in the unit of its quantity; None if the sensor failed, sent as NaN.
 
     Returns:
-        None where the field cannot say it: there is no whole number that means nothing.
+        None if the field cannot represent it: integers have no NaN.
 
     Raises:
         Ros2Error: The path does not lead to a field of this type.
@@ -37,12 +37,12 @@ def field_value(
 
 
 def with_header(interfaces: Interfaces, type_name: str, message: Message, header: Message) -> Message:
-    """A message with its header, if its type has one."""
+    """Add a header to a message whose type has one."""
     head = interfaces.fields(type_name).get("header")
     return message if head is None or head.base != "std_msgs/msg/Header" else {**message, "header": header}
 
 
 def submessage(message: Message, name: str) -> Message:
-    """A message within a message; an empty one where there is none."""
+    """Return a nested message; empty if there is none."""
     part = message.get(name)
     return part if isinstance(part, Mapping) else {}

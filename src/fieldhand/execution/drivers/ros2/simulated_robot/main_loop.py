@@ -1,4 +1,4 @@
-"""A simulated robot in real time, or faster: stepped again and again, its state written beside."""
+"""Main loop of a simulated robot, in real time or faster."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from fieldhand.clock import ScaledClock
 from fieldhand.execution.drivers.ros2.simulated_robot.robot import SimulatedRobot
 from fieldhand.execution.drivers.simulation_state import SimulationState
 
-#: Seconds of the wall clock between two steps, and between two times that the state is written.
+#: Seconds of the wall clock between two steps, and between two writes of the state.
 _STEP_S, _SAVE_S = 0.005, 0.2
 
 
@@ -21,16 +21,16 @@ def run_robot(
     save: Callable[[SimulationState], None] = lambda _: None,
     steady: Callable[[], float] = time.monotonic,
 ) -> str:
-    """Let a robot live until it is told to end.
+    """Step a robot until it is told to end.
 
     Args:
-        clock: The robot's.
-        ended: Why it is to end, once it is.
-        save: Keeps what it needs to go on later.
-        steady: Seconds of the wall clock.
+        clock: Clock of the robot.
+        ended: Returns the reason to end; None to continue.
+        save: Stores the state from which the robot can continue.
+        steady: Monotonic clock in seconds.
 
     Returns:
-        Why it ended.
+        The reason why it ended.
     """
     saved_s = -_SAVE_S
     while (why := ended()) is None:

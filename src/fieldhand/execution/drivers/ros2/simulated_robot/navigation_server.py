@@ -1,4 +1,6 @@
-"""The action of Nav2 that a profile names, carried out by the body: what is rejected, pre-empted, aborted, and why."""
+"""The Nav2 action that a profile names, carried out by the simulated platform: rejection, pre-emption, abortion,
+results.
+"""
 
 from __future__ import annotations
 
@@ -17,29 +19,29 @@ from fieldhand.execution.drivers.ros2.transport import Message
 from fieldhand.robot.bindings import Datum, Ros2Bindings
 from fieldhand.site.model import Site
 
-#: Codes of Nav2's controller server, from Iron on: it made no progress; the robot's pose is not known; anything else.
+#: Error codes of Nav2's controller, from Iron on: no progress; pose unknown; other failures.
 _CODES: Mapping[GoalFault, int] = {"blocked": 105, "lost": 102}
 _OTHERWISE = 100
-#: Nav2's own of a goal outside of the map (planner server), and how far our map reaches, in metres.
+#: Error code of Nav2's planner for a goal outside the map, and the extent of the simulated map in metres.
 _OUTSIDE, _REACH_M = 204, 20_000.0
-#: Seconds between two messages of feedback; quaternions may differ so much from length 1; poses of one goal.
+#: Seconds between feedback messages; tolerance of a quaternion's length; limit of poses in a goal.
 _FEEDBACK_S, _OFF, _MOST_POSES = 0.1, 0.1, 10_000
-#: Metres from a leg at which the robot is on it.
+#: Distance in metres from a leg within which the robot is on it.
 _ON_M = 1e-3
 
 
 class NavigationServer:
-    """A :class:`~fieldhand.execution.drivers.ros2.simulated_robot.action_server.GoalHandler` that drives.
+    """A :class:`GoalHandler` that drives.
 
     Args:
-        bindings: Names the action and its frame.
-        interfaces: Of the robot's release: what its results can say.
-        body, site, places: What drives, and where.
-        datum: Where the map lies.
-        speed: How fast it may drive, in metres a second.
-        now: Seconds.
-        stamped: A header of a frame's name.
-        say: Told of each goal that is over: what it was and how it ended.
+        bindings: Name the action and its frame.
+        interfaces: Definitions of the robot's release, which determine the fields of results.
+        platform, site, places: What drives, and where.
+        datum: Origin of the map.
+        speed: Returns the speed limit in m/s.
+        now: Returns the time in seconds.
+        stamped: Returns a header for a frame name.
+        report: Called at the end of each goal with its result and progress.
     """
 
     def __init__(
@@ -76,7 +78,7 @@ class NavigationServer:
         return None
 
     def begin(self, goal: ServerGoal) -> None:
-        """Drive; as in Nav2 the goal in hand is aborted, and its drive ends where the robot is."""
+        """Start driving. As in Nav2, a running goal is aborted, and its drive ends where the robot is."""
         if self._goal is not None:
             before, self._goal = self._goal, None
             self._report("pre-empted", self._platform.stop_now())
@@ -98,17 +100,17 @@ class NavigationServer:
         goal.cancelled({})
 
     def step(self) -> None:
-        """Say how far the goal in hand is."""
+        """Publish feedback on the current goal."""
         now = self._now()
         if self._goal is not None and now - self._told_s >= _FEEDBACK_S:
             self._told_s = now
             self._goal.feedback(self._feedback(self._goal, now))
 
     def _corners(self, goal: Message) -> tuple[Point, ...]:
-        """Where a goal leads, in local metres.
+        """Return the corners of a goal in local metres.
 
         Raises:
-            Ros2Error: It is malformed.
+            Ros2Error: The goal is malformed.
         """
         if "gps_poses" in goal:
             if goal.get("number_of_loops"):
@@ -116,7 +118,7 @@ class NavigationServer:
             degrees = [_geographic(pose) for pose in _listed(goal["gps_poses"])[_first(goal) :]]
         else:
             asked: object = goal.get("poses", (goal.get("pose"),))
-            # From Kilted on the poses have a header of their own around them.
+            # From Kilted on, the poses are wrapped in a message with its own header.
             asked = asked.get("goals") if isinstance(asked, Mapping) else asked
             degrees = [self._in_map(pose) for pose in _listed(asked)]
         if not degrees:
@@ -149,7 +151,9 @@ class NavigationServer:
             goal.aborted(self._failure(goal.asked, progress, code))
 
     def _failure(self, asked: Message, progress: Progress, code: int) -> Message:
-        """What the result can say of why it failed: nothing in Humble, a code from Iron on, words from Kilted on."""
+        """Return a result that describes a failure: empty in Humble, with a code from Iron on, with a text from Kilted
+        on.
+        """
         fields = self._interfaces.fields(self._result)
         words = progress.what or progress.state
         result: dict[str, object] = {"error_msg": words} if "error_msg" in fields else {}
@@ -189,7 +193,7 @@ class NavigationServer:
         return feedback
 
     def _index_ahead(self) -> int:
-        """Which corner comes next: the end of the leg that the robot is on."""
+        """Return the index of the next corner: the end of the leg that the robot is on."""
         at = self._platform.position
         on = (n for n, leg in enumerate(self._legs) if n >= self._leg and _away((at.x, at.y), *leg) < _ON_M)
         self._leg = next(on, self._leg)
@@ -197,7 +201,7 @@ class NavigationServer:
 
 
 def _away(point: Point, a: Point, b: Point) -> float:
-    """Metres from a point to a leg."""
+    """Return the distance in metres from a point to a leg."""
     length = math.dist(a, b)
     if length == 0:
         return math.dist(point, a)
@@ -207,7 +211,7 @@ def _away(point: Point, a: Point, b: Point) -> float:
 
 
 def _first(goal: Message) -> int:
-    """From which of its waypoints on a goal is meant."""
+    """Return the index of the first waypoint of a goal."""
     first = goal.get("goal_index", 0)
     return first if isinstance(first, int) else 0
 
@@ -221,7 +225,7 @@ def _geographic(pose: object) -> tuple[float, float]:
 
 
 def _upright(orientation: Message) -> None:
-    """A quaternion has length 1; all zeros, what is left of a message that nobody filled, is none."""
+    """Raise an error unless the quaternion has length 1; one that was never filled in is all zeros."""
     length = math.hypot(*_numbers(orientation, "x", "y", "z", "w"))
     if not abs(length - 1.0) <= _OFF:
         raise Ros2Error(f"the orientation is no quaternion: its length is {length:g}")

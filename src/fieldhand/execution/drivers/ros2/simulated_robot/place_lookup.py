@@ -1,4 +1,4 @@
-"""Which place of the site is meant."""
+"""Lookup of the place of the site that a request means."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ Point = tuple[float, float]
 
 
 class PlaceLookup:
-    """Which place of a site is meant.
+    """Finds places of a site by name or position.
 
     Args:
-        site: Whose.
-        robot: Stands beside the tree that it works on.
+        site: Site of the robot.
+        robot: Profile with the stand-off distance from trees.
     """
 
     def __init__(self, site: Site, robot: RobotProfile) -> None:
@@ -25,12 +25,12 @@ class PlaceLookup:
         self._near_m = max(1.5 * robot.standoff_m, site.spacing_m)
 
     def named(self, identity: str, kind: str, here: Point) -> Place:
-        """The place that a request names; a name without a kind may be a tree's or a marker's.
+        """Return the place that a request names; without a kind, the name may be a tree's or a marker's.
 
         Args:
-            identity: Its name; empty means the nearest.
-            kind: ``tree``, ``marker`` or ``point``; empty where the request has none.
-            here: Where the robot stands: a point has no other position, nor has what the site does not know.
+            identity: Name of the place; empty for the nearest.
+            kind: ``tree``, ``marker`` or ``point``; empty if the request has none.
+            here: Position of the robot, used for points and unknown names.
         """
         if not identity:
             return self.nearest(here)
@@ -43,7 +43,7 @@ class PlaceLookup:
         return self._point(identity, here)
 
     def nearest(self, xy: Point) -> Place:
-        """What the robot would work on there: the nearest tree or marker, or the point itself far from any."""
+        """Return the nearest tree or marker within reach, otherwise the point itself."""
         away = np.hypot(*(self._xy - np.array(xy)).T)
         nearest = int(np.argmin(away))
         return self._places[nearest] if away[nearest] <= self._near_m else self._point("here", xy)

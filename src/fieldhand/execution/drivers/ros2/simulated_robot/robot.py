@@ -1,4 +1,4 @@
-"""The simulated robot as ROS 2 sees it."""
+"""The simulated robot as a ROS 2 node."""
 
 from __future__ import annotations
 
@@ -32,26 +32,26 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 
 _CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
-#: Simulators send the time to whoever listens, and never twice.
+#: Simulators publish the time best effort, newest message only.
 _CLOCK_QUALITY = QosProfile(reliable=False, depth=1)
-#: Seconds that a robot stands before its sensors measure, at the least; and how much of a second of the wall clock:
-#: between two goals of one drive it stands for as long as its client needs.
+#: Minimum time in seconds that a robot stands before its sensors measure, in seconds of its clock and of the wall
+#: clock. Between two goals of one drive it stands only while its client reacts.
 _SETTLED_S, _SETTLED_WALL_S = 0.5, 0.25
 
 
 @dataclass(frozen=True, kw_only=True)
 class GoalReport:
-    """What the robot says of a goal that is over, or was rejected.
+    """Report on a finished or rejected goal.
 
     Attributes:
-        seconds: Since the robot was first made.
-        name: Whole name of what was asked, by ROS.
+        seconds: Time since the robot was first created.
+        name: Full ROS name of the action or service.
         end: ``succeeded``, ``failed``, ``cancelled``, ``pre-empted`` or ``rejected``.
-        why: It failed or was rejected; empty where it was not.
-        place: The nearest tree or marker, or the one that was named; degrees far from any.
-        metres, took_s: Of the goal.
-        readings: In the units of the profile.
-        charge_percent: Of the battery, then.
+        why: Reason of a failure or rejection; otherwise empty.
+        place: The nearest tree or marker, or the one that was named; degrees if far from any.
+        metres, took_s: Distance and duration of the goal.
+        readings: Readings in the units of the profile.
+        charge_percent: Battery charge at the end of the goal.
     """
 
     seconds: float
@@ -66,12 +66,13 @@ class GoalReport:
 
 
 class _StepClock:
-    """A clock that stands still between two calls of :meth:`tick`.
+    """A clock that advances only in :meth:`tick`.
 
-    All that the robot sends in one step then belongs to one moment, however long its process waits within the step.
+    Everything that the robot sends in one step then has the same time, however long its process is delayed within the
+    step.
 
     Attributes:
-        wall_s: The time of day of that moment.
+        wall_s: Time of day at the last tick.
     """
 
     def __init__(self, clock: Clock, wall: Callable[[], float]) -> None:
@@ -86,33 +87,33 @@ class _StepClock:
         self.tick()
 
     def tick(self) -> None:
-        """Take the time of the clock beneath."""
+        """Read the underlying clock."""
         self._now, self.wall_s = self._clock.now(), self._wall()
 
 
 class SimulatedRobot:
-    """A robot that stands on a site and answers by ROS 2 what its profile binds.
+    """A robot on a site that serves over ROS 2 what its profile binds.
 
-    Everything happens in :meth:`step`: nothing waits, and no thread is begun.
+    All work happens in :meth:`step`: nothing blocks, and no thread is started.
 
     Args:
-        site, profile: What is simulated; the profile says how it is reached.
-        world: What its sensors read, and what goes wrong with it.
+        site, profile: Site and robot to simulate; the profile must have a ROS 2 part.
+        world: Readings of its sensors, and faults.
         transport: Its node.
-        interfaces: Types of the profile's release, with its own.
-        clock: In whose seconds it drives.
-        seed: Of every random thing.
-        sim_time: Say the time on ``/clock``, and stamp messages by it; otherwise they have the time of day.
-        speed: Seconds of the clock in one of the wall clock, where it passes by itself.
-        say: Told of each goal.
-        memory: Of the robot that it goes on as; None for one at the start of the site.
-        wall: The time of day.
+        interfaces: Definitions of the profile's release and its own.
+        clock: Clock by which it drives.
+        seed: Random seed.
+        sim_time: True to publish ``/clock`` and stamp messages with it; False for the time of day.
+        speed: Seconds of the clock per second of the wall clock, if it runs by itself.
+        report: Called after each goal.
+        state: State to continue from; None to begin at the start of the site.
+        wall: Returns the time of day.
 
     Raises:
-        InputError: The profile does not say how the robot is reached.
+        InputError: The profile has no ROS 2 part.
         WorldError: The world does not fit the site or the robot.
-        Ros2Error: A type is not known, or a path leads nowhere in its type.
-        ValueError: The memory is of no such robot.
+        Ros2Error: A type is unknown, or a path does not exist in its type.
+        ValueError: The state does not belong to such a robot.
     """
 
     def __init__(
@@ -173,16 +174,16 @@ class SimulatedRobot:
 
     @property
     def seconds(self) -> float:
-        """Since the robot was first made, without the time between its end and its next beginning."""
+        """Running time since the robot was first created, without interruptions."""
         return self._clock.now() - self._begun_s
 
     def state(self) -> SimulationState:
-        """By which it goes on later from where it stands now."""
+        """Return the state from which it can continue later."""
         self._clock.tick()
         return self.platform.state()
 
     def step(self) -> None:
-        """Do what is due now: answer, drive on, say how it is."""
+        """Do what is due now: answer requests, drive, publish."""
         self._clock.tick()
         now = self._clock.now()
         if self._time is not None:
@@ -203,7 +204,7 @@ class SimulatedRobot:
         self._telemetry.step(now)
 
     def close(self) -> None:
-        """Leave the graph."""
+        """Leave the ROS graph."""
         self._transport.close()
 
     def _navigation(
@@ -259,7 +260,7 @@ class SimulatedRobot:
         return self._places.nearest((at.x, at.y))
 
     def _locate(self, to: object, request: Message) -> None:
-        """Degrees to the map frame, as robot_localization's ``fromLL``."""
+        """Answer ``fromLL`` like robot_localization: convert degrees to the map frame."""
         assert self._from_ll is not None  # noqa: S101  asked for by who serves it
         point = submessage(request, "ll_point")
         lat, lon = (float(v) if isinstance(v, float) else math.nan for v in map(point.get, ("latitude", "longitude")))
@@ -279,10 +280,10 @@ def _called(place: Place) -> str:
 
 
 def bindings_of(profile: RobotProfile) -> Ros2Bindings:
-    """How a robot is reached.
+    """Return the ROS 2 bindings of a profile.
 
     Raises:
-        InputError: Its profile does not say it.
+        InputError: The profile has none.
     """
     if profile.ros2 is None:
         raise InputError(

@@ -1,4 +1,4 @@
-"""The robot beneath the servers: it does one thing at a time, and says when that is over."""
+"""The simulated vehicle below the servers: one drive or capture at a time."""
 
 from __future__ import annotations
 
@@ -14,22 +14,23 @@ from fieldhand.site.model import Place, Site
 Point = tuple[float, float]
 Over = Callable[[Progress], None]
 
-#: Metres: a shorter step has no direction.
+#: Length in metres below which a step has no direction.
 _STILL_M = 1e-6
 
 
 class SimulatedPlatform:
-    """A simulated robot that drives and makes captures.
+    """A simulated vehicle that drives and makes captures.
 
     Attributes:
-        metres: By its odometer, since it was made.
-        odometry: Where it would stand by odometer and heading alone, east and north of where it was made, in metres. A
-            drive costs more or less than its length, and that is what wheels count.
-        heading_deg: Clockwise from north.
+        metres: Odometer in metres since construction.
+        odometry: Dead-reckoned position from odometer and heading, east and north of the initial position, in metres.
+            The
+            cost of a drive deviates from its length, and the odometer counts the cost.
+        heading_deg: Heading in degrees clockwise from north.
 
     Args:
-        driver: Simulates it.
-        site: Where it stands.
+        driver: Simulates drives and captures.
+        site: Site of the robot.
     """
 
     def __init__(self, driver: SimulatedDriver, site: Site) -> None:
@@ -44,51 +45,51 @@ class SimulatedPlatform:
 
     @property
     def activity(self) -> str:
-        """What it is at, in words; empty if at nothing."""
+        """Current activity, in words; empty if idle."""
         return self._activity
 
     @property
     def position(self) -> Position:
-        """Where it is."""
+        """Current position."""
         return self._driver.position()
 
     @property
     def charge_percent(self) -> float:
-        """Of the battery."""
+        """Battery charge in percent."""
         return self._driver.charge_percent()
 
     @property
     def lost(self) -> str | None:
-        """Why it does not know where it is."""
+        """Reason why its position is unknown; None if it is known."""
         return self._driver.lost()
 
     @property
     def stopped(self) -> str | None:
-        """Why it will not move again."""
+        """Reason why it will not move again; None if it will."""
         return self._driver.stopped()
 
     @property
     def speed_m_s(self) -> float:
-        """At which it moves now."""
+        """Current speed in m/s."""
         return self._speed if self.driving else 0.0
 
     @property
     def driving(self) -> bool:
-        """Whether it is under way."""
+        """True while it drives."""
         return self._activity == "driving"
 
     def state(self) -> SimulationState:
-        """By which it goes on later."""
+        """Return the state from which it can continue later."""
         return self._driver.state()
 
     def drive(self, through: tuple[Point, ...], place: Place, speed_m_s: float, over: Over) -> None:
-        """Drive from where it stands along corners in local metres; it may do nothing else.
+        """Start a drive along corners in local metres; the platform must be idle.
 
         Args:
-            through: At least one.
-            place: Where they lead.
-            speed_m_s: Not faster than this.
-            over: Told once when it is over, but not where it is broken off.
+            through: Corners, at least one.
+            place: Destination.
+            speed_m_s: Speed limit.
+            over: Called once at the end, unless the drive is stopped.
         """
         here = self._driver.position()
         path = ((here.x, here.y), *through)
@@ -106,16 +107,16 @@ class SimulatedPlatform:
         self._begin("driving", over)
 
     def capture(self, action: str, place: Place, parameters: Mapping[str, str | float], over: Over) -> None:
-        """Make a capture; it may do nothing else."""
+        """Start a capture; the platform must be idle."""
         self._driver.start_action(ActionGoal(action=action, place=place, parameters=parameters))
         self._begin(f"at {action}", over)
 
     def sense(self, action: str, place: Place) -> Mapping[str, float]:
-        """What the sensors of an action give without being asked for a capture; a failure gives nothing."""
+        """Return the readings of an action's sensors without a capture; a failure gives none."""
         return self._driver.sense(action, place)
 
     def stop_now(self) -> Progress:
-        """End what it does at once; whoever was to be told when it is over is not."""
+        """End the activity at once, without calling its callback."""
         self._watch(self._driver.poll())
         self._driver.cancel()
         progress = self._driver.poll()
@@ -124,7 +125,7 @@ class SimulatedPlatform:
         return progress
 
     def step(self) -> None:
-        """See how far it is."""
+        """Process the progress of the activity."""
         progress = self._driver.poll()
         self._watch(progress)
         if self._activity and progress.over:
@@ -135,7 +136,7 @@ class SimulatedPlatform:
         self._activity, self._over, self._counted = activity, over, 0.0
 
     def _watch(self, progress: Progress) -> None:
-        """Count metres, and turn to where it goes."""
+        """Update odometer and heading."""
         if not self.driving:
             return
         here = self._driver.position()
@@ -151,9 +152,9 @@ class SimulatedPlatform:
 
 
 def length_m(path: tuple[Point, ...]) -> float:
-    """Of a path, in metres."""
+    """Return the length of a path in metres."""
     return sum(math.dist(a, b) for a, b in pairwise(path))
 
 
 def _nobody(_: Progress) -> None:
-    """Nobody waits for it."""
+    """Ignore the end of an activity."""

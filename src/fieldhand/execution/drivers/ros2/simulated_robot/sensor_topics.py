@@ -1,8 +1,8 @@
-"""The topics that a profile reads quantities from.
+"""Topics from which a profile reads quantities.
 
-A sensor that is only listened to measures while the robot stands: once when it comes to a place, and says that again
-and again until the robot moves. One that a call goes before says what the capture of that call has measured. A fault of
-the world that silences one holds for longer than anyone waits, so that a capture fails by it, and the next may not.
+A sensor without a call measures once whenever the robot has stopped, and repeats that value until the robot moves. A
+sensor with a call publishes what the capture of that call has measured. A simulated fault that silences a sensor lasts
+longer than any client waits, so exactly one capture fails by it.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from fieldhand.execution.drivers.ros2.simulated_robot.field_values import field_
 from fieldhand.execution.drivers.ros2.transport import Message, Publisher, QosProfile, Transport
 from fieldhand.robot.bindings import NextMessage, Ros2Bindings
 
-#: Seconds between two messages; how many times as long as one waits for a message a silent sensor is silent.
+#: Seconds between two messages; duration of a sensor's silence as a multiple of the client's time limit.
 _PERIOD_S, _LONGER = 0.5, 1.5
 
 
 @dataclass
 class _SensorTopic:
-    """A topic with the quantities that stand in its messages."""
+    """A topic with the quantities in its messages."""
 
     type: str
     publisher: Publisher
@@ -32,16 +32,17 @@ class _SensorTopic:
 
 
 class SensorTopics:
-    """Publishes them.
+    """Publishes the topics.
 
     Args:
-        transport, interfaces: By what they are sent.
-        bindings: Which topics there are.
-        measure: What the sensors of an action give where the robot stands; a failure gives nothing.
-        header: Of a message that is sent now.
+        transport, interfaces: Transport and definitions for the messages.
+        bindings: ROS 2 bindings of the robot.
+        taken: Names of the topics that carry telemetry.
+        measure: Returns the readings of an action's sensors at the robot's position; a failure gives none.
+        header: Returns a header with the current time.
 
     Raises:
-        Ros2Error: A type is not known, lacks the field, or a topic has two types.
+        Ros2Error: A type is unknown or lacks the field, or a topic is bound with two types.
     """
 
     def __init__(
@@ -80,12 +81,11 @@ class SensorTopics:
 
     @property
     def shortest_wait_s(self) -> float:
-        """The shortest time that anyone waits for a message; endless where nobody does."""
+        """Shortest time limit of any client, in seconds; infinite if there is none."""
         return min((m.within_s for feed in self._sensors.values() for m in feed.values.values()), default=float("inf"))
 
     def captured(self, action: str, readings: Mapping[str, float], now: float) -> None:
-        """A capture by a call is over: what it measured is said from now on. Whoever listens to a sensor that is silent
-        begins to wait for it only now."""
+        """Publish the readings of a finished capture from now on. Clients of a silent sensor start waiting only now."""
         for heard in self._silent_s:
             self._silent_s[heard] = now + self._longer(heard)
         for quantity in self._bindings.actions[action].topics:
@@ -94,10 +94,10 @@ class SensorTopics:
                 self._readings[quantity] = readings[quantity]
 
     def step(self, now: float, standing: bool) -> None:
-        """Measure and send what is due.
+        """Measure and publish what is due.
 
         Args:
-            standing: Whether the robot stands where it may be working.
+            standing: True while the robot stands still.
         """
         if not standing:
             self._readings.clear()
@@ -112,7 +112,7 @@ class SensorTopics:
                 self._send(feed, now)
 
     def _wanted(self, action: str) -> bool:
-        """Whether anyone listens: before, nothing is drawn and no fault is used up."""
+        """Return True if a topic of the action has subscribers; before, nothing is measured and no fault is used up."""
         topics = (self._bindings.whole_name(m.topic) for m in self._bindings.actions[action].topics.values())
         return any(self._sensors[topic].publisher.subscribers() for topic in topics)
 
@@ -128,7 +128,7 @@ class SensorTopics:
             self._silent_s[action] = now + self._longer(action)
 
     def _longer(self, action: str) -> float:
-        """Longer than anyone waits for its messages, in seconds."""
+        """Return a duration in seconds that is longer than any client waits for the action's messages."""
         return _LONGER * max(message.within_s for message in self._bindings.actions[action].topics.values())
 
     def _send(self, feed: _SensorTopic, now: float) -> None:

@@ -1,4 +1,4 @@
-"""The speed limit of Nav2's controller, by the topic that a profile names."""
+"""Speed limit, received like Nav2's controller does."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ _TYPE = "nav2_msgs/msg/SpeedLimit"
 
 
 class SpeedLimit:
-    """How fast the robot may drive.
+    """Maximum speed of the robot.
 
     Args:
-        transport: By what it is told.
-        bindings: On which topic; none where the profile names none.
-        own_m_s: The robot's own speed, which no limit is above.
+        transport: Transport of the robot's graph.
+        bindings: ROS 2 bindings; they may name no speed limit topic.
+        own_m_s: Speed of the robot in m/s, the upper bound.
 
     Raises:
-        Ros2Error: The type is not known.
+        Ros2Error: The type is unknown.
     """
 
     def __init__(self, transport: Transport, bindings: Ros2Bindings, own_m_s: float) -> None:
@@ -26,7 +26,7 @@ class SpeedLimit:
         self._told = transport.subscribe(bindings.whole_name(topic), _TYPE, QosProfile()) if topic else None
 
     def m_s(self) -> float:
-        """What holds now: the last that was said. 0 means none, as in Nav2."""
+        """Return the last limit received, in m/s. As in Nav2, 0 removes the limit."""
         for message in self._told.take() if self._told is not None else ():
             self._limit_m_s = min(self._own_m_s, self._said(message) or self._own_m_s)
         return self._limit_m_s

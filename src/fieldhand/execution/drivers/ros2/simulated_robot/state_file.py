@@ -1,4 +1,4 @@
-"""The file by which a simulated robot goes on where it stood when it was ended, or killed."""
+"""File from which a simulated robot continues after it was ended or killed."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from fieldhand.errors import InputError, OutputError
 from fieldhand.execution.drivers.simulation_state import SimulationState
 from fieldhand.files import FileFault, read_file, write_whole
 
-#: A robot that has been at every tree of a large site with every sensor remembers less.
+#: Size limit in bytes; the state of a robot that used every sensor at every tree of a large site is smaller.
 _MOST_BYTES = 50_000_000
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -22,10 +22,11 @@ Count = Annotated[int, Field(ge=0)]
 
 @dataclass(frozen=True, kw_only=True)
 class Identity:
-    """Of which robot a state is: SHA-256 of the content of its site, of its profile, and of its world's file.
+    """Identity of the robot that a state belongs to: SHA-256 of its site's content, of its profile, and of its world
+    file.
 
     Attributes:
-        world: Empty for a world without surprises.
+        world: Empty for a world without faults.
     """
 
     site: str
@@ -34,7 +35,7 @@ class Identity:
 
 
 class _Document(BaseModel):
-    """The file's keys."""
+    """Document model of the file."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -54,13 +55,13 @@ class _Document(BaseModel):
 
 
 def write_state(path: Path, state: SimulationState, identity: Identity) -> None:
-    """Write it, whole or not at all.
+    """Write the state atomically.
 
     Raises:
-        OutputError: It cannot be written.
+        OutputError: The file cannot be written.
     """
     values = asdict(state) | asdict(identity)
-    # Who is lost for ever is lost until no number that JSON has.
+    # JSON has no infinity: null stands for a position that is lost for good.
     values["lost"] = [(None if math.isinf(until_s) else until_s, what) for until_s, what in state.lost]
     data = _Document(format=1, **values).model_dump_json().encode()
     try:
@@ -74,10 +75,10 @@ def write_state(path: Path, state: SimulationState, identity: Identity) -> None:
 
 
 def read_state(path: Path, identity: Identity) -> SimulationState | None:
-    """What stands in it; None where there is no such file.
+    """Read the state; return None if the file does not exist.
 
     Raises:
-        InputError: It cannot be read, is none, or of another robot.
+        InputError: The file cannot be read, is malformed, or belongs to another robot.
     """
     advice = "remove it, and the robot begins at the site's start"
     try:

@@ -1,4 +1,4 @@
-"""What the robot says of itself without being asked: battery, fix, odometry, emergency stop, and the time."""
+"""Telemetry topics of the simulated robot: battery, fix, odometry, emergency stop."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from fieldhand.execution.drivers.ros2.simulated_robot.robot_platform import Simu
 from fieldhand.execution.drivers.ros2.transport import Message, Publisher, QosProfile, Transport
 from fieldhand.robot.bindings import Ros2Bindings, TopicBinding
 
-#: Seconds between two messages.
+#: Seconds between two messages of each topic.
 _FIX_S, _ODOMETRY_S, _BATTERY_S, _STOP_S = 0.1, 0.05, 1.0, 0.5
-#: A receiver with corrections, and one that hears nothing (``sensor_msgs/msg/NavSatStatus``); standard deviation in
-#: metres of the first, east, north and up.
+#: Status of a receiver with corrections and of one without a fix (``sensor_msgs/msg/NavSatStatus``); standard deviation
+#: of the former in metres east, north and up.
 _CORRECTED, _NO_FIX = 2, -1
 _SIGMA_M = (0.01, 0.01, 0.02)
 _UNKNOWN, _DIAGONAL = 0, 2
@@ -26,10 +26,10 @@ _DISCHARGING = 2
 
 @dataclass
 class _Sent:
-    """A topic and when it was sent last.
+    """A topic and the time of its last message.
 
     Attributes:
-        kept: For who comes late; any other is not sent while nobody hears it.
+        kept: True for transient local topics, which are sent even without subscribers.
     """
 
     publisher: Publisher
@@ -40,16 +40,16 @@ class _Sent:
 
 
 class TelemetryTopics:
-    """Publishes them.
+    """Publishes the telemetry.
 
     Args:
-        transport, interfaces: By what they are sent.
-        bindings: On which topics.
-        body: Of whom.
-        stamped: A header of a frame's name.
+        transport, interfaces: Transport and definitions for the messages.
+        bindings: ROS 2 bindings of the robot.
+        platform: Source of the values.
+        stamped: Returns a header for a frame name.
 
     Raises:
-        Ros2Error: A type is not known, or lacks the field that is bound.
+        Ros2Error: A type is unknown, or lacks the bound field.
     """
 
     def __init__(
@@ -81,13 +81,13 @@ class TelemetryTopics:
 
     @staticmethod
     def topics(bindings: Ros2Bindings) -> frozenset[str]:
-        """Whole names of what is sent here."""
+        """Return the full names of the telemetry topics."""
         stop = None if bindings.stop is None else bindings.stop.topic
         bound = (bindings.position.fix, bindings.battery.topic, bindings.odometry, stop)
         return frozenset(bindings.whole_name(topic.topic) for topic in bound if topic is not None)
 
     def step(self, now: float) -> None:
-        """Send what is due."""
+        """Publish what is due."""
         for topic in self._topics:
             if now - topic.sent_s >= topic.every_s:
                 topic.sent_s = now
