@@ -91,7 +91,7 @@ def test_a_request_begins_with_whose_it_is_and_its_number() -> None:
     name = "odd_msgs/srv/Ask_Request"
     sent = CODEC.encode(name, {"big": 2**64 - 1}, Header(2**64 - 2, 7)).serialize()
     assert sent[4:20] == (2**64 - 2).to_bytes(8, "little") + (7).to_bytes(8, "little")
-    back = CODEC.type_of(name, headed=True).deserialize(sent)
+    back = CODEC.type_of(name, with_header=True).deserialize(sent)
     assert (back.guid, back.seq) == (2**64 - 2, 7)
     assert CODEC.decode(name, back)["big"] == 2**64 - 1
     assert len(CODEC.encode("odd_msgs/srv/Ask_Response", {}, Header(1, 1)).serialize()) == 4 + 16 + 1
