@@ -1,1 +1,1 @@
-"""Fieldhand inside ROS 2."""
+"""Fieldhand as a ROS 2 node."""

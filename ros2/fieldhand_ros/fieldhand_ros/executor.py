@@ -1,13 +1,13 @@
-"""A lifecycle node that takes one signed mission and carries it out on the robot of its graph.
+"""Lifecycle node that takes one signed mission and carries it out on the robot of its ROS graph.
 
-    configure    verify the mission, keep it                 refused: a signature, a robot, a site that do not fit
-    activate     see that the robot answers                  refused: what of it is missing
-    deactivate   stand still: what is under way is paused
-    cleanup      forget the mission                          refused: it is under way
+    configure    verify the mission and store it            refused: invalid signature, wrong robot or site
+    activate     check that the robot responds              refused: parts of the robot are missing
+    deactivate   stop the robot, pause the mission
+    cleanup      forget the mission                         refused: it is under way
 
-What it is told by services goes the same way as what an agent is told over the network (``fieldhand agent``): this
-node has no rules of its own. The mission drives the robot from a thread and a ROS context of its own, so that nothing
-that this node's executor does can hold it up.
+Service calls are handled like commands that an agent receives over the network (``fieldhand agent``); this node adds no
+rules of its own. The mission controls the robot from its own thread and ROS context, so nothing that blocks this node's
+executor can delay it.
 """
 
 from __future__ import annotations
@@ -40,11 +40,11 @@ from fieldhand.program.station import Station, compose_station
 
 DONE, REFUSED = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FAILURE
 
-#: Seconds within which the robot has to answer, a mission hears an order, and a robot stands still.
+#: Time limits in seconds for the robot to respond, a mission to read a command, and a robot to stop.
 ANSWERS_WITHIN_S, HEARS_WITHIN_S, RESTS_WITHIN_S = 15.0, 5.0, 30.0
-#: Seconds between two looks while something is waited for, and between two of status and diagnostics.
+#: Seconds between two polls while waiting, and between two publications of status and diagnostics.
 LOOK_S, TELL_S = 0.05, 1.0
-#: What a robot that stands still may be told as well.
+#: Commands that are also accepted while the node is inactive.
 _WHEN_INACTIVE = ("pause", "abort")
 
 
@@ -69,7 +69,7 @@ class Executor(LifecycleNode):
         self._active = False
         #: Why the last transition was refused.
         self._problem = ""
-        #: The lifecycle changes in one thread, and status is told from another.
+        #: Lifecycle callbacks and the status timer run in different threads.
         self._guard = threading.RLock()
         orders = ReentrantCallbackGroup()
         for said in ORDERS:
@@ -83,16 +83,16 @@ class Executor(LifecycleNode):
     # --- lifecycle -----------------------------------------------------------------------------------------------
 
     def on_configure(self, _: LifecycleState) -> TransitionCallbackReturn:
-        """Verify the mission and keep it."""
+        """Verify the mission and store it."""
         return self._transition(self._configure)
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """See that the robot answers; go on with what a power cut has cut off, where that is wanted."""
+        """Check that the robot responds; continue an interrupted mission if configured."""
         done = self._transition(self._activate)
         return super().on_activate(state) if done == DONE else done
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Let the robot stand still."""
+        """Stop the robot."""
         self._active = False
         self._transition(self._rest)
         return super().on_deactivate(state)
@@ -102,24 +102,24 @@ class Executor(LifecycleNode):
         return self._transition(self._clean_up)
 
     def on_shutdown(self, _: LifecycleState) -> TransitionCallbackReturn:
-        """Let the robot stand still, and let go of it."""
+        """Stop the robot and disconnect."""
         self.let_go()
         return DONE
 
     def on_error(self, _: LifecycleState) -> TransitionCallbackReturn:
-        """After a fault of this program: the robot stands still, and the node can be configured anew."""
+        """After an internal error: stop the robot, so that the node can be configured again."""
         self.let_go()
         return DONE
 
     def let_go(self) -> None:
-        """Let the robot stand still; a mission that is under way is paused, and can be gone on with."""
+        """Stop the robot and disconnect; a mission under way is paused and can be continued."""
         with self._guard:
             station, self._station, self._held, self._active = self._station, None, None, False
         if station is not None:
             station.close()
 
     def _transition(self, make: Callable[[], None]) -> TransitionCallbackReturn:
-        """A transition, refused with its reason where it cannot be made."""
+        """Perform a transition; refuse it and log the reason if it fails."""
         try:
             make()
         except FieldhandError as error:
@@ -186,7 +186,7 @@ class Executor(LifecycleNode):
             )
         self.let_go()
 
-    # --- orders --------------------------------------------------------------------------------------------------
+    # --- commands ------------------------------------------------------------------------------------------------
 
     def _answer(self, said: Said) -> Callable[[Any, Any], Any]:
         def answer(_: Any, response: Any) -> Any:
@@ -254,7 +254,7 @@ class Executor(LifecycleNode):
 
 
 def diagnosed(node: str, standing: Standing | None, missing: tuple[str, ...], problem: str) -> DiagnosticStatus:
-    """How the mission stands, as diagnostics have it."""
+    """Return the state of the mission as a diagnostic status."""
     level, message = DiagnosticStatus.OK, "no mission"
     values = {"missing": "; ".join(missing), "problem": problem}
     if standing is not None:
@@ -296,7 +296,7 @@ def _namespace(said: str) -> str:
 
 
 def main() -> None:
-    """What ``ros2 run fieldhand_ros executor`` runs."""
+    """Run the node; entry point of ``ros2 run fieldhand_ros executor``."""
     rclpy.init()
     node = Executor()
     executor = MultiThreadedExecutor(8)

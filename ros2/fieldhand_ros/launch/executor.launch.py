@@ -1,4 +1,4 @@
-"""Starts the node ``executor`` and brings it up as far as is wanted.
+"""Launch file that starts the node ``executor`` and brings it to the requested lifecycle state.
 
 ros2 launch fieldhand_ros executor.launch.py mission:=/path/tree4.mission robot:=husky
 """
@@ -14,24 +14,24 @@ from launch_ros.events.lifecycle import ChangeState
 from launch_ros.parameter_descriptions import ParameterValue
 from lifecycle_msgs.msg import Transition
 
-#: Name, default, what it says.
+#: Name, default, description.
 ARGUMENTS = (
-    ("mission", "", "The signed mission, a file; empty to set the parameter later."),
-    ("robot", "", "This robot's profile: a built-in one or a YAML file."),
-    ("missions", "", "Folder of its missions; else in the user's state folder."),
-    ("config", "", "Folder of the keys that are trusted; else FIELDHAND_CONFIG or the user's."),
-    ("robot_namespace", "", "Of the robot's names, in place of the profile's; / for none."),
-    ("seed", "0", "Of what the guard draws by chance."),
-    ("go_on", "false", "Go on by itself with a mission that a power cut has cut off."),
+    ("mission", "", "Path of the signed mission; empty to set the parameter later."),
+    ("robot", "", "Profile of this robot: a built-in name or a YAML file."),
+    ("missions", "", "Folder of its missions; by default in the user's state folder."),
+    ("config", "", "Folder of trusted keys; by default FIELDHAND_CONFIG or the user's."),
+    ("robot_namespace", "", "Namespace of the robot, in place of the profile's; / for none."),
+    ("seed", "0", "Random seed of the guard."),
+    ("go_on", "false", "Continue automatically a mission that a power cut has interrupted."),
     ("use_sim_time", "false", "The robot is a simulation that publishes /clock."),
-    ("namespace", "", "Of this node."),
-    ("until", "active", "How far to bring it up: unconfigured, inactive or active. It never starts a mission."),
+    ("namespace", "", "Namespace of this node."),
+    ("until", "active", "Target state: unconfigured, inactive or active. It never starts a mission."),
 )
 KINDS = {"seed": int, "go_on": bool, "use_sim_time": bool}
 
 
 def generate_launch_description() -> LaunchDescription:
-    """What ``ros2 launch`` asks for."""
+    """Return the launch description; called by ``ros2 launch``."""
     given = {name: LaunchConfiguration(name) for name, _, _ in ARGUMENTS}
     parameters = {
         name: ParameterValue(value, value_type=KINDS.get(name, str))

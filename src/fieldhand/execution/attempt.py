@@ -1,7 +1,7 @@
-"""An attempt at a Task: everything that changes while it is carried out.
+"""State of a mission while it is carried out.
 
-The behaviors of the tree hold no state of the mission: they share one :class:`Attempt`, which is passed to each.
-There is no blackboard.
+The behaviors of the tree are stateless: they share one :class:`Attempt`, which is passed to each. There is no
+blackboard.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from fieldhand.task.frames import Fault, Task, Then
 from fieldhand.task.results import Acted, Arrived, ClockSet, Driving, Event, Faulted, InDoubt, MissionStatus, Resumed
 from fieldhand.task.run import Run
 
-#: Seconds of the mission between two looks while the robot waits.
+#: Seconds of the mission between two polls while the robot waits.
 LOOK_AGAIN_S = 1.0
 
 
@@ -55,29 +55,29 @@ class Ending:
 
 
 class Attempt:
-    """State of a mission: the robot's place, what was bound, read and used, and the events so far.
+    """State of a mission: position, bound places, readings, resources used, and events so far.
 
     Args:
-        task, site, robot: What is carried out, where, by which robot.
-        inputs: Driver, guard, clock and orders, recorded. The attempt begins now.
-        drives: Ways between places.
+        task, site, robot: Task to carry out, its site and robot.
+        inputs: Driver, guard, clock and operator commands, recorded. The mission begins on construction.
+        drives: Drives between places.
 
     Attributes:
         controller: Carries out the current goal.
         guard: The budget guard.
-        clock: The mission's time.
-        halted: Nothing new is begun: the mission is about to turn home.
-        blockages: What it found in its way.
-        here: The place in hand (:mod:`fieldhand.task.plan`).
-        standing: Where the robot itself is: ``here``, or a point on the way where a drive failed.
+        clock: Mission clock.
+        halted: True while nothing new may begin because the mission is about to turn home.
+        blockages: Blocked stretches found so far.
+        here: The plan's current place (:mod:`fieldhand.task.plan`).
+        standing: Place of the robot itself: ``here``, or a point on the way where a drive failed.
         visited: Ids of the trees at which it has stopped, each once.
-        action_j: Energy of the actions done, by the profile.
-        time_of_day: When the mission began, and whether the wall clock was set since.
-        driven: The path of the last drive, in local metres.
-        readings: For each reading that is bound, its value by quantity.
-        run: The plan: which nodes are in hand.
-        ending: Set when the plan is over before its last node: the tree is ticked no more.
-        fault: What the failure in hand is to the exits of the Task.
+        action_j: Energy of the actions so far in joules, by the profile.
+        time_of_day: Time of day at the beginning, and later changes of the wall clock.
+        driven: Path of the last drive, in local metres.
+        readings: Values of each bound reading, by quantity.
+        run: Current nodes of the plan.
+        ending: Set when the plan ends before its last node; the tree is not ticked any more.
+        fault: Fault for the Task's exits.
     """
 
     def __init__(
@@ -140,7 +140,7 @@ class Attempt:
 
     @property
     def spent(self) -> Spent:
-        """Return what was used so far, including the goal in hand."""
+        """Resources used so far, including the current goal."""
         metres, joules, goal = self.travelled_m, self.action_j, self._open
         if goal is not None:
             progress = self.controller.poll()
@@ -153,12 +153,12 @@ class Attempt:
 
     @property
     def drives(self) -> Drives:
-        """The ways between places that are left."""
+        """The drives that are still possible."""
         return self.blockages.drives
 
     @property
     def visits(self) -> Visits:
-        """Makes visits of what is optional."""
+        """Creates the visits of optional nodes."""
         return Visits(self.task, self.site, self.robot, self.drives)
 
     @property
@@ -167,15 +167,15 @@ class Attempt:
         return Facts(site=self.site, robot=self.robot, here=self.here, readings=self.readings)
 
     def charge_percent(self) -> float:
-        """Return the charge that counts: what the driver says, without single false readings."""
+        """Return the battery charge in percent, filtered for single false readings."""
         return self._battery.read(self.seen.charge_percent, self.clock.now())
 
     def next_reading_in(self) -> float:
-        """Return seconds until the battery's meter is to be read again, after a reading that surprised."""
+        """Return the seconds until the battery should be read again after an unexpected reading."""
         return self._battery.next_reading_in(self.clock.now())
 
     def emit(self, event: Event) -> None:
-        """Record what happened; first that the wall clock was set, if it was."""
+        """Record an event, preceded by a change of the wall clock if there was one."""
         if by_s := self.time_of_day.set_by():
             self.emit(ClockSet(t=self.t, by_s=by_s))
         self.events.append(event)
@@ -198,7 +198,7 @@ class Attempt:
         return resolve_one(selector, self.site, self._context(self.here))
 
     def reached(self, place: Place) -> Place:
-        """Return a place with the stand that a drive would lead to now, or with the present one if the robot is there.
+        """Return a place with the stand that a drive would lead to now, or the current place if the robot is there.
 
         Raises:
             DriveFault: There is no way to it.
@@ -208,10 +208,10 @@ class Attempt:
         return self.way_to(place).end
 
     def way_to(self, place: Place) -> Drive:
-        """Return the way to a place, or to its other side if obstacles leave no other.
+        """Return the drive to a place, or to its other side if obstacles leave no other.
 
         Raises:
-            DriveFault: There is none.
+            DriveFault: There is no way.
         """
         try:
             return self.drives.between(self.standing, place)
@@ -221,7 +221,9 @@ class Attempt:
             return self.drives.between(self.standing, dataclasses.replace(place, stand=None))
 
     def state(self) -> MissionState:
-        """Return the state that the guard decides on. ``here`` is where the robot stands, from which it comes home."""
+        """Return the state for the guard's decisions; its ``here`` is the robot's position, from which it would drive
+        home.
+        """
         return MissionState(
             frames=tuple(self.run.frames),
             context=self._context(self.standing),
@@ -235,7 +237,7 @@ class Attempt:
             self.bound[label] = places
 
     def end(self, ending: Ending) -> None:
-        """Let the plan be over, unless it is already."""
+        """End the plan, unless it has ended already."""
         if self.ending is None:
             self.ending = ending
 
@@ -244,7 +246,7 @@ class Attempt:
         return exit_of(self.task, fault)
 
     def fail(self, node: str, error: FieldhandError, *, handled: bool) -> None:
-        """Record that a node failed for good; ``handled`` where a try/otherwise will go on from there."""
+        """Record that a node failed for good; ``handled`` is True if a try/otherwise continues from there."""
         match error:
             case BlockedFault():
                 self.fault, name = "drive_failed", "blocked"
@@ -255,23 +257,23 @@ class Attempt:
             case ActionFault():
                 self.fault, name = "action_failed", "action_failed"
             case _:
-                # Work that cannot be placed: the robot is well, so the Task's exit for failed work fits.
+                # Work without a place is no fault of the robot, so the Task's exit for failed work applies.
                 self.fault, name = "action_failed", "no_place" if isinstance(error, PlaceError) else "cannot_go_on"
         self.what = str(error)
         self.emit(Faulted(t=self.t, node=node, fault=name, what=self.what, handled=handled))
 
     def is_at(self, place: Place) -> bool:
-        """Return True if the robot has stopped at a place and still stands there."""
+        """Return True if the robot has stopped at a place and is still there."""
         return self.arrived_at is not None and (self.arrived_at.kind, self.arrived_at.id) == (place.kind, place.id)
 
     def stop_at(self, place: Place) -> None:
-        """Note that the robot has reached a place."""
+        """Record that the robot has reached a place."""
         self.here = self.standing = self.arrived_at = place
         if place.kind == "tree" and place.id not in self.visited:
             self.visited.append(place.id)
 
     def start_drive(self, node: str, place: Place) -> None:
-        """Let the driver begin a drive.
+        """Start a drive.
 
         Raises:
             DriveFault, PlaceError: There is no way to the place.
@@ -284,12 +286,12 @@ class Attempt:
         self.controller.start(goal)
 
     def start_capture(self, node: str, action: str, parameters: Mapping[str, str | float], number: int) -> None:
-        """Let the driver begin the ``number``-th try of a capture."""
+        """Start the ``number``-th attempt at a capture."""
         self._open = OpenCapture(node=node, action=action, number=number)
         self.controller.start(ActionGoal(action=action, place=self.here, parameters=parameters))
 
     def attend(self) -> Progress:
-        """Return the progress of the current goal; record its end, once, when it is over."""
+        """Return the progress of the current goal, and record its end once."""
         progress = self.controller.poll()
         goal = self._open
         if goal is None or not progress.over:
@@ -301,16 +303,16 @@ class Attempt:
         return progress
 
     def stop_driver(self) -> None:
-        """Ask the driver to end the goal in hand, if there is one."""
+        """Ask the driver to cancel the current goal, if there is one."""
         if self._open is not None:
             self.controller.cancel()
 
     def wait_until(self, mission_s: float | None) -> None:
-        """Stand still until that moment of the clock; None: no longer."""
+        """Stand still until a time of the mission clock; None ends the wait."""
         self._wake_s = mission_s
 
     def next_event_in(self) -> float | None:
-        """Return seconds until the robot or a wait needs a look, or None if it neither works nor waits."""
+        """Return the seconds until the robot or a wait is due, or None if it neither works nor waits."""
         found = [] if (soon := self.seen.next_in) is None else [soon]
         if self._wake_s is not None:
             found.append(min(LOOK_AGAIN_S, max(0.0, self._wake_s - self.clock.now())))
@@ -327,7 +329,7 @@ class Attempt:
         return self._open
 
     def note_power_cuts(self) -> None:
-        """Record that the mission was resumed, if it was since this was last called."""
+        """Record that the mission was resumed since the last call."""
         if self.inputs.cuts != self._cuts:
             self._cuts = self.inputs.cuts
             at = self.seen.position
@@ -351,7 +353,7 @@ class Attempt:
         )
 
     def _emit_driving(self, node: str, goal: DriveGoal) -> None:
-        """Record that a drive begins."""
+        """Record the start of a drive."""
         self.driven = goal.path_m
         self.emit(
             Driving(
@@ -366,7 +368,7 @@ class Attempt:
         )
 
     def _restarted(self, goal: DriveGoal) -> None:
-        """Record that a drive begins in place of one that was cut short."""
+        """Record the start of a drive that continues an interrupted one."""
         self.note_power_cuts()
         self._emit_driving("" if self._open is None else self._open.node, goal)
 
@@ -391,7 +393,7 @@ class Attempt:
         )
 
     def _end_drive(self, open_: OpenDrive, progress: Progress) -> None:
-        """Record the end of a drive: the robot has arrived, or stands somewhere on the way."""
+        """Record the end of a drive, at its destination or on the way."""
         self.travelled_m += progress.metres
         if progress.state != "succeeded":
             self.arrived_at, self.standing = None, self._stands()
@@ -400,11 +402,11 @@ class Attempt:
         self.emit_arrived(open_.node, open_.goal.place, progress.metres)
 
     def _end_capture(self, open_: OpenCapture, progress: Progress) -> Progress:
-        """Record the end of a capture; return its progress, failed if its readings cannot be believed."""
+        """Record the end of a capture; return its progress, which is failed if a reading is implausible."""
         action, here = self.robot.action[open_.action], self.here
         self.action_j += joules_done(action, progress)
         if progress.state in ("cancelled", "cut_off"):
-            return progress  # nothing happened, or it is in doubt, which is recorded already
+            return progress  # cancelled without effect, or in doubt, which is recorded already
         if progress.state == "succeeded":
             why = (unusable(self.robot, q, progress.readings.get(q)) for q in action.measures)
             if what := next(filter(None, why), ""):

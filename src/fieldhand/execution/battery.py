@@ -1,8 +1,8 @@
-"""The charge that a mission acts on and records: the battery's meter, without its single false readings.
+"""Battery meter filter: the charge that a mission acts on, without single false readings.
 
-A meter may say for one moment that the battery is empty, or full. Like the battery failsafe of a flight controller, a
-reading that the battery's model does not explain, or that would cross a level, counts once readings have stayed on that
-side for a short time; then the mildest of them counts. Every other reading counts at once.
+A meter may report an empty or full battery for a moment. As in the battery failsafe of a flight controller, a reading
+that the battery model does not explain, or that would cross a level, counts only once readings have stayed on that side
+for a short time; then the mildest of them counts. Every other reading counts at once.
 """
 
 from __future__ import annotations
@@ -12,17 +12,17 @@ from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-#: Readings at different times that a surprise takes before it counts.
+#: Number of readings at different times before an unexpected value counts.
 LEAST_READINGS = 3
-#: Percent by which a sound meter may jump at once: the steps in which most of them count.
+#: Percent by which a sound meter may jump at once: the resolution of most meters.
 STEP_PERCENT = 1.0
-#: Seconds within which two times are one: clocks add floating-point numbers.
+#: Seconds within which two times are equal: clocks add floating-point numbers.
 _SAME_S = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Surprise:
-    """A reading that does not count yet; ``explained`` where the battery can have come to it, past a level."""
+    """A reading that does not count yet; ``explained`` if the battery can have reached it, but past a level."""
 
     at: float
     percent: float
@@ -30,18 +30,19 @@ class _Surprise:
 
 
 class BatteryMeter:
-    """Takes the readings of a battery's meter as they come.
+    """Filters the readings of a battery meter.
 
     Args:
-        percent: The first reading.
-        now: Of the mission's clock, in seconds.
-        hold_s: Seconds for which a surprise has to last, 0 to believe every reading at once. A charge that the battery
-            can have come to lasts for no longer than it takes to lose :data:`STEP_PERCENT`.
-        fastest: Percent that the battery loses in a second, at most, however bad it is.
-        levels: Percents at which something follows.
+        percent: First reading.
+        now: Time of the mission clock in seconds.
+        hold_s: Seconds for which an unexpected reading must persist; 0 to accept every reading at once. A charge that
+            the
+            model explains must persist no longer than it takes to lose :data:`STEP_PERCENT`.
+        fastest: Highest plausible drain in percent per second.
+        levels: Charges in percent whose crossing has consequences.
 
     Attributes:
-        percent: The charge that counts.
+        percent: Filtered charge.
     """
 
     def __init__(
@@ -54,7 +55,7 @@ class BatteryMeter:
         self._falls = False
 
     def read(self, percent: float, now: float) -> float:
-        """Take a reading; return the charge that counts. A reading that is no number says nothing."""
+        """Process a reading and return the filtered charge. Readings that are not finite are ignored."""
         if not math.isfinite(percent):
             return self.percent
         explained = self._is_explained(percent, now)
@@ -71,14 +72,14 @@ class BatteryMeter:
         return self.percent
 
     def next_reading_in(self, now: float) -> float:
-        """Return seconds until the next reading is wanted: soon after a surprise, else never (infinity)."""
+        """Return the seconds until the next reading is due: soon after an unexpected one, otherwise infinity."""
         if not self._odd:
             return math.inf
         return max(0.0, self._odd[-1].at + self._lasts_s / (LEAST_READINGS - 1) - now)
 
     @property
     def _lasts_s(self) -> float:
-        """Seconds for which the current surprise has to last."""
+        """Seconds for which the current unexpected readings must persist."""
         return self._explained_s if all(odd.explained for odd in self._odd) else self._hold_s
 
     def _is_explained(self, percent: float, now: float) -> bool:

@@ -1,7 +1,7 @@
 """Goals that outlast a pause and a power cut.
 
-A drive that was cut short is resumed from where the robot then stands. A capture is never cut short by a pause: the
-robot waits once it is made. One that a power cut ended is in doubt, and the profile says what is done about it.
+An interrupted drive is resumed from where the robot then stands. A pause never interrupts a capture: the robot stops
+once it is made. A capture interrupted by a power cut is in doubt, and the profile decides what is done about it.
 """
 
 from __future__ import annotations
@@ -17,19 +17,19 @@ from fieldhand.robot.model import InDoubtPolicy, RobotProfile
 from fieldhand.site.drives import Drive, Drives
 from fieldhand.site.model import Place, Site
 
-#: Metres within which the robot is where it was.
+#: Metres within which the robot counts as being at a position.
 AT_M = 0.5
 
 
 class DriveController:
-    """Carries out one goal of a mission at a time, in as many goals of the driver as it takes.
+    """Carries out one goal of a mission at a time, in as many driver goals as needed.
 
     Args:
         inputs: Starts goals of the driver and observes the robot.
-        site, robot: Of the mission.
-        ways: Returns the ways that are open now.
-        on_restart: Called before a drive begins in place of one that was cut short.
-        on_doubt: Called with each capture in doubt, what is done about it, and its progress.
+        site, robot: Site and robot of the mission.
+        ways: Returns the drives that are possible now.
+        on_restart: Called before a drive continues an interrupted one.
+        on_doubt: Called for each capture in doubt with the chosen policy and its progress.
 
     Attributes:
         paused: True while nothing new begins and the robot stands still.
@@ -65,7 +65,7 @@ class DriveController:
             self._begin()
 
     def poll(self) -> Progress:
-        """Return the progress of the goal, all of its parts together; ``idle`` before the first."""
+        """Return the combined progress of all parts of the goal; ``idle`` before the first."""
         while self._result is None and self._goal is not None:
             if not self._under_way:
                 if self._cancelled:
@@ -83,7 +83,7 @@ class DriveController:
         return self._result or Progress(state="idle")
 
     def cancel(self) -> None:
-        """Ask for the end of the goal; it is over when :meth:`poll` returns so."""
+        """Request cancellation of the goal; :meth:`poll` reports its end."""
         self._cancelled = True
         if self._under_way:
             self._inputs.cancel()
@@ -91,7 +91,7 @@ class DriveController:
     # --- pause ---------------------------------------------------------------------------------------------------
 
     def pause(self) -> None:
-        """Stop the robot as soon as possible: break a drive off, finish a capture."""
+        """Stop the robot as soon as possible: cancel a drive, finish a capture."""
         self.paused = True
         if self._under_way and (self._approaching or isinstance(self._goal, DriveGoal)):
             self._broken_off = True
@@ -105,10 +105,10 @@ class DriveController:
         """Return True if the robot stands still until the pause ends."""
         return self.paused and (self.poll().over or not self._under_way)
 
-    # --- a goal --------------------------------------------------------------------------------------------------
+    # --- goals ---------------------------------------------------------------------------------------------------
 
     def _begin(self) -> None:
-        """Let the driver begin the goal, or what is left of it."""
+        """Start the goal, or what is left of it."""
         goal = self._goal
         self._broken_off = self._approaching = False
         try:
@@ -134,7 +134,7 @@ class DriveController:
         self._inputs.start(way)
 
     def _conclude(self, goal: DriveGoal | ActionGoal, progress: Progress) -> None:
-        """Conclude the mission's goal, or prepare its next part, after a goal of the driver is over."""
+        """Conclude the mission's goal, or prepare its next part, after a driver goal has ended."""
         no_more = self._cancelled or self._inputs.seen.stopped is not None
         cut = progress.state == "cut_off"
         if isinstance(goal, ActionGoal) and not self._approaching:
@@ -143,7 +143,7 @@ class DriveController:
                 return
             then = "skip" if no_more else self._robot.action[goal.action].in_doubt
             self._on_doubt(goal, then, progress)
-            # Whoever repaired the robot may have moved it.
+            # The robot may have been moved during a repair.
             self._strayed = True
             if then == "skip":
                 self._end(progress)
@@ -161,7 +161,7 @@ class DriveController:
         self._result = dataclasses.replace(self._sum(progress), state=progress.state)
 
     def _sum(self, progress: Progress) -> Progress:
-        """Add the parts of the goal that were cut short."""
+        """Add the interrupted parts of the goal."""
         return dataclasses.replace(
             progress,
             state="running",

@@ -1,4 +1,4 @@
-"""Giving up work that the guard forbids or that no way leads to, with all that would have come after it."""
+"""Budget decisions on mandatory work, and the report of work that is given up (shed)."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Over(Exception):
 
 
 def visit_to(attempt: Attempt, place: Place, work: Node) -> Visit:
-    """A mandatory visit as the guard sees it."""
+    """Return a mandatory visit in the form that the guard expects."""
     seconds, joules = service_of(work, attempt.robot)
     return Visit(place=place, service_s=seconds, service_j=joules)
 
@@ -35,18 +35,18 @@ def to_come(attempt: Attempt) -> list[Visit]:
 
 
 def admit(attempt: Attempt, visit: Visit, *, refused: Sequence[Place]) -> None:
-    """Ask the guard about work that must be done; where it says no, do what follows from that.
+    """Ask the guard whether mandatory work may be done, and carry out its refusal.
 
-    Inside an optional visit or step only that is given up. Else the mission turns home, and all that it will not do is
-    said.
+    Inside an optional visit or step, only that is given up. Otherwise the mission turns home, and all remaining work is
+    reported as given up.
 
     Args:
-        attempt: The state of the mission; the node in hand is about to drive or act.
-        visit: The drive and the work that it is about.
-        refused: Places of the node that stay undone if the guard says no.
+        attempt: The mission; its current node is about to drive or act.
+        visit: The drive and the work in question.
+        refused: Places of the node that stay undone if the guard refuses.
 
     Raises:
-        GivenUp: The optional visit or step in hand is given up.
+        GivenUp: The current optional visit or step is given up.
         Over: The mission turns home.
     """
     verdict = attempt.guard.admit(attempt.state(), visit, to_come(attempt))
@@ -64,10 +64,10 @@ def admit(attempt: Attempt, visit: Visit, *, refused: Sequence[Place]) -> None:
 
 
 def give_up_unreachable(attempt: Attempt, why: str) -> str:
-    """Give up the optional visit or step in hand, to which no way is left.
+    """Give up the current optional visit or step because no way is left to it.
 
     Returns:
-        Id of the optional node; empty where none is in hand, or a try/otherwise nearer than that catches the fault.
+        Id of the optional node; empty if there is none, or if a nearer try/otherwise catches the fault.
     """
     for frame in attempt.run.outwards():
         if frame.instead:
@@ -81,12 +81,12 @@ def give_up_unreachable(attempt: Attempt, why: str) -> str:
 
 
 def give_up_rest(attempt: Attempt, place: Place | None, verdict: Verdict) -> None:
-    """Say that the work in hand and all that would come after it is given up.
+    """Report the current work and all later work as given up.
 
     Args:
-        attempt: The state of the mission.
-        place: Of the drive or the action in hand, if there is one.
-        verdict: Why.
+        attempt: The mission.
+        place: Place of the current drive or action, if there is one.
+        verdict: Reason.
     """
     frames = attempt.run.frames
     if not frames:
@@ -103,7 +103,7 @@ def give_up_rest(attempt: Attempt, place: Place | None, verdict: Verdict) -> Non
 
 
 def _miss(attempt: Attempt, frames: Sequence[Frame], verdict: Verdict) -> None:
-    """Say what stands after the node in hand and will not be reached."""
+    """Report the work after the current node, which will not be reached."""
     why = message("not reached: {why}", context="log", why=verdict.reason)
     missed = Verdict(go=False, reason=why, chance_short=verdict.chance_short)
     for node, places, optional in _left_undone(attempt, frames):
@@ -111,7 +111,7 @@ def _miss(attempt: Attempt, frames: Sequence[Frame], verdict: Verdict) -> None:
 
 
 def _left_undone(attempt: Attempt, frames: Iterable[Frame]) -> Iterator[tuple[Node, Sequence[Place], bool]]:
-    """Give all that the nodes in hand still had before them: (node, places as far as known, whether optional)."""
+    """Yield the remaining work of the current nodes: (node, places as far as known, True if optional)."""
     for frame in reversed(list(frames)):
         if frame.tour is not None and (undone := frame.tour.undone()):
             yield frame.node, undone, frame.node.is_optional
@@ -153,7 +153,7 @@ def shed(
     optional: bool,
     cause: Literal["budget", "unreachable"] = "budget",
 ) -> None:
-    """Say what is given up, and why."""
+    """Report work that is given up, with the reason."""
     attempt.emit(
         Shed(
             t=attempt.t,

@@ -1,7 +1,6 @@
-"""The two things that a robot does, as steps that a behavior takes tick by tick: drive to a place, make a capture.
+"""Driving to a place and making a capture, with retries and the response to each kind of fault (docs/faults.md).
 
-Each is a generator that yields while the robot is busy. It ends when it is done and raises when it failed for good.
-What is done about each kind of failure stands here; docs/faults.md tells it.
+Both are generators that yield while the robot is busy, return when done, and raise when they fail for good.
 """
 
 from __future__ import annotations
@@ -20,32 +19,34 @@ from fieldhand.task.plan import Act
 from fieldhand.task.results import Faulted
 from fieldhand.task.run import Steps
 
-#: So often one drive is stopped by something in its way, and one drive or capture by a lost position, before it fails.
+#: Largest number of stops by obstacles during one drive, and of lost positions during one drive or capture.
 MOST_STOPS = 20
 
 Asked = Callable[[Place], Steps]
 
 
 def drive(attempt: Attempt, node: str, place: Place, *, patient: bool = True, ask: Asked | None = None) -> Steps:
-    """Drive to a place, which then is the place in hand. A robot that has stopped there already stays.
+    """Drive to a place, which becomes the current place. A robot that has stopped there already stays.
 
-    A drive that fails is tried again from where the robot stands, as often as the profile's ``retries`` say. What
-    stands in the way is driven around; a lost position is waited for. Neither counts as a try.
+    A failed drive is retried from where the robot stands, up to the profile's ``retries``. Obstacles are driven around,
+    and a lost position is waited for; neither counts as a retry.
 
     Args:
-        attempt, node, place: What for, and where to.
-        patient: Whether to wait and try again where what stands in the way leaves no other.
-        ask: Asks the guard anew when the way has become another one.
+        attempt: The mission.
+        node: Id of the node.
+        place: Destination.
+        patient: True to wait and try again if obstacles leave no way.
+        ask: Asks the guard again after the way has changed.
 
     Raises:
         BlockedFault: No way is left. The robot stands where it stopped.
-        LostFault: It does not know where it is.
-        DriveFault: Every try failed, or there never was a way. The robot stands where it stopped.
+        LostFault: The position is unknown.
+        DriveFault: All tries failed, or there never was a way. The robot stands where it stopped.
     """
     if attempt.is_at(place):
         return
     if (attempt.standing.kind, attempt.standing.id) == (place.kind, place.id):
-        # The robot began the mission at this very place: it is there without a drive.
+        # The mission began at this place, so no drive is needed.
         attempt.stop_at(attempt.standing)
         attempt.emit_arrived(node, attempt.standing, 0.0)
         return
@@ -94,16 +95,16 @@ def drive(attempt: Attempt, node: str, place: Place, *, patient: bool = True, as
 
 
 def capture(attempt: Attempt, node: Act) -> Generator[None, None, Mapping[str, float]]:
-    """Make one capture at the place in hand, tried again as often as the profile says of the action.
+    """Make one capture at the current place, with as many retries as the profile allows for the action.
 
-    A robot that does not know where it is makes none: it waits first.
+    A robot with a lost position waits first.
 
     Returns:
-        What it measured, by quantity; nothing where the power was cut and it is not to be made again.
+        Readings by quantity; empty if a power cut interrupted the capture and it is not to be repeated.
 
     Raises:
-        ActionFault: Every try failed.
-        LostFault: The robot does not know where it is.
+        ActionFault: All tries failed.
+        LostFault: The position is unknown.
     """
     action = attempt.robot.action.get(node.action)
     if action is None:
@@ -125,7 +126,7 @@ def capture(attempt: Attempt, node: Act) -> Generator[None, None, Mapping[str, f
         if progress.state == "succeeded":
             return progress.readings
         if progress.state == "cut_off":
-            return {}  # in doubt, and not to be made again: what it read is unknown
+            return {}  # in doubt and not repeated: its readings are unknown
         what = progress.what
         if progress.state == "cancelled":
             raise ActionFault(what or message("cancelled", context="log"), where=_named(attempt.here))
@@ -157,7 +158,7 @@ def capture(attempt: Attempt, node: Act) -> Generator[None, None, Mapping[str, f
 
 
 def _tries(attempt: Attempt, action: Action) -> tuple[int, float]:
-    """Return how often an action is tried, and the seconds between."""
+    """Return the number of tries of an action, and the seconds between them."""
     robot = attempt.robot
     retries = robot.retries if action.retries is None else action.retries
     return retries + 1, robot.patience.retry_wait_s if action.retry_wait_s is None else action.retry_wait_s

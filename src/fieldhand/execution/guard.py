@@ -1,4 +1,4 @@
-"""Protocols of the budget guard and of the failsafe, which evaluation implements."""
+"""Protocols of the budget guard and the failsafe, which evaluation implements."""
 
 from __future__ import annotations
 
@@ -13,10 +13,16 @@ if TYPE_CHECKING:
 
 
 class Guard(Protocol):
-    """Decides before every drive whether there is enough left for it and for the way home."""
+    """Decides before every drive whether resources suffice for it and for the way home."""
 
     def admit(self, state: MissionState, visit: Visit, still_to_come: Sequence[Visit] = ()) -> Verdict:
-        """May the robot make this mandatory visit? ``still_to_come``: later visits of the loop that it stands in."""
+        """Decide whether the robot may make a mandatory visit.
+
+        Args:
+            state: State of the mission.
+            visit: The visit in question.
+            still_to_come: Later visits of the current loop.
+        """
         ...
 
     def choose(
@@ -27,32 +33,37 @@ class Guard(Protocol):
         at_most: int | None = None,
         still_to_come: Sequence[Visit] = (),
     ) -> Choice:
-        """Choose the next optional visit. Asked again after every leg, with what is left.
+        """Choose the next optional visit; called again after every leg.
 
-        ``state.node`` is the optional for-each, or an optional step, which is its only candidate and is asked about
-        once. ``at_most``: how many of the candidates may still be visited; None for all.
+        Args:
+            state: State of the mission. Its current node is an optional for-each, or an optional step, which is its
+                only
+                candidate and is offered once.
+            candidates: Visits to choose from.
+            at_most: Number of candidates that may still be visited; None for all.
+            still_to_come: Mandatory visits that follow.
         """
         ...
 
     def ways_are(self, drives: Drives) -> None:
-        """Use other drives from now on: the robot found a way blocked, or free again."""
+        """Use other drives from now on: a way was found blocked, or free again."""
         ...
 
 
 class Failsafe(Protocol):
-    """Foresees whether what is left lasts for the way home; asked at every look."""
+    """Predicts whether resources suffice for the way home; called at every poll."""
 
     def learn(self, now: Underway) -> None:
-        """Take note of what has been spent. A mission that is replayed only learns."""
+        """Learn from the resources spent. Called instead of :meth:`foresee` during a replay."""
         ...
 
     def foresee(self, now: Underway) -> Foresight:
-        """Return whether the mission may continue as it does, after learning."""
+        """Learn, and return whether the mission may continue."""
         ...
 
 
 class NoGuard:
-    """A guard for missions without limits: everything is allowed, optional visits in the order given."""
+    """Guard for missions without limits: permits everything, optional visits in the given order."""
 
     def admit(self, state: MissionState, visit: Visit, still_to_come: Sequence[Visit] = ()) -> Verdict:  # noqa: ARG002
         return Verdict(go=True)
@@ -72,7 +83,7 @@ class NoGuard:
 
 
 class NoFailsafe:
-    """A failsafe for missions without limits: nothing is ever foreseen."""
+    """Failsafe for missions without limits: never raises an alarm."""
 
     def learn(self, now: Underway) -> None:
         pass

@@ -1,4 +1,4 @@
-"""Ctrl-C, and the signals of a closed terminal or a shutdown, as requests: not in the middle of something."""
+"""Ctrl-C and termination signals as requests that are polled, so that nothing is interrupted half-way."""
 
 from __future__ import annotations
 
@@ -19,15 +19,14 @@ _REASONS = {
 
 @contextmanager
 def ctrl_c_as_request() -> Iterator[Callable[[], str | None]]:
-    """Within this, the first Ctrl-C is remembered, and the next raises KeyboardInterrupt as ever.
+    """Turn the first Ctrl-C into a request; the next one raises KeyboardInterrupt as usual.
 
-    A closed terminal (SIGHUP) and a polite kill (SIGTERM) are remembered likewise, every time.
-
-    So that no event is half written and no capture is lost. Only in the main thread, and only signals that nobody else
-    handles or ignores: a mission in the background is not ended by the Ctrl-C of another, but it is by a kill.
+    A closed terminal (SIGHUP) and a termination request (SIGTERM) are treated alike, every time. No event is left half
+    written and no capture is lost. Works only in the main thread, and only for signals with the default handler: Ctrl-C
+    does not end a mission in the background, but a termination request does.
 
     Yields:
-        A function that gives the reason once Ctrl-C was pressed, else None.
+        Function that returns the reason once a signal has arrived, else None.
     """
     pressed: list[str] = []
 

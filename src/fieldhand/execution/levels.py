@@ -1,4 +1,4 @@
-"""Levels of the battery and limits of the budget at which something follows while a mission is under way."""
+"""Battery levels and budget limits whose crossing has consequences during a mission."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from fieldhand.task.exceeded import is_exceeded
 from fieldhand.task.frames import Constraints
 from fieldhand.task.results import Crossable, Crossing
 
-#: A battery may empty so many times as fast as its model says.
+#: Highest plausible drain as a multiple of the battery model.
 FASTEST = 16.0
 
 Consequence = Literal["go_on", "return", "end", "stop"]
@@ -19,7 +19,7 @@ Consequence = Literal["go_on", "return", "end", "stop"]
 
 @dataclass(frozen=True, kw_only=True)
 class LimitLevel:
-    """A threshold, and what follows if it is crossed."""
+    """A threshold and the consequence of crossing it."""
 
     quantity: Crossable
     level: Crossing
@@ -38,7 +38,7 @@ class LimitLevel:
 
 
 def levels_of(constraints: Constraints, robot: RobotProfile) -> tuple[LimitLevel, ...]:
-    """Return the levels of a Task on a robot."""
+    """Return the limit levels of a Task on a robot."""
     reserve = reserve_percent(constraints, robot)
     battery = robot.energy.levels(reserve)
     charges: tuple[tuple[Crossing, float, Consequence], ...] = (
@@ -48,7 +48,7 @@ def levels_of(constraints: Constraints, robot: RobotProfile) -> tuple[LimitLevel
         ("stop", battery.stop, "stop"),
     )
     return (
-        # At a level of 0 the battery is empty, and nothing is reported any more.
+        # A level of 0 is never crossed: the battery is empty then.
         *(
             LimitLevel(quantity="charge_percent", level=level, threshold=at, then=then)
             for level, at, then in charges
@@ -59,7 +59,7 @@ def levels_of(constraints: Constraints, robot: RobotProfile) -> tuple[LimitLevel
 
 
 def charge_levels(constraints: Constraints, robot: RobotProfile, full: float) -> tuple[float, ...]:
-    """Return the percents of charge at which something follows, of a mission that begins with ``full``."""
+    """Return the charges in percent at which a level is crossed, for a mission that begins with ``full`` percent."""
     levels = levels_of(constraints, robot)
     return (
         *(level.threshold for level in levels if level.quantity == "charge_percent"),
@@ -68,6 +68,6 @@ def charge_levels(constraints: Constraints, robot: RobotProfile, full: float) ->
 
 
 def fastest_drain(robot: RobotProfile) -> float:
-    """Return the percent of the battery that a robot loses in a second at most: :data:`FASTEST` times its model."""
+    """Return the highest plausible drain in percent per second: :data:`FASTEST` times the battery model."""
     action = max((a.energy_j / a.duration_s for a in robot.actions), default=0.0)
     return FASTEST * robot.percent(robot.speed_m_s, 1.0, action)

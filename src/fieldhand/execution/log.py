@@ -1,4 +1,4 @@
-"""Event logs: one JSON object a line (docs/formats.md, "Event log")."""
+"""Event logs: one JSON object per line (docs/formats.md, "Event log")."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from fieldhand.files import FileFault, open_output, read_file
 from fieldhand.task.event_lines import from_json, to_json
 from fieldhand.task.results import Event
 
-#: A mission of ten thousand captures is 10 MB; a file beyond this is something else.
+#: Size limit in bytes; a mission of ten thousand captures takes 10 MB.
 MAX_BYTES = 500_000_000
 
 
 class EventLog:
-    """Writes events as they happen: each line is on its way to the disk before the next thing is done.
+    """Writes events as they happen; each line is flushed before anything else is done.
 
     Args:
-        path: File to write; its folder is made.
-        begun: Bytes of it that stay; what is behind them is replaced.
+        path: File to write; its folder is created.
+        begun: Length in bytes of an existing beginning to keep; the rest is replaced.
 
     Raises:
-        OutputError: It cannot be written, now or later (a full disk).
+        OutputError: The file cannot be written, now or later (a full disk).
     """
 
     def __init__(self, path: Path, *, begun: int = 0) -> None:
@@ -52,7 +52,7 @@ class EventLog:
         """Close the file.
 
         Raises:
-            OutputError: What was still on its way cannot be written.
+            OutputError: Buffered events cannot be written.
         """
         try:
             self._file.close()
@@ -78,15 +78,15 @@ class EventLog:
 
 
 def read_events(path: Path, *, whole: bool = True) -> tuple[Event, ...]:
-    """Return the events of a log, in order, without those of types unknown to this version.
+    """Return the events of a log in order, without those of types unknown to this version.
 
     Args:
         path: The file.
-        whole: Refuse a last line that was cut off in mid-write; else it is left out.
+        whole: True to reject a truncated last line; False to skip it.
 
     Raises:
         InputError: The file cannot be read.
-        TaskError: A line is no event; says which.
+        TaskError: A line is not an event; the error names the line.
     """
     try:
         text = read_file(path, MAX_BYTES).decode()
@@ -94,7 +94,7 @@ def read_events(path: Path, *, whole: bool = True) -> tuple[Event, ...]:
         what = fault.what if isinstance(fault, FileFault) else "cannot be read: it is not UTF-8 text"
         raise InputError(f"the event log {what}", where=str(path), advice="give a log that --events wrote") from None
     lines = text.split("\n")
-    # Every line ends in a line break once it is written whole.
+    # A complete line ends in a line break.
     last = [] if whole else [lines.pop()]
     events = [from_json(line, where=f"{path}, line {k}") for k, line in enumerate(lines, start=1) if line.strip()]
     for line in last:

@@ -1,4 +1,4 @@
-"""The time of a mission, which outlasts the process that carries it out, and a timeout on it."""
+"""Mission clock, which continues after the process is restarted, and a timeout based on it."""
 
 from __future__ import annotations
 
@@ -7,19 +7,19 @@ import time
 
 from fieldhand.clock import Clock, PacedClock
 
-#: Seconds of the wall clock between two looks at the robot and at orders.
+#: Seconds of the wall clock between two polls of the robot and of commands.
 LOOK_EVERY_S = 0.1
 
-#: Seconds and looks that a robot is given to stand still after a goal was cancelled: where its time passes faster than
-#: the wall clock, messages need more looks.
+#: Seconds and polls within which a robot must stand still after a cancelled goal. Where its time runs faster than the
+#: wall clock, messages need more polls.
 STOP_WITHIN_S, STOP_LOOKS = 10.0, 200
 
 
 class MissionClock:
-    """The mission's time: constant between two looks, never decreasing, continued where a replay ends.
+    """Mission time: constant between two polls, never decreasing, continued after a replay.
 
     Args:
-        source: The clock behind it. If that jumps back, this one stands.
+        source: Underlying clock. If it jumps back, the mission clock stands still.
     """
 
     def __init__(self, source: Clock) -> None:
@@ -36,7 +36,7 @@ class MissionClock:
         return self._now
 
     def advance(self, seconds: float) -> None:
-        """Let time pass; :meth:`now` changes at the next look."""
+        """Let time pass; :meth:`now` changes at the next :meth:`look`."""
         self._source.advance(seconds)
 
     def look(self) -> float:
@@ -49,7 +49,7 @@ class MissionClock:
         self._now, self._ahead = now, now - self._source.now()
 
     def rest(self) -> None:
-        """Wait until the next look is due without letting a clock that jumps advance."""
+        """Wait until the next poll is due, without advancing a clock that jumps."""
         if math.isinf(self.speed):
             time.sleep(LOOK_EVERY_S)
         else:
@@ -57,16 +57,16 @@ class MissionClock:
 
 
 class StopTimeout:
-    """A timeout for a robot that is to stand still.
+    """Timeout for a robot that must stand still.
 
     Args:
-        clock: The mission's.
+        clock: Mission clock.
     """
 
     def __init__(self, clock: Clock) -> None:
         self._clock, self._until_s, self._looks = clock, clock.now() + STOP_WITHIN_S, 0
 
     def expired(self) -> bool:
-        """Count a look, and return True if time and looks are used up."""
+        """Count a poll, and return True if both time and polls are used up."""
         self._looks += 1
         return self._clock.now() >= self._until_s and self._looks > STOP_LOOKS

@@ -1,4 +1,4 @@
-"""Carry out an approved Task: tick its behavior tree until the plan is over, take its exit, record the end."""
+"""Carry out an approved Task: tick its behavior tree until the plan ends, take the exit, record the end."""
 
 from __future__ import annotations
 
@@ -38,13 +38,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Result:
-    """The result of a mission: how it ended, and its events.
+    """Result of a mission.
 
     Attributes:
-        status: As in :class:`~fieldhand.task.results.Ended`.
+        status: Status as in :class:`~fieldhand.task.results.Ended`.
         reason: Why it did not complete, in words; empty if it did.
-        spent: Metres, seconds and percent of the battery, the way home included.
-        events: Every event, in order; the first is ``Started``, the last ``Ended``.
+        spent: Metres, seconds and percent of the battery, including the way home.
+        events: All events in order, from ``Started`` to ``Ended``.
     """
 
     status: MissionStatus
@@ -54,7 +54,7 @@ class Result:
 
 
 def nobody() -> None:
-    """Give no order and no reason to stop."""
+    """Return no command and no reason to stop."""
 
 
 def run(
@@ -73,27 +73,28 @@ def run(
     log: InputLog | None = None,
     simulated: bool = False,
 ) -> Result:
-    """Carry out a mission, whatever comes: it always ends with one ``Ended`` event, the last.
+    """Carry out a mission. Its last event is always ``Ended``, whatever happens.
 
     Args:
         authorized: The approved Task.
-        site, robot: Those that were approved.
-        driver: The robot, real or simulated, without a goal.
-        guard: Asked before every drive and every action; it has the last word on the budget.
-        clock: The mission's time, and the driver's.
-        emit: Takes each event as it happens. An exception of it ends the mission, and is raised here once the robot
-            stands still.
-        interrupted: Asked at every tick; a reason ends the mission as ``aborted``. So does Ctrl-C.
-        wall: The time of day, to be recorded.
-        orders: Asked at every tick what a person wants now.
-        failsafe: Asked at every look whether what is left lasts for the way home; None for missions without limits.
-        log: Records inputs, so that the mission can be resumed after a power cut. If it holds some already, they are
-            replayed and the mission continues from there. It passes events on itself, instead of ``emit``.
-        simulated: True if the driver is a simulation. Resuming replays the mission to a new one.
+        site, robot: Approved site and robot profile.
+        driver: Driver of the robot, real or simulated, without a running goal.
+        guard: Decides on the budget before every drive and action.
+        clock: Clock of the mission and the driver.
+        emit: Receives each event as it happens. An exception it raises ends the mission, and is re-raised here once the
+            robot stands still.
+        interrupted: Polled at every tick; a reason ends the mission as ``aborted``. So does Ctrl-C.
+        wall: Time of day, for the record.
+        orders: Polled at every tick; returns the current operator command.
+        failsafe: Polled at every look; checks whether resources suffice for the way home. None for missions without
+            limits.
+        log: Records inputs, so that the mission can be resumed after a power cut. Inputs that it holds already are
+            replayed first. It receives the events instead of ``emit``.
+        simulated: True if the driver is a simulation; resuming replays the mission to a new one.
 
     Raises:
-        NotApprovedError: The site or the profile is not the one that was approved; nothing was done.
-        JournalError: The log cannot be written, or the mission does not go as it says.
+        NotApprovedError: Site or profile is not the approved one; nothing was done.
+        JournalError: The log cannot be written, or the mission deviates from it.
     """
     _require_approved(authorized, site, robot)
     with ctrl_c_as_request() as pressed:
@@ -131,15 +132,15 @@ def _require_approved(authorized: AuthorizedTask, site: Site, robot: RobotProfil
 
 
 class MissionRunner:
-    """Carries out one mission.
+    """Runs one mission.
 
     Args:
-        task, site, robot: Of the mission.
-        inputs: Driver, guard, failsafe, clock and orders.
+        task, site, robot: Task, site and robot of the mission.
+        inputs: Driver, guard, failsafe, clock and operator commands.
 
     Attributes:
-        attempt: The state of the mission.
-        watch: The watch over battery, distance and time.
+        attempt: State of the mission.
+        watch: Monitor of battery, distance and time.
     """
 
     def __init__(self, task: Task, site: Site, robot: RobotProfile, inputs: RecordedInputs) -> None:
@@ -148,28 +149,28 @@ class MissionRunner:
         self.watch = Watch(self.attempt)
 
     def run(self) -> Result:
-        """Carry the mission out, and bring the robot to rest whatever happens."""
+        """Run the mission, and stop the robot whatever happens."""
         try:
             ending = self._attempt_plan()
         except BaseException:
             self._inputs.abandon()
             raise
         finally:
-            # Whatever happened, a bug of this program too: no wheel turns when nobody looks.
+            # Also after a bug in this program: the robot must not move unsupervised.
             self._come_to_rest()
         result = self._end(ending)
         self._inputs.finish()
         return result
 
     def _come_to_rest(self) -> None:
-        """Stop the robot and wait until it stands still, without writing, which may be impossible now."""
+        """Stop the robot and wait until it stands still, without recording, which may be impossible now."""
         self.attempt.stop_driver()
         timeout = StopTimeout(self.attempt.clock)
         while not self.attempt.controller.poll().over and not timeout.expired():
             self._let_time_pass()
 
     def _attempt_plan(self) -> Ending:
-        """Carry out the plan, then the exit that follows from how it went."""
+        """Carry out the plan, then the exit that results from its end."""
         try:
             self._start()
             return self._take_exit(self._settled(self._carry_out_plan()))
@@ -199,12 +200,12 @@ class MissionRunner:
         )
         self.watch.look()
 
-    # --- the plan ------------------------------------------------------------------------------------------------
+    # --- plan ----------------------------------------------------------------------------------------------------
 
     def _carry_out_plan(self) -> Ending:
-        """Tick the tree until it is done, has failed, or was cut short.
+        """Tick the tree until it succeeds, fails, or is interrupted.
 
-        Orders are read before anything new begins, and again before time passes.
+        Commands are read before anything new begins, and again before time passes.
         """
         from py_trees.common import Status
 
@@ -246,9 +247,9 @@ class MissionRunner:
         return None
 
     def _alarmed(self, tree: MissionTree) -> Ending:
-        """Stop the robot for good, or give up the rest of the plan and turn home, as the alarm requires.
+        """Respond to an alarm: stop the robot for good, or give up the rest of the plan and turn home.
 
-        A goal that is over by now is done: the plan proceeds to what it would begin next, and gives that up.
+        A goal that has just ended counts as done: the plan advances to what it would begin next, and gives that up.
         """
         attempt, why = self.attempt, self.watch.why
         if self.watch.alarm == "stop":
@@ -271,7 +272,7 @@ class MissionRunner:
         return Ending(status="returned", exit="faulted", then=self.watch.exit, reason=why)
 
     def _stranded(self, why: str) -> Ending:
-        """Return the ending of a mission whose robot cannot come home and stays where it stands."""
+        """Return the ending of a mission whose robot cannot drive home and stays where it stands."""
         attempt, at = self.attempt, self.attempt.seen.position
         home = attempt.site.home(attempt.exit_for("low_budget"), attempt.standing)
         away = math.dist((at.x, at.y), home.stand or home.xy)
@@ -284,10 +285,10 @@ class MissionRunner:
         )
         return Ending(status="faulted", exit="faulted", then="stay", reason=joined("; ", (why, stands)))
 
-    # --- the exit ------------------------------------------------------------------------------------------------
+    # --- exit ----------------------------------------------------------------------------------------------------
 
     def _take_exit(self, ending: Ending) -> Ending:
-        """Drive where the exit leads. A failure on the way ends the mission where the robot then is."""
+        """Drive to the destination of the exit. A failure on the way ends the mission there."""
         attempt, watch = self.attempt, self.watch
         watch.turn("exit")
         attempt.emit(Exited(t=attempt.t, node=ending.node, exit=ending.exit, then=ending.then, reason=ending.reason))
@@ -298,11 +299,11 @@ class MissionRunner:
         try:
             while way is not None:
                 if not _advance(way):
-                    # The estimate was cautious: from a safe place the rest of the way may be in reach after all.
+                    # The estimate was conservative: from the safe place the rest of the way may be within reach.
                     way = drive(attempt, "", home) if short_of_home and watch.reaches(home) else None
                     short_of_home = "" if way is not None else short_of_home
                     continue
-                # An operator who aborted the mission and let it drive home must give a new order to stop that.
+                # The command that aborted the mission does not stop the drive home; only a new one does.
                 order = self._order()
                 if order is not None and (order == heard or order.wanted == "return"):
                     order = None
@@ -325,17 +326,17 @@ class MissionRunner:
         return self._stranded(short_of_home) if short_of_home else ending
 
     def _redirect(self, place: Place) -> Steps:
-        """Break off the current drive and drive to another place."""
+        """Cancel the current drive and drive to another place."""
         attempt = self.attempt
         attempt.stop_driver()
         while attempt.busy and not attempt.attend().over:
             yield
         yield from drive(attempt, "", place)
 
-    # --- orders --------------------------------------------------------------------------------------------------
+    # --- operator commands ---------------------------------------------------------------------------------------
 
     def _order(self) -> Order | None:
-        """Return what a person wants now. A pause is waited for here until it is over or the robot is stopped."""
+        """Return the current operator command. A pause is waited for here, until it ends or the robot is stopped."""
         attempt, inputs, controller = self.attempt, self._inputs, self.attempt.controller
         order = inputs.order()
         attempt.note_power_cuts()
@@ -357,12 +358,12 @@ class MissionRunner:
         return None if order is None or order.wanted == "pause" else order
 
     def _stopped(self) -> Order | None:
-        """Return the robot's own stop as an order."""
+        """Return the robot's own stop as a command."""
         reason = self._inputs.seen.stopped
         return Order(wanted="abort", reason=reason) if reason else None
 
     def _aborted(self, order: Order) -> Ending:
-        """Return the ending that an order or the robot's own stop requires. A robot that cannot move any more stays."""
+        """Return the ending that a command or the robot's own stop requires. A robot that cannot move stays."""
         attempt = self.attempt
         then: Then = "stay"
         if attempt.seen.stopped is None and order.wanted == "end":
@@ -375,7 +376,7 @@ class MissionRunner:
     # --- time ----------------------------------------------------------------------------------------------------
 
     def _settled(self, ending: Ending) -> Ending:
-        """Bring the robot to rest, and record the end of its goal: a capture that was made is kept."""
+        """Stop the robot and record the end of its goal: a finished capture is kept."""
         attempt = self.attempt
         attempt.stop_driver()
         timeout = StopTimeout(attempt.clock)
@@ -391,7 +392,7 @@ class MissionRunner:
         return ending
 
     def _let_time_pass(self) -> None:
-        """Let time pass until the driver needs a look or a level could be crossed, then look."""
+        """Let time pass until the driver is due or a level could be crossed, then check the limits."""
         seconds = self.attempt.next_event_in()
         self.attempt.clock.advance(0.0 if seconds is None else min(seconds, self.watch.next_look_in()))
         self.watch.look()

@@ -1,7 +1,7 @@
-"""Obstacles in the robot's way: drive around them, wait for them to go, record what they close off.
+"""Obstacles: drive around them, wait for them to go, record what they close off.
 
-A stretch that was found blocked counts as a keep-out for the rest of the mission: for the drives, the guard, the order
-of visits. Only where no other way is left the robot waits, and then tries a blocked one again.
+A stretch that was found blocked counts as a keep-out zone for the rest of the mission: for drives, the guard, and the
+order of visits. Only if no other way is left, the robot waits and then tries a blocked one again.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from fieldhand.site.model import Place
 from fieldhand.task.results import Event, Obstructed, Waited
 from fieldhand.task.run import Steps
 
-#: Metres along its way to which a robot that was stopped looks ahead.
+#: Distance in metres ahead of a stopped robot within which the obstacle is assumed.
 _AHEAD_M = 0.5
 
 
 def avoid(attempt: Attempt, node: str, place: Place, what: str) -> None:
-    """Remember what stands before the robot, which was stopped on the way to a place, and say what that closes off."""
+    """Record the obstacle before the robot, which was stopped on the way to a place, and what it closes off."""
     trees = [tree.place for tree in attempt.site.trees]
     before = attempt.drives.linked(trees, attempt.standing)
     position, path = attempt.seen.position, LineString(attempt.driven)
@@ -41,10 +41,11 @@ def avoid(attempt: Attempt, node: str, place: Place, what: str) -> None:
 
 
 def open_a_way(attempt: Attempt, node: str, place: Place) -> Steps:
-    """See that there is a way to a place. Where what was found blocked leaves none, wait; then try one again.
+    """Ensure that there is a way to a place. If blocked stretches leave none, wait, then reopen one of them.
 
     Raises:
         DriveFault: There never was a way.
+        BlockedFault: No way is left.
     """
     try:
         attempt.way_to(place)
@@ -55,7 +56,7 @@ def open_a_way(attempt: Attempt, node: str, place: Place) -> Steps:
         what = fault.what
     yield from wait(attempt, attempt.robot.patience.blocked_wait_s)
     known = attempt.blockages.stretches
-    # The one found last is the one that the robot most likely stands before.
+    # The robot most likely stands before the stretch found last.
     for left in (*(tuple(s for s in known if s is not one) for one in reversed(known)), ()):
         attempt.blockages.are(left)
         try:
@@ -75,7 +76,7 @@ def open_a_way(attempt: Attempt, node: str, place: Place) -> Steps:
 
 
 def no_way(attempt: Attempt, places: Sequence[Place]) -> tuple[bool, ...]:
-    """To which of the places no way is left from where the robot stands, whichever side of them it would stand on."""
+    """Return for each place True if no way is left to it from the robot's position, to either side of it."""
     if not attempt.blockages.stretches:
         return (False,) * len(places)
     anywhere = [replace(place, stand=None) if place.kind == "tree" else place for place in places]
@@ -83,7 +84,7 @@ def no_way(attempt: Attempt, places: Sequence[Place]) -> tuple[bool, ...]:
 
 
 def recall(attempt: Attempt, events: Iterable[Event]) -> None:
-    """Take up what an earlier part of the same mission found blocked, from its events."""
+    """Restore the blocked stretches found by an earlier part of the same mission, from its events."""
     last = next((e for e in reversed(list(events)) if isinstance(e, Obstructed)), None)
     if last is None:
         return

@@ -1,4 +1,4 @@
-"""Goals of a mission that have begun and whose end is not recorded yet, and checks of what a capture yields."""
+"""Goals that have begun and whose end is not recorded yet, and plausibility of readings."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ class OpenCapture:
 
 
 def joules_done(action: Action, progress: Progress) -> float:
-    """Return the energy that a capture has taken so far, by the profile."""
+    """Return the energy used so far by a capture in joules, by the profile."""
     return action.energy_j * min(1.0, progress.seconds / action.duration_s)
 
 
 def unusable(robot: RobotProfile, name: str, value: float | None) -> str:
-    """Return why a reading cannot be believed, or nothing if it can."""
+    """Return why a reading is implausible; empty if it is plausible."""
     quantity = robot.quantity[name]
     if value is None:
         return message("the sensor gave no {quantity}", context="log", quantity=name)

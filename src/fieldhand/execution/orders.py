@@ -1,6 +1,6 @@
-"""Orders to a mission under way, and the file in which other processes give them.
+"""Operator commands to a mission under way, and the file in which other processes give them.
 
-The file is not the journal, so that whoever gives an order cannot block the journal.
+The file is separate from the journal, so that a process that gives a command cannot block the journal.
 """
 
 from __future__ import annotations
@@ -13,15 +13,14 @@ from typing import Literal, cast
 
 from fieldhand.errors import ExecutionError, JournalError
 
-#: ``pause``: stand still until told otherwise. ``continue``: the pause is over. ``return``: come home now.
-#: ``abort``: stop here, the mission is over.
-#: ``end``: end as the Task says of an abort (Ctrl-C, a program that is told to end).
+#: All commands. ``pause``: stand still. ``continue``: end the pause. ``return``: drive home now. ``abort``: stop here;
+#: the mission is over. ``end``: take the Task's exit for an abort (Ctrl-C, a terminated program).
 Wanted = Literal["pause", "continue", "return", "abort", "end"]
 
-#: Orders that another process can give.
+#: Commands that another process can give.
 OrderWord = Literal["pause", "continue", "return", "abort"]
 
-#: Orders that may follow each order.
+#: Commands that may follow each command.
 _AFTER: dict[str, frozenset[str]] = {
     "": frozenset({"pause", "return", "abort"}),
     "pause": frozenset({"pause", "continue", "return", "abort"}),
@@ -33,10 +32,10 @@ _AFTER: dict[str, frozenset[str]] = {
 
 @dataclass(frozen=True, kw_only=True)
 class Order:
-    """An order that holds until another replaces it.
+    """A command, in force until the next one.
 
     Attributes:
-        reason: Who wants it, or why, in words.
+        reason: Who gave it, or why, in words.
         number: Number in the mission's folder, from 1; 0 if given otherwise.
     """
 
@@ -46,7 +45,7 @@ class Order:
 
 
 class OrderFile:
-    """The orders of a mission, in a file that any process can append to.
+    """The commands to a mission, in a file that any process can append to.
 
     Args:
         path: The file.
@@ -72,13 +71,13 @@ class OrderFile:
             raise self._unusable(error) from None
 
     def give(self, said: OrderWord, reason: str) -> int:
-        """Give an order.
+        """Append a command.
 
         Returns:
             Its number.
 
         Raises:
-            ExecutionError: The mission was told to stop, or to come home, before.
+            ExecutionError: An earlier command, to return or to abort, excludes it.
             JournalError: The file cannot be written.
         """
         try:
@@ -94,7 +93,7 @@ class OrderFile:
             raise self._unusable(error) from None
 
     def current(self) -> Order | None:
-        """Return the current order. A file that cannot be read is an order to stop: nobody could give another."""
+        """Return the current command. An unreadable file counts as an abort, since no other command could arrive."""
         try:
             if self._db is None:
                 self._db, self._file = self._connect(), self._identity()
@@ -112,7 +111,7 @@ class OrderFile:
         return self._before
 
     def last(self) -> tuple[int, str]:
-        """Return the number and word of the last order, or (0, "")."""
+        """Return the number and word of the last command, or (0, "")."""
         try:
             with closing(self._connect()) as db:
                 return self._last(db)

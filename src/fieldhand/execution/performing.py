@@ -1,4 +1,4 @@
-"""The robot's answers to what the nodes of a plan ask (:mod:`fieldhand.task.requests`)."""
+"""Execution of a plan's requests (:mod:`fieldhand.task.requests`) on the robot."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ Answer = Generator[None, None, Any]
 
 
 class Performer:
-    """Carries a plan out with the robot.
+    """Carries out a plan on the robot.
 
     Args:
-        attempt: The state of the mission.
+        attempt: The mission.
 
     Attributes:
-        place: Of the drive or the action in hand, once it is known.
-        between: One round or visit is over and the next has not begun: a person may want something now.
+        place: Place of the current drive or action, once it is known.
+        between: True between two rounds or visits, when operator commands are read.
     """
 
     def __init__(self, attempt: Attempt) -> None:
@@ -49,20 +49,20 @@ class Performer:
         It ends with the plan, done or failed, or when :attr:`Attempt.ending` is set.
 
         Raises:
-            OutputError: What happens cannot be written down.
+            OutputError: An event cannot be written.
         """
         run = self.attempt.run
         try:
             yield from carry_out_in_steps(run.program(), self._perform)
         except Failed:
-            pass  # the attempt knows of which fault
+            pass  # the mission has recorded the fault
         except Over:
             pass
         except Stopped as stopped:
             self._stop(stopped)
 
     def _perform(self, request: ask.Request) -> Answer:
-        """Answer a request, or say what went wrong and throw that into the plan."""
+        """Carry out a request; record a failure and raise it in the plan."""
         try:
             return (yield from self._answer(request))
         except OutputError:
@@ -71,7 +71,7 @@ class Performer:
             raise self._failure(request, error) from error
 
     def _failure(self, request: ask.Request, error: FieldhandError) -> Failed | GivenUp:
-        """Say what failed, and give what the plan is to be told."""
+        """Record a failure, and return the exception to raise in the plan."""
         at_work = isinstance(request, ask.Locate | ask.Drive | ask.Capture)
         if isinstance(error, BlockedFault) and at_work:
             if isinstance(request, ask.Drive) and request.tour is not None:
@@ -115,7 +115,7 @@ class Performer:
         return None
 
     def _look_around(self, *, first: bool) -> Steps:
-        """Let those who watch the mission speak between one round and the next."""
+        """Yield between one round and the next, so that commands and limits are checked."""
         if first:
             return
         self.between = True
@@ -135,7 +135,7 @@ class Performer:
         return there
 
     def _drive(self, request: ask.Drive) -> Generator[None, None, Place]:
-        """Drive; where something in the way leads it another way, the guard is asked anew."""
+        """Drive to a place; ask the guard again if an obstacle changes the way."""
         attempt, node = self.attempt, request.node
         tour: Tour | None = request.tour
         place: Place = request.place
@@ -168,8 +168,10 @@ class Performer:
         return found.holds
 
     def _arrange(self, node: AnyOrder) -> tuple[int, ...]:
-        """Return the order that drives least from here. If a step cannot be placed, keep the order given: that step
-        reports it itself."""
+        """Return the order with the shortest drives from here.
+
+        If a step has no place, keep the given order: that step reports it itself.
+        """
         attempt = self.attempt
         home = home_if_last(attempt.task, attempt.site, node.id, attempt.here)
         try:
@@ -178,7 +180,7 @@ class Performer:
             return tuple(range(len(node.steps)))
 
     def _offer(self, node: Optional) -> bool:
-        """Ask the guard whether the step may be done; where not, say that it is shed, and why."""
+        """Ask the guard whether the step may be done; report it as given up if not."""
         attempt = self.attempt
         state = attempt.state()
         try:

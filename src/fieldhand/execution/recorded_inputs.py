@@ -1,16 +1,16 @@
 """Record and replay every external input, so that an interrupted mission resumes deterministically.
 
-Execution is deterministic given what the driver, the guard, the clock and people answer. Each answer is recorded. A
-mission that was cut off is carried out again with the recorded answers until they are used up; it then is in the state
-in which it was, and the robot itself is asked. What the robot did meanwhile is not done again.
+Execution is deterministic given the answers of the driver, the guard, the clock and the operator. Each answer is
+recorded. An interrupted mission is carried out again with the recorded answers until they are used up; it is then in
+its former state and continues with the robot itself. What the robot has already done is not repeated.
 
-    observation ──▶ one instant: time, position, charge, goal, orders ──▶ answers every question until something is done
+    observation ──▶ one instant: time, position, charge, goal, command ──▶ answers all questions until something is done
 
-All of it is observed at one instant (:class:`~fieldhand.execution.journal.records.Observation`): after a goal begins or
-is cancelled, after an answer of the guard and after time passes, the next question makes a new observation.
+An :class:`~fieldhand.execution.journal.records.Observation` covers one instant: after a goal starts or is cancelled,
+after a decision of the guard, and after time passes, the next question makes a new observation.
 
-The log is on the disk before a goal begins, when it is over, and once a second in between; drives of a simulation whose
-time jumps are left to the next of these.
+The log is synced before a goal starts, when it ends, and once a second in between; drives of a simulation whose time
+jumps are not synced separately.
 """
 
 from __future__ import annotations
@@ -57,23 +57,24 @@ Answer = TypeVar("Answer", Verdict, Choice)
 
 
 class RecordedInputs:
-    """All inputs of one mission: a clock and a guard that record and replay, and the robot as observed.
+    """All inputs of one mission: a clock and a guard that record and replay, and observations of the robot.
 
     Implements :class:`~fieldhand.clock.Clock` and :class:`~fieldhand.execution.guard.Guard`.
     :class:`~fieldhand.execution.drive_controller.DriveController` starts the goals.
 
     Args:
-        driver, guard, failsafe: Asked where the log ends.
-        clock: The mission's time.
-        wall: The time of day, or None if there is none.
+        driver, guard, failsafe: Used once the recorded answers are used up.
+        clock: Mission clock.
+        wall: Time of day; None if there is none.
         log: Earlier answers; new ones are appended. None records nothing.
-        emit: Takes each event if there is no log; a log passes its events on by itself.
-        asked: Returns what a person wants now.
-        simulated: True if the driver is a simulation that was created anew: replay then repeats to it what it was told.
-            A real robot is where it is.
+        emit: Receives each event if there is no log; a log forwards events itself.
+        asked: Returns the current operator command.
+        simulated: True if the driver is a newly created simulation, to which replay repeats all goals. A real robot
+            stays
+            where it is.
 
     Attributes:
-        cuts: Power cuts so far.
+        cuts: Number of power cuts so far.
     """
 
     def __init__(
@@ -119,12 +120,12 @@ class RecordedInputs:
         return self._now
 
     def order(self) -> Order | None:
-        """Return what a person wants now."""
+        """Return the current operator command."""
         order = self.seen.order
         return None if order is None or order.wanted == "continue" else order
 
     def event(self, event: Event) -> None:
-        """Take an event: the log passes it on once it is on the disk; without a log it is emitted at once."""
+        """Record an event. The log forwards it once it is synced; without a log it is emitted at once."""
         if self._log is None:
             self._emit(event)
         else:
@@ -133,7 +134,7 @@ class RecordedInputs:
     # --- goals -----------------------------------------------------------------------------------------------------
 
     def start(self, goal: DriveGoal | ActionGoal) -> None:
-        """Let the driver begin a goal, once the disk has the record that it is about to."""
+        """Start a goal, once its record is synced."""
         self._goal_from = self.seen.position
         record, before = goal_record(goal), self._recorded("begun")
         if before is not None and before.body != record.body:
@@ -148,7 +149,7 @@ class RecordedInputs:
         self._goal, self._now = goal, None
 
     def cancel(self) -> None:
-        """Ask the driver to end the current goal."""
+        """Ask the driver to cancel the current goal."""
         if self._recorded("cancel") is None:
             self._driver.cancel()
             self._record(Record(kind="cancel", body="{}"))
@@ -156,21 +157,21 @@ class RecordedInputs:
             self._driver.cancel()
         self._now = None
 
-    # --- the clock -------------------------------------------------------------------------------------------------
+    # --- clock -----------------------------------------------------------------------------------------------------
 
     def now(self) -> float:
         """Return the mission's time of the current observation."""
         return self.seen.t
 
     def advance(self, seconds: float) -> None:
-        """Let time pass, in real time at most until the next look is due; the next question observes anew."""
+        """Let time pass, in real time at most until the next poll is due; the next question makes a new observation."""
         self._now = None
         if self._live:
             self._commit_events()
             self._clock.advance(min(seconds, LOOK_EVERY_S * self._clock.speed))
 
     def wait(self, noteworthy: Callable[[float, float], bool]) -> None:
-        """Wait until a person wants something else, the robot is stopped, or time and charge are noteworthy."""
+        """Wait until the operator command changes, the robot is stopped, or time and charge are noteworthy."""
         before, self._now = self.seen, None
         record = self._recorded("sight")
         if record is not None:
@@ -179,14 +180,14 @@ class RecordedInputs:
         self._commit_events()
         while True:
             self._clock.rest()
-            # A real robot is heard only while it is polled, its emergency stop too.
+            # A real robot, including its emergency stop, is only heard while it is polled.
             self._driver.poll()
             news = self._asked() != before.order or self._driver.stopped() != before.stopped
             if news or noteworthy(self._clock.look(), self._driver.charge_percent()):
                 self._now = self._observe()
                 return
 
-    # --- the guard and the failsafe ---------------------------------------------------------------------------------
+    # --- guard and failsafe ----------------------------------------------------------------------------------------
 
     def admit(self, state: MissionState, visit: Visit, still_to_come: Sequence[Visit] = ()) -> Verdict:
         """Return the guard's verdict, recorded or new."""
@@ -209,7 +210,7 @@ class RecordedInputs:
         )
 
     def ways_are(self, drives: Drives) -> None:
-        """Tell the guard that the ways have changed."""
+        """Inform the guard that drives have changed."""
         self._guard.ways_are(drives)
 
     def foresee(self, now: Underway) -> Foresight:
@@ -228,7 +229,7 @@ class RecordedInputs:
     ) -> Answer:
         """Return the guard's answer about a node.
 
-        In a replay the guard is asked again, so that it knows what it has granted; the recorded answer counts.
+        In a replay the guard is asked again, so that its own state is restored; the recorded answer counts.
         """
         record = self._recorded(kind)
         answer: Answer | FieldhandError
@@ -244,26 +245,26 @@ class RecordedInputs:
             raise answer
         return answer
 
-    # --- the end ---------------------------------------------------------------------------------------------------
+    # --- end -------------------------------------------------------------------------------------------------------
 
     def interrupted(self) -> None:
-        """Record a second Ctrl-C: what follows does not follow from the other answers alone."""
+        """Record a second Ctrl-C, which does not follow from the other inputs."""
         if self._live:
             self._record(Record(kind="interrupt", body="{}"))
             self._now = None
 
     def abandon(self) -> None:
-        """Stop recording, after an error that ends the mission: the robot can still be stopped."""
+        """Stop recording after an error that ends the mission; the robot can still be stopped."""
         if self._log is not None:
             self._emit = _discard
         self._log, self._live, self._now = None, True, None
 
     def finish(self) -> None:
-        """Commit what is left when the mission is over."""
+        """Sync what is left when the mission is over."""
         if self._log is not None:
             self._commit()
 
-    # --- the log ---------------------------------------------------------------------------------------------------
+    # --- log -------------------------------------------------------------------------------------------------------
 
     def _recorded(self, kind: Kind) -> Record | None:
         """Return the recorded answer to a question, or None if the question has to be asked live."""
@@ -283,7 +284,7 @@ class RecordedInputs:
         return None
 
     def _recorded_if(self, kind: Kind) -> Record | None:
-        """Return the next record if it is of a kind, and else leave it for the next question."""
+        """Return the next record if it is of a kind; otherwise leave it for the next question."""
         record = self._next()
         if record is not None and record.kind == kind:
             self._replayed += 1
@@ -297,14 +298,14 @@ class RecordedInputs:
         return self._log.next() if record is None else record
 
     def _go_live(self) -> None:
-        """Ask the robot itself from here on: the log is used up."""
+        """Continue with the robot itself: the recorded answers are used up."""
         self._live, self._away_s = True, None
         if self._replayed:
             self._record(Record(kind="cut", body="{}"))
             self._cut()
 
     def _cut(self) -> None:
-        """Count a power cut; the goal under way was cut off."""
+        """Count a power cut; it interrupted the current goal."""
         self.cuts += 1
         self._goal_cut_off = self._goal is not None
         if self._live or self._simulated:
@@ -323,7 +324,7 @@ class RecordedInputs:
         self._committed_s = time.monotonic()
 
     def _commit_events(self) -> None:
-        """Commit if there are events: they are passed on only then, and nobody waits for them while time passes."""
+        """Sync if there are new events: they are forwarded only then, and nothing else is due while time passes."""
         if self._log is not None and self._log.has_new_events:
             self._commit()
 
@@ -363,7 +364,7 @@ class RecordedInputs:
         return observation
 
     def _time_of_day(self) -> float | None:
-        """Return the time of day without the time that passed without power, which nobody has set."""
+        """Return the time of day minus the time without power, which is no change of the clock."""
         if self._wall is None:
             return None
         now = self._wall.now()
@@ -379,16 +380,16 @@ class RecordedInputs:
         return True
 
     def _must_commit(self, goal: DriveGoal | ActionGoal | None) -> bool:
-        """Return True if the beginning and end of a goal must be on the disk before anything else is done.
+        """Return True if the start and end of a goal must be synced before anything else is done.
 
-        In a simulation whose time jumps no wheel has turned for a drive, and it may be driven again.
+        A drive of a simulation whose time jumps need not be: it can be repeated.
         """
         return isinstance(goal, ActionGoal) or not self._simulated or math.isfinite(self._clock.speed)
 
     def _cut_off(self, progress: Progress) -> Progress:
-        """Return what is known of a goal that was under way when the power was cut, once the robot stands still.
+        """Return the state of a goal that a power cut interrupted, once the robot stands still.
 
-        The driver may have forgotten how far a drive came: then it is at least the straight line.
+        The driver may have lost the distance of a drive: then the straight line is a lower bound.
         """
         timeout = StopTimeout(self._clock)
         while not progress.over:

@@ -1,4 +1,4 @@
-"""The time of day beside the mission's own time: it is recorded, and nothing depends on it."""
+"""Time of day at which a mission began, and changes of the wall clock; recorded only, nothing depends on them."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ from datetime import UTC, datetime
 
 from fieldhand.execution.recorded_inputs import RecordedInputs
 
-#: Seconds by which the time of day may deviate from the mission's between two events without having been set.
+#: Deviation in seconds from the mission clock between two events beyond which the wall clock was changed.
 SET_S = 2.0
 
 
 class TimeOfDay:
-    """The time of day when a mission began, and by how much it was set since.
+    """Tracks the time of day.
 
     Args:
-        inputs: Observes the mission's time and the time of day.
+        inputs: Recorded inputs, which include the time of day.
     """
 
     def __init__(self, inputs: RecordedInputs) -> None:
@@ -24,13 +24,13 @@ class TimeOfDay:
 
     @property
     def began_at(self) -> str:
-        """ISO 8601 in UTC; empty if there is no time of day."""
+        """Beginning of the mission in ISO 8601, UTC; empty if there is no time of day."""
         if self._began_s is None:
             return ""
         return datetime.fromtimestamp(self._began_s, UTC).isoformat(timespec="milliseconds")
 
     def set_by(self) -> float:
-        """Return by how many seconds it was set since this was last called."""
+        """Return the seconds by which the wall clock was changed since the last call."""
         seen = self._inputs.seen
         if self._began_s is None or seen.wall is None:
             return 0.0

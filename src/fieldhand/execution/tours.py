@@ -1,4 +1,4 @@
-"""The visits of a for-each on the robot: which are left, which are cut off, which comes next."""
+"""Visits of a for-each during a mission: the next one, those left, those that cannot be reached."""
 
 from __future__ import annotations
 
@@ -17,43 +17,43 @@ from fieldhand.site.model import Place
 from fieldhand.task.plan import ForEach
 from fieldhand.task.results import Visiting
 
-#: So many places are named in a message.
+#: Largest number of places named in a message.
 _NAMED = 8
 
 
 @dataclass(frozen=True, kw_only=True)
 class OneVisit:
-    """The visit of an optional step: the whole of it.
+    """The single visit of an optional step.
 
     Attributes:
-        place: Where it begins.
+        place: Place at which it begins.
     """
 
     place: Place
 
     def undone(self) -> tuple[Place, ...]:
-        """None comes after it."""
+        """Return the places of later visits: there are none."""
         return ()
 
 
 class Tour:
-    """The visits of a for-each that was reached.
+    """The visits of a for-each.
 
-    A place that the robot finds no way to, because of what stands in its way, is put off to the end. What is then still
-    out of reach is given up: where the visits were mandatory, the loop has failed when all others are made.
+    A place that obstacles make unreachable is postponed to the end. If it is then still unreachable, it is given up; if
+    the visits were mandatory, the loop fails once all others are made.
 
     Args:
-        attempt: The state of the mission.
-        node: The for-each. Its selector is resolved now.
+        attempt: The mission.
+        node: The for-each. Its selector is resolved on construction.
 
     Attributes:
-        left: Visits that are still to be made, in the order planned.
-        cut_off: Those to which no way is left.
-        place: The place of the visit in hand.
+        left: Remaining visits in planned order.
+        cut_off: Visits to places that cannot be reached at present.
+        place: Place of the current visit.
 
     Raises:
         PlaceError: The selector gives no place.
-        DriveFault: A place that must be visited can never be reached.
+        DriveFault: A mandatory place can never be reached.
     """
 
     def __init__(self, attempt: Attempt, node: ForEach) -> None:
@@ -84,16 +84,16 @@ class Tour:
             self._give_up(closed, f"cannot be reached: {why}")
 
     def next(self, made: int) -> Place | None:
-        """Choose the next visit, which then is the one in hand.
+        """Choose the next visit and make it the current one.
 
         Args:
-            made: How many visits were made.
+            made: Number of visits made so far.
 
         Returns:
-            Its place; None where no visit comes any more.
+            Its place; None if no visit is left.
 
         Raises:
-            BlockedFault: All others are made, and one that had to be made could not be reached.
+            BlockedFault: All others are made, and a mandatory one could not be reached.
             GivenUp, Over: As :func:`~fieldhand.execution.giving_up.admit`.
         """
         self.place, self._made = None, made
@@ -108,18 +108,18 @@ class Tour:
         return self.place
 
     def undone(self) -> tuple[Place, ...]:
-        """Return the places of the visits still to be made."""
+        """Return the places of the remaining visits."""
         return tuple(v.place for v in (*self.left, *self.cut_off))
 
     def still_to_come(self) -> list[Visit]:
-        """Return the visits after the current one, as the guard sees them."""
+        """Return the visits after the current one for the guard."""
         if self.node.at_most is None:
             return list(self.left)
         return self.left[: max(0, self.node.at_most - self._made - 1)]
 
     @property
     def is_last_resort(self) -> bool:
-        """True if the visit in hand was put off before: now it is worth waiting for."""
+        """True if the current visit was postponed before, so that waiting for a way is worthwhile."""
         return bool(self.cut_off) and self.place == self.cut_off[0].place
 
     def permit(self, place: Place) -> None:
@@ -132,12 +132,14 @@ class Tour:
         admit(self.attempt, visit, refused=[place, *self.undone()])
 
     def arrived(self) -> None:
-        """Note that the robot has come to the place of the visit."""
+        """Record that the robot has reached the place of the visit."""
         if self.is_last_resort:
             self.cut_off.pop(0)
 
     def cannot_reach(self, fault: BlockedFault) -> None:
-        """Put the visit in hand off or, where that was done, give it up with all to which no way is left either."""
+        """Postpone the current visit or, if it was postponed already, give it up with all others that cannot be
+        reached.
+        """
         place = self.place
         assert place is not None  # noqa: S101  a visit is in hand
         if self.node.optional:
@@ -161,7 +163,7 @@ class Tour:
         shed(self.attempt, self.node.id, places, choice, optional=optional, cause="unreachable")
 
     def _parted(self, places: Sequence[Place]) -> tuple[tuple[Place, ...], tuple[Place, ...]]:
-        """Return the places that can be reached from where the robot stands, and those that obstacles cut off."""
+        """Split places into those that can be reached from the robot's position and those that obstacles cut off."""
         gone = no_way(self.attempt, places)
         return (
             tuple(p for p, cut in zip(places, gone, strict=True) if not cut),
@@ -169,7 +171,7 @@ class Tour:
         )
 
     def _look_again(self) -> None:
-        """Update after ways have changed: places cut off, stands of the others, their order."""
+        """Update the visits after drives have changed: places cut off, stands of the others, their order."""
         attempt, node = self.attempt, self.node
         self._ways = attempt.blockages.version
         if not attempt.blockages.stretches and not self.cut_off:
@@ -187,14 +189,14 @@ class Tour:
         self.cut_off = [replace(visits[p.kind, p.id], place=replace(p, stand=None)) for p in far]
 
     def _in_order(self) -> Place:
-        """Return the next visit in the order planned, if the guard permits it."""
+        """Return the next visit in planned order, if the guard permits it."""
         visit = self.left.pop(0)
         self.place = visit.place
         admit(self.attempt, visit, refused=[visit.place, *self.undone()])
         return visit.place
 
     def _chosen(self) -> Place | None:
-        """Ask the guard which optional visit comes next, and say which are given up."""
+        """Let the guard choose the next optional visit, and report those it gives up."""
         attempt, node = self.attempt, self.node
         at_most = None if node.at_most is None else node.at_most - self._made
         state = attempt.state()

@@ -1,7 +1,7 @@
-"""A Task's plan as a behavior tree: one behavior for each plan node, named by the node's id and what it does.
+"""Behavior tree of a plan: one behavior per plan node, named by the node's id and description.
 
-The tree shows the mission and is what ticks it. What a node means is said in :mod:`fieldhand.task.nodes`; the node that
-is in hand takes the mission a step further, and each behavior has the status of its node.
+The tree shows the mission and ticks it. :mod:`fieldhand.task.nodes` defines what a node means; each tick advances the
+current node, and each behavior has the status of its node.
 """
 
 from __future__ import annotations
@@ -27,16 +27,16 @@ def compile_tree(attempt: Attempt) -> MissionTree:
     """Return the behavior tree of a Task.
 
     Args:
-        attempt: The state that the behaviors share. A tree serves one attempt.
+        attempt: The mission, shared by all behaviors. A tree serves one mission.
 
     Returns:
-        The root. Tick it until it succeeds or fails, or until the attempt has an ending.
+        The root. Tick it until it succeeds or fails, or until the mission has an ending.
     """
     return MissionTree(attempt)
 
 
 class NodeBehavior(Composite):
-    """A plan node as it stands.
+    """Behavior of a plan node.
 
     Args:
         node: The node.
@@ -47,17 +47,17 @@ class NodeBehavior(Composite):
         self.node = node
 
     def tick(self) -> Iterator[Behaviour]:
-        """Tick the node inside that is in hand; the mission itself goes on at the root."""
+        """Tick the current child; the root advances the mission itself."""
         if self.current_child is not None and self.current_child.status == Status.RUNNING:
             yield from self.current_child.tick()
         yield self
 
 
 class MissionTree(NodeBehavior):
-    """The root: it takes the mission further.
+    """Root of the tree, which advances the mission.
 
     Args:
-        attempt: The state of the mission.
+        attempt: The mission.
     """
 
     def __init__(self, attempt: Attempt) -> None:
@@ -69,12 +69,12 @@ class MissionTree(NodeBehavior):
         attempt.run.entered, attempt.run.left = self._entered, self._left
 
     def tick(self) -> Iterator[Behaviour]:
-        """Go on until the robot is busy, a round is over, or the plan is."""
+        """Advance until the robot is busy, a round is over, or the plan has ended."""
         next(self._program, None)
         yield from super().tick()
 
     def stop(self, new_status: Status = Status.INVALID) -> None:
-        """End the plan where it is; a robot that is at something stops."""
+        """End the plan and stop the robot."""
         if new_status == Status.INVALID:
             self._program.close()
             self.attempt.stop_driver()
@@ -82,11 +82,11 @@ class MissionTree(NodeBehavior):
 
     @property
     def between(self) -> bool:
-        """True between two rounds or visits: one is over and the next has not begun."""
+        """True between two rounds or visits."""
         return self._performer.between
 
     def give_up(self, verdict: Verdict) -> None:
-        """Say that the work in hand and all that would come after it is given up, and why."""
+        """Report the current work and all later work as given up."""
         give_up_rest(self.attempt, self._performer.place, verdict)
 
     def _entered(self, node: Node) -> None:

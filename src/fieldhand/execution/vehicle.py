@@ -1,4 +1,4 @@
-"""Vehicles, on which missions are carried out: a driver with its clocks."""
+"""Vehicles on which missions run: a driver with its clocks."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ if TYPE_CHECKING:
     from fieldhand.robot.model import RobotProfile
     from fieldhand.site.model import Site
 
-#: When a mission begins whose world sets the wall clock without saying when it began.
+#: Start of a mission whose world changes the wall clock without defining when the mission begins.
 SOME_MORNING = datetime(2026, 1, 1, 6, 0, tzinfo=UTC)
 
-#: What carries messages to a robot.
+#: Transports to a robot over ROS 2.
 TransportName = Literal["dds", "rclpy"]
 
-#: Takes each event of a mission.
+#: Receives the events of a mission.
 Writer = Callable[[Event], None]
 
 
@@ -33,12 +33,12 @@ def _no_limit(write: Writer) -> Writer:
 
 @dataclass(frozen=True, kw_only=True)
 class Connection:
-    """Connection to a robot over ROS 2, beside what its profile says.
+    """Connection to a robot over ROS 2; overrides its profile.
 
     Attributes:
-        domain: ROS's domain: robots and programs hear each other within one.
-        namespace: In place of the profile's: empty, or ``/`` and a name; None for the profile's.
-        sim_time: The robot is a simulation whose time stands on ``/clock``, also where its profile does not say so.
+        domain: ROS domain id.
+        namespace: Namespace in place of the profile's: empty, or ``/`` and a name; None for the profile's.
+        sim_time: True for a simulation that publishes ``/clock``, even if its profile does not say so.
     """
 
     transport: TransportName
@@ -53,16 +53,16 @@ class Connection:
 
 @dataclass(frozen=True, kw_only=True)
 class Vehicle:
-    """A robot that is ready for a mission: real, or the simulation.
+    """A robot that is ready for a mission: real or simulated.
 
     Attributes:
-        driver: In no goal.
-        clock: What drives the mission's time; the driver's too.
-        charge_percent: Of the battery when the mission begins: the guard reckons from it.
-        wall: The time of day; None where there is none.
-        by: How it is reached; None for the simulation.
-        remark: What whoever begins a mission should know of it; empty where there is nothing.
-        disk: What its disk makes of what is written on it: that of a simulation may be full.
+        driver: Driver without a running goal.
+        clock: Clock of the mission and the driver.
+        charge_percent: Battery charge at the beginning, on which the guard bases its budget.
+        wall: Time of day; None if there is none.
+        by: How the robot is reached; None for the simulation.
+        remark: Remark for the operator; empty if there is none.
+        disk: Wraps the event writer; a simulated disk may be full.
     """
 
     driver: Driver
@@ -75,7 +75,7 @@ class Vehicle:
 
     @property
     def simulated(self) -> bool:
-        """True for a simulation. Resuming replays the mission to a new one; a real robot is where it is."""
+        """True for a simulation: resuming replays the mission to a new one, while a real robot stays where it is."""
         return self.by is None
 
 
@@ -83,10 +83,10 @@ def simulation(site: Site, robot: RobotProfile, world: World, *, seed: int, spee
     """Create the simulated robot at the start of a site.
 
     Args:
-        site, robot: Of the mission.
-        world: What the sensors would read, and what goes wrong.
-        seed: Of every random thing in it.
-        speed: Simulated seconds in a second; None for as fast as it goes.
+        site, robot: Site and profile of the mission.
+        world: Sensor readings and faults.
+        seed: Random seed.
+        speed: Simulated seconds per second; None for as fast as possible.
 
     Raises:
         WorldError: The world does not fit the site or the robot.

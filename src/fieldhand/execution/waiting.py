@@ -1,4 +1,4 @@
-"""To stand still for a while, and to wait until the robot knows where it is."""
+"""Waiting: for a time, and for a lost position."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from fieldhand.language import joined, message
 from fieldhand.task.results import Faulted, Waited
 from fieldhand.task.run import Steps
 
-#: Seconds within which two moments are one: clocks add floating-point numbers.
+#: Seconds within which two times are equal: clocks add floating-point numbers.
 _SAME_S = 1e-6
 
 
 def wait(attempt: Attempt, seconds: float, over: Callable[[], bool] = lambda: False) -> Steps:
-    """Stand still for so many seconds of the mission, or until it is over."""
+    """Stand still for some seconds of the mission, or until ``over`` returns True."""
     until_s = attempt.clock.now() + seconds
     attempt.wait_until(until_s)
     try:
@@ -26,10 +26,10 @@ def wait(attempt: Attempt, seconds: float, over: Callable[[], bool] = lambda: Fa
 
 
 def know_position(attempt: Attempt, node: str) -> Steps:
-    """Wait for a lost position as long as the profile says; for ever if halted.
+    """Wait for a lost position as long as the profile allows; indefinitely while the mission is halted.
 
     Raises:
-        LostFault: It does not know it then either.
+        LostFault: The position is still unknown.
     """
     while attempt.halted:
         yield

@@ -1,9 +1,9 @@
-"""The watch over battery, distance and time while a mission is under way, at every look at the robot.
+"""Monitor of battery, distance and time, at every poll of the robot.
 
-The guard decides between drives. This looks in between: every level of the battery and every limit that is crossed is
-an event of the log, once, and what follows from it is done at once. At the return level the mission turns home, at the
-stop level the robot stops where it stands. Whether what is left still lasts for the way home is asked of a
-:class:`~fieldhand.execution.guard.Failsafe`, which evaluation implements.
+The guard decides between drives; this monitor checks during them. Every battery level and every limit that is crossed
+is logged once, and its consequence follows at once: at the return level the mission turns home, at the stop level the
+robot stops where it stands. A :class:`~fieldhand.execution.guard.Failsafe`, implemented by evaluation, predicts whether
+resources suffice for the way home.
 """
 
 from __future__ import annotations
@@ -25,35 +25,35 @@ from fieldhand.task.frames import Then as Exit
 from fieldhand.task.limit_words import say_crossing
 from fieldhand.task.results import Crossable, Crossing, LimitCrossed
 
-#: Seconds between two looks at least, where time jumps. The next look is no later than the fastest drain could reach a
-#: level.
+#: Shortest time in seconds between two checks when time jumps. The next check comes before the fastest drain could
+#: reach a level.
 SOONEST_S = 0.2
 
-#: A robot drives no faster than this many times its speed.
+#: Highest plausible speed as a multiple of the robot's speed.
 _SPEED = 2.0
 
-#: The part of what the charge lasts for on average within which a safe place is reached in all likelihood.
+#: Fraction of the mean range of the charge within which a safe place is almost certainly reached.
 _SURELY = 0.6
 
-#: A level counts as left again once the charge is so many percent above it: the battery was changed or charged.
+#: Charge in percent above a level at which it counts as left again: the battery was changed or charged.
 CLEAR_PERCENT = 3.0
 
-#: ``plan``: the plan is carried out. ``exit``: the robot is on its way home. ``over``: it stands, or is told to.
+#: ``plan``: carrying out the plan. ``exit``: on the way home. ``over``: standing, or told to stop.
 Phase = Literal["plan", "exit", "over"]
 Alarm = Literal["none", "return", "stop", "shelter"]
 
 
 class Watch:
-    """The watch over one attempt.
+    """Limit monitor of one mission.
 
     Args:
         attempt: The mission.
 
     Attributes:
-        phase: What the mission is at.
-        alarm: What has to be done now: turn home, stop, or look for where to stop safely (``shelter``).
-        why: In words.
-        exit: Where the alarm to turn home sends the robot.
+        phase: Current phase of the mission.
+        alarm: Required response: turn home, stop, or look for a place to stop safely (``shelter``).
+        why: Reason in words.
+        exit: Destination after an alarm to turn home.
     """
 
     def __init__(self, attempt: Attempt) -> None:
@@ -62,7 +62,8 @@ class Watch:
         self.alarm: Alarm = "none"
         self.why = ""
         self.exit = attempt.exit_for("low_budget")
-        #: A mission that ends where its last visit was has no way home in its limits: driving home would exceed them.
+        #: A mission that ends at its last visit does not include the way home in its limits: driving home would exceed
+        #: them.
         self._has_open_end = attempt.task.composition.nominal == "stay"
         self._reach_m = 0.0
         self._levels = levels_of(attempt.task.constraints, attempt.robot)
@@ -72,11 +73,11 @@ class Watch:
         self._fastest = fastest_drain(attempt.robot)
 
     def turn(self, phase: Phase) -> None:
-        """Begin a phase of the mission; what the alarm asked for is done."""
+        """Enter a phase of the mission; the previous alarm is settled."""
         self.phase, self.alarm, self.why = phase, "none", ""
 
     def look(self) -> None:
-        """Take a look at the robot: write down what was crossed, and raise the alarm where something follows."""
+        """Check all levels: record crossings, and raise the alarm if one has consequences."""
         spent, charge = self._attempt.spent, self._attempt.charge_percent()
         values: dict[Crossable, float] = {
             "charge_percent": charge,
@@ -95,21 +96,21 @@ class Watch:
             self._foresee(spent, charge)
 
     def has_news(self, now: float, charge: float) -> bool:
-        """Return True if a robot that stands has come to a level of charge or a limit of time since the last look.
+        """Return True if a standing robot has reached a charge level or a time limit since the last check.
 
         Args:
-            now: Of the mission's clock.
-            charge: Of the battery, in percent.
+            now: Time of the mission clock in seconds.
+            charge: Battery charge in percent.
         """
         seconds = self._attempt.t + now - self._attempt.clock.now()
         values: dict[Crossable, float] = {"charge_percent": charge, "duration_s": seconds}
         if self._attempt.next_reading_in() > 0.0 and math.isfinite(self._attempt.next_reading_in()):
-            del values["charge_percent"]  # it was read a moment ago
+            del values["charge_percent"]  # read a moment ago
         open_ = (level for level in self._levels if level not in self._crossed and level.quantity in values)
         return any(level.is_crossed(values[level.quantity]) for level in open_)
 
     def next_look_in(self) -> float:
-        """Return seconds until something could be crossed, at the earliest."""
+        """Return the shortest time in seconds until something could be crossed."""
         spent, charge = self._attempt.spent, self._attempt.charge_percent()
         speed, found = _SPEED * self._attempt.robot.speed_m_s, [self._attempt.next_reading_in()]
         pace: dict[Crossable, float] = {
@@ -125,15 +126,15 @@ class Watch:
             room = level.threshold - used.get(level.quantity, 0.0)
             if level.quantity == "charge_percent":
                 room = charge - level.threshold
-            # While it drives out, the way home grows as fast as what is left shrinks.
+            # While driving out, the way home grows as fast as the remaining resources shrink.
             halved = self.phase == "plan" and level.level in ("reserve", "limit")
             found.append(room / pace[level.quantity] / (2.0 if halved else 1.0))
         return max(SOONEST_S, min(found))
 
     def refuge(self, home: Place) -> Place | None:
-        """Return where the robot can stop safely, on the way home as far as its charge lasts, else at a marker near by.
+        """Return where the robot can stop safely: on the way home within range of its charge, else at a near marker.
 
-        None where it cannot: then it drives on until the battery is at its stop level. The alarm is over either way.
+        Return None if there is no such place: then it drives on until the stop level. The alarm ends in both cases.
         """
         self.alarm = "none"
         attempt, at = self._attempt, self._attempt.seen.position
@@ -150,7 +151,7 @@ class Watch:
         return markers[k] if nearest_m <= _SURELY * self._reach_m else None
 
     def reaches(self, home: Place) -> bool:
-        """Return True if the charge lasts for the way home from where the robot now stands."""
+        """Return True if the charge suffices for the way home from the robot's position."""
         attempt = self._attempt
         try:
             metres = attempt.drives.between(attempt.standing, home).length_m
@@ -161,7 +162,7 @@ class Watch:
     # --- crossings -----------------------------------------------------------------------------------------------
 
     def _follows(self, level: LimitLevel) -> Consequence:
-        """Return what is done about a crossing, in this phase."""
+        """Return the consequence of a crossing in this phase."""
         if self.phase == "over" or (self.phase == "exit" and level.then == "return"):
             return "go_on"
         if level.then == "return" and self._exit_after(level.quantity) == "stay":
@@ -169,7 +170,7 @@ class Watch:
         return level.then
 
     def _exit_after(self, quantity: Crossable) -> Exit:
-        """Return where the robot goes once a limit of that quantity is reached."""
+        """Return the destination after a limit of that quantity is reached."""
         if self._has_open_end and quantity != "charge_percent":
             return "stay"
         return self._attempt.exit_for("low_budget")
@@ -212,7 +213,7 @@ class Watch:
     # --- the way home --------------------------------------------------------------------------------------------
 
     def _foresee(self, spent: Spent, charge: float) -> None:
-        """Ask whether what is left lasts for the way home, while the robot drives or works."""
+        """Ask the failsafe, during a drive or a capture, whether resources suffice for the way home."""
         doing = self._attempt.doing
         if self.phase == "plan" and self._has_open_end:
             return
@@ -232,7 +233,7 @@ class Watch:
     def _ask(
         self, spent: Spent, charge: float, ways: tuple[float, float, float], work: Work | None = None
     ) -> Foresight:
-        """Ask the failsafe; the ways are those of :meth:`_ways`."""
+        """Ask the failsafe; ``ways`` are those of :meth:`_ways`."""
         on_m, after_m, home_m = ways
         return self._attempt.inputs.foresee(
             Underway(
@@ -247,7 +248,7 @@ class Watch:
         )
 
     def _ways(self, doing: OpenDrive | OpenCapture) -> tuple[float, float, float]:
-        """Metres left of the drive in hand, from its end home, and home from here at most."""
+        """Return metres left of the current drive, from its end home, and at most from here home."""
         attempt = self._attempt
         if isinstance(doing, OpenCapture) or len(attempt.driven) < 2:
             home = self._home_m(attempt.standing)
@@ -264,7 +265,7 @@ class Watch:
         return on_m, from_end, min(done + from_start, on_m + from_end)
 
     def _home_m(self, at: Place) -> float:
-        """Metres of the drive to where the mission goes on a low budget; 0 where no way leads there."""
+        """Return the metres to the exit for a low budget; 0 if there is no way."""
         attempt = self._attempt
         home = attempt.site.home(attempt.exit_for("low_budget"), at)
         try:

@@ -1,7 +1,7 @@
-"""The world of a simulation: what sensors would read, and what goes wrong (:mod:`.world_file` reads it from YAML).
+"""World of a simulation: sensor readings and faults (:mod:`.world_file` reads it from YAML).
 
-A world names trees by id or by latitude and longitude, so that it does not depend on how a program numbers them.
-Whether it fits a site and a robot is checked where it is used (:mod:`fieldhand.execution.drivers.groundtruth`).
+A world refers to trees by id or by latitude and longitude, independent of how a program numbers them. Whether it fits a
+site and a robot is checked where it is used (:mod:`fieldhand.execution.drivers.groundtruth`).
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from datetime import datetime
 
 @dataclass(frozen=True, kw_only=True)
 class Spot:
-    """A tree, by its id or else as the one nearest to a position in degrees (WGS 84)."""
+    """Reference to a tree: by id, or as the tree nearest to a position in degrees (WGS 84)."""
 
     id: str | None = None
     lat: float = 0.0
@@ -25,7 +25,7 @@ class Spot:
 
 @dataclass(frozen=True, kw_only=True)
 class Truth:
-    """Exact readings of a sensor, at some trees and everywhere else (None: drawn from the profile)."""
+    """Exact readings of a sensor, at some trees and elsewhere (None: drawn from the profile)."""
 
     default: float | None = None
     trees: tuple[tuple[Spot, float], ...] = ()
@@ -33,7 +33,7 @@ class Truth:
 
 @dataclass(frozen=True, kw_only=True)
 class ActionFails:
-    """An action fails its first ``times`` attempts (None: always), at one tree or wherever it is tried."""
+    """An action fails its first ``times`` attempts (None: always), at one tree or everywhere."""
 
     action: str
     times: int | None = None
@@ -51,7 +51,7 @@ class SensorSilent:
 
 @dataclass(frozen=True, kw_only=True)
 class SensorAbsurd:
-    """A sensor reads ``value``, whatever is there."""
+    """A sensor reads ``value`` regardless of the true value."""
 
     quantity: str
     value: float
@@ -61,7 +61,7 @@ class SensorAbsurd:
 
 @dataclass(frozen=True, kw_only=True)
 class DriveFails:
-    """A drive to a tree, or any drive, fails half-way for a reason that is not on the way: a motor, the navigation."""
+    """A drive to a tree, or any drive, fails half-way for a reason other than an obstacle: a motor, the navigation."""
 
     times: int | None = None
     at: Spot | None = None
@@ -69,12 +69,12 @@ class DriveFails:
 
 @dataclass(frozen=True, kw_only=True)
 class Blocked:
-    """Something stands in the way: a leg that passes within ``within_m`` metres of it ends there.
+    """An obstacle: a leg that passes within ``within_m`` metres of it ends there.
 
     Attributes:
-        at: The tree that it stands at; or else the two trees halfway between which it stands, ``between``.
-        times: How many legs it ends before it is gone (None: any number).
-        from_s, until_s: When it stands there, in seconds of the mission (None: to the end).
+        at: Tree at which it stands; otherwise ``between``, two trees halfway between which it stands.
+        times: Number of legs it ends before it is gone (None: unlimited).
+        from_s, until_s: Interval in seconds of the mission (None: to the end).
     """
 
     at: Spot | None = None
@@ -87,11 +87,11 @@ class Blocked:
 
 @dataclass(frozen=True, kw_only=True)
 class LocalisationLost:
-    """The robot does not know where it is for ``for_s`` seconds (None: never again).
+    """The robot's position is lost for ``for_s`` seconds (None: for good).
 
     Attributes:
-        at_s: When, in seconds of the mission; or else ``at`` which tree it comes within ``within_m`` metres of.
-        times: At a tree: how often it happens there.
+        at_s: Time in seconds of the mission; otherwise ``at``, a tree, when the robot comes within ``within_m`` metres.
+        times: Number of times it happens at a tree.
     """
 
     at_s: float | None = None
@@ -103,7 +103,7 @@ class LocalisationLost:
 
 @dataclass(frozen=True, kw_only=True)
 class BatteryDrains:
-    """From ``from_s`` seconds on the battery empties ``factor`` times as fast as the profile says."""
+    """From ``from_s`` seconds on, the battery empties ``factor`` times as fast as the profile says."""
 
     factor: float
     from_s: float = 0.0
@@ -111,7 +111,7 @@ class BatteryDrains:
 
 @dataclass(frozen=True, kw_only=True)
 class ClockJumps:
-    """``at_s`` seconds into the mission somebody sets the wall clock by ``by_s`` seconds, back if that is negative."""
+    """The wall clock is changed by ``by_s`` seconds, backwards if negative, ``at_s`` seconds into the mission."""
 
     at_s: float
     by_s: float
@@ -119,7 +119,7 @@ class ClockJumps:
 
 @dataclass(frozen=True, kw_only=True)
 class DiskFull:
-    """From ``at_s`` seconds into the mission nothing can be written any more."""
+    """From ``at_s`` seconds into the mission on, nothing can be written."""
 
     at_s: float
 
@@ -148,16 +148,16 @@ WorldFault = (
 
 @dataclass(frozen=True, kw_only=True)
 class World:
-    """World of a simulation; whatever it leaves open is drawn from the profile and the seed.
+    """World of a simulation; what it leaves open is drawn from the profile and the seed.
 
     Attributes:
-        readings: By quantity.
-        seed: Of every random thing in it, where the run names none.
-        charge_percent: Of the battery at the start.
-        meter_step_percent: The battery's meter shows multiples of it; 0 for one that shows the charge as it is.
-        begins: The time of day when a mission begins, with its zone; None for a robot without a wall clock.
-        source: File, for messages.
-        data: What the file held, byte by byte; None for a world from no file.
+        readings: Readings by quantity.
+        seed: Random seed, unless the run gives one.
+        charge_percent: Battery charge at the start.
+        meter_step_percent: Resolution of the battery meter in percent; 0 for the exact charge.
+        begins: Time of day when a mission begins, with its zone; None for a robot without a wall clock.
+        source: File name, for messages.
+        data: Bytes of the file; None for a world that was not read from a file.
     """
 
     readings: Mapping[str, Truth] = field(default_factory=dict)

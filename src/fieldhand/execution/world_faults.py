@@ -1,4 +1,4 @@
-"""The faults of a world file: a pydantic model for each, as its YAML has it."""
+"""Faults of a world file: a pydantic model for each."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ from fieldhand.execution.world import (
 )
 
 Second = Annotated[float, Field(ge=0, allow_inf_nan=False)]
-#: No site is larger.
+#: Larger than any site.
 Metres = Annotated[float, Field(gt=0, le=100_000, allow_inf_nan=False)]
 Times = Annotated[StrictInt, Field(ge=1)] | None
 
 
 class Strict(BaseModel):
-    """A part of a world file: it has the keys that are declared and no others."""
+    """A part of a world file; undeclared keys are rejected."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -48,7 +48,7 @@ class SpotModel(Strict):
         return self
 
     def spot(self) -> Spot:
-        """As execution uses it."""
+        """Return the reference for execution."""
         if self.id is not None:
             return Spot(id=str(self.id))
         return Spot(lat=self.lat or 0.0, lon=self.lon or 0.0)
@@ -70,30 +70,30 @@ class ActionFailsModel(_AtModel):
     action: str
 
     def made(self) -> WorldFault:
-        """As execution uses it."""
+        """Return the fault for execution."""
         return ActionFails(action=self.action, times=self.times, at=self.spot)
 
 
 class SensorSilentModel(_AtModel):
-    """A sensor that gives nothing."""
+    """A sensor without a reading."""
 
     fault: Literal["sensor_silent"]
     quantity: str
 
     def made(self) -> WorldFault:
-        """As execution uses it."""
+        """Return the fault for execution."""
         return SensorSilent(quantity=self.quantity, times=self.times, at=self.spot)
 
 
 class SensorAbsurdModel(_AtModel):
-    """A sensor that gives nonsense."""
+    """A sensor with an absurd reading."""
 
     fault: Literal["sensor_absurd"]
     quantity: str
     value: FiniteFloat
 
     def made(self) -> WorldFault:
-        """As execution uses it."""
+        """Return the fault for execution."""
         return SensorAbsurd(quantity=self.quantity, value=self.value, times=self.times, at=self.spot)
 
 
@@ -103,12 +103,12 @@ class DriveFailsModel(_AtModel):
     fault: Literal["drive_fails"]
 
     def made(self) -> WorldFault:
-        """As execution uses it."""
+        """Return the fault for execution."""
         return DriveFails(times=self.times, at=self.spot)
 
 
 class BlockedModel(Strict):
-    """Something in the way."""
+    """An obstacle."""
 
     fault: Literal["blocked"]
     at: SpotModel | None = None
@@ -127,7 +127,7 @@ class BlockedModel(Strict):
         return self
 
     def made(self) -> WorldFault:
-        """As execution uses it."""
+        """Return the fault for execution."""
         return Blocked(
             at=None if self.at is None else self.at.spot(),
             between=None if self.between is None else (self.between[0].spot(), self.between[1].spot()),
@@ -139,7 +139,7 @@ class BlockedModel(Strict):
 
 
 class LocalisationLostModel(Strict):
-    """A robot that does not know where it is."""
+    """A lost position."""
 
     fault: Literal["localisation_lost"]
     at_s: Second | None = None
@@ -155,7 +155,7 @@ class LocalisationLostModel(Strict):
         return self
 
     def made(self) -> WorldFault:
-        """As execution uses it."""
+        """Return the fault for execution."""
         at = None if self.at is None else self.at.spot()
         return LocalisationLost(at_s=self.at_s, at=at, within_m=self.within_m, for_s=self.for_s, times=self.times)
 
@@ -168,42 +168,42 @@ class BatteryDrainsModel(Strict):
     from_s: Second = 0.0
 
     def made(self) -> WorldFault:
-        """As execution uses it."""
+        """Return the fault for execution."""
         return BatteryDrains(factor=self.factor, from_s=self.from_s)
 
 
 class ClockJumpsModel(Strict):
-    """A wall clock that is set."""
+    """A change of the wall clock."""
 
     fault: Literal["clock_jumps"]
     at_s: Second
     by_s: FiniteFloat
 
     def made(self) -> WorldFault:
-        """As execution uses it."""
+        """Return the fault for execution."""
         return ClockJumps(at_s=self.at_s, by_s=self.by_s)
 
 
 class DiskFullModel(Strict):
-    """A disk on which there is no room."""
+    """A full disk."""
 
     fault: Literal["disk_full"]
     at_s: Second
 
     def made(self) -> WorldFault:
-        """As execution uses it."""
+        """Return the fault for execution."""
         return DiskFull(at_s=self.at_s)
 
 
 class RobotStopsModel(Strict):
-    """The end of the robot's part."""
+    """A robot that stops for good."""
 
     fault: Literal["robot_stops"]
     at_s: Second
     why: Annotated[str, Field(min_length=1)] = "power cut"
 
     def made(self) -> WorldFault:
-        """As execution uses it."""
+        """Return the fault for execution."""
         return RobotStops(at_s=self.at_s, why=self.why)
 
 

@@ -45,19 +45,19 @@ SensorValue = StrictBool | FiniteFloat
 
 
 class TreeValueModel(SpotModel):
-    """A tree with what a sensor reads there."""
+    """A tree and a sensor's value there."""
 
     value: SensorValue
 
 
 class TruthModel(Strict):
-    """A value for everywhere, and values at trees."""
+    """Values of a sensor: a default, and values at trees."""
 
     default: SensorValue | None = None
     trees: tuple[TreeValueModel, ...] = ()
 
     def truth(self) -> Truth:
-        """As execution uses it."""
+        """Return the readings for execution."""
         default = None if self.default is None else float(self.default)
         return Truth(default=default, trees=tuple((t.spot(), float(t.value)) for t in self.trees))
 
@@ -68,14 +68,14 @@ _KINDS_OF_FAULT: dict[str, type[BaseModel]] = {
 
 
 def _of_our_time(begins: datetime) -> datetime:
-    """Require a year in which every zone has a time, at the end of any mission too."""
+    """Require a year in which every time zone is defined, even at the end of a long mission."""
     if not 2000 <= begins.year <= 2999:
         raise ValueError(f"the year {begins.year} is not one from 2000 to 2999")
     return begins
 
 
 class WorldModel(Strict):
-    """The whole file."""
+    """A whole world file."""
 
     readings: Mapping[str, SensorValue | TruthModel] = Field(default_factory=dict)
     faults: tuple[FaultModel, ...] = ()
@@ -89,7 +89,7 @@ def load_world(path: Path) -> World:
     """Return the world of a YAML file (docs/formats.md, "World file").
 
     Raises:
-        WorldError: It cannot be read or used; says which key, and what to do.
+        WorldError: It cannot be read or used; the error names the key and the remedy.
     """
     try:
         return decode_world(read_file(path, MAX_BYTES), source=str(path))
@@ -101,14 +101,14 @@ def load_world(path: Path) -> World:
 
 
 def decode_world(data: bytes, *, source: str) -> World:
-    """Return the world of the bytes of a YAML file, with these bytes.
+    """Return the world from the bytes of a YAML file.
 
     Args:
-        data: The file.
-        source: What to call it in messages.
+        data: Bytes of the file.
+        source: Its name in messages.
 
     Raises:
-        WorldError: It cannot be used; says which key, and what to do.
+        WorldError: It cannot be used; the error names the key and the remedy.
     """
     try:
         text = data.decode("utf-8-sig")
@@ -121,11 +121,11 @@ def parse_world(content: Mapping[str, Any], *, source: str = "world") -> World:
     """Return the world that the content of a world file describes.
 
     Args:
-        content: As YAML or JSON gives it.
-        source: What to call it in messages.
+        content: Content as parsed from YAML or JSON.
+        source: Its name in messages.
 
     Raises:
-        WorldError: A key is unknown or missing, a value is invalid, or text is hidden; says which, and what to do.
+        WorldError: A key is unknown or missing, a value is invalid, or text is hidden; the error names key and remedy.
     """
     found = find_hidden_within(content)
     if found is not None:
@@ -167,7 +167,7 @@ def _content(text: str, source: str) -> dict[Any, Any]:
 
 
 def _explained(error: ValidationError, source: str) -> WorldError:
-    """Every mistake in one line: the file, and of each the key's path, what is wrong, and what to do."""
+    """Combine all mistakes in one error: the file, and for each the path of its key, the problem, and what to do."""
     mistakes = [_mistake(problem) for problem in _meant(error.errors(include_url=False, include_context=True))]
     if len(mistakes) == 1:
         where, what, advice = mistakes[0]
@@ -182,10 +182,10 @@ def _explained(error: ValidationError, source: str) -> WorldError:
 
 
 def _meant(problems: Sequence[ErrorDetails]) -> list[ErrorDetails]:
-    """Return the mistakes that a person would count, those of one reading or fault together, stray keys first.
+    """Return the mistakes as a person would count them, those of one reading or fault together, unknown keys first.
 
-    Where a value may be of several kinds, pydantic blames it for being none of them, once for each; and a misspelt key
-    for being there and the right one for missing.
+    For a value of several allowed types, pydantic reports one error per type; for a misspelt key, it reports an unknown
+    key and a missing one.
     """
     strays = [p["loc"] for p in problems if p["type"] == "extra_forbidden"]
     mappings = {p["loc"][1] for p in problems if p["loc"][0] == "readings" and len(p["loc"]) > 3}
@@ -193,7 +193,7 @@ def _meant(problems: Sequence[ErrorDetails]) -> list[ErrorDetails]:
     for problem in sorted(problems, key=lambda p: p["type"] != "extra_forbidden"):
         loc = problem["loc"]
         if loc[0] == "readings" and len(loc) == 3 and loc[1] in mappings:
-            continue  # a mapping is no number, and was not meant as one
+            continue  # a mapping was not meant as a number
         if problem["type"] == "missing" and any(s[:-1] == loc[:-1] and _near(s[-1], [str(loc[-1])]) for s in strays):
             continue
         found.setdefault(tuple(_path(problem)), problem)
@@ -202,12 +202,12 @@ def _meant(problems: Sequence[ErrorDetails]) -> list[ErrorDetails]:
 
 
 def _hint(advice: str) -> str:
-    """Return what to do about one of several mistakes, if that is its own; the guide is named at the end."""
+    """Return the advice for one of several mistakes; general advice is given once at the end."""
     return "" if advice in (GUIDE, _CORRECT) else f" ({advice})"
 
 
 def _mistake(problem: ErrorDetails) -> tuple[list[str], str, str]:
-    """Return the place of a mistake, what is wrong, and what to do."""
+    """Return path, problem and advice of a mistake."""
     path = _path(problem)
     if problem["type"] == "missing" and path[-1].isdigit():
         return _dotted(path[:-1]), f"has {path[-1]} of its entries, and needs more", GUIDE
@@ -219,7 +219,7 @@ def _mistake(problem: ErrorDetails) -> tuple[list[str], str, str]:
 def _path(problem: ErrorDetails) -> list[str]:
     """Return the keys down to a mistake, without the alternatives that pydantic tried.
 
-    What the author named may be called as such an alternative is: a key of the file itself, a reading, a stray key.
+    A key of the author may have the same name as such an alternative: a top-level key, a reading, an unknown key.
     """
     loc = [str(part) for part in problem["loc"]]
     named = {0, 1} if loc[:1] == ["readings"] else {0}
@@ -229,12 +229,12 @@ def _path(problem: ErrorDetails) -> list[str]:
 
 
 def _dotted(path: list[str]) -> list[str]:
-    """A key's path as people write it: ``faults[0].at``."""
+    """Return a key's path in notation such as ``faults[0].at``."""
     return ["".join(f"[{p}]" if p.isdigit() else f".{_short(p)}" for p in path).lstrip(".")] if path else []
 
 
 def _is_branch(part: str) -> bool:
-    """Return True if a part of a path names an alternative that pydantic tried."""
+    """Return True if a part of a path is an alternative that pydantic tried."""
     return part in {"bool", "float", "int", "str", "TruthModel", *_KINDS_OF_FAULT} or "[" in part
 
 
@@ -264,7 +264,7 @@ def _words_for(problem: ErrorDetails, path: list[str]) -> tuple[str, str]:
 
 
 def _keys_at(problem: ErrorDetails, path: list[str]) -> list[str]:
-    """Return the keys that are allowed where a stray key is."""
+    """Return the allowed keys at the position of an unknown key."""
     inner: type[BaseModel] = WorldModel
     if path[0] == "readings":
         inner = TruthModel if len(path) == 3 else TreeValueModel

@@ -1,8 +1,8 @@
-"""The world of a simulation, bound to a site and a robot.
+"""World of a simulation, bound to a site and a robot.
 
-What the file says is exact. What it leaves open is drawn from the profile's ``typical`` and ``spread``: a value for
-each tree and quantity that depends on the seed, the tree and the quantity alone, so that it is the same whichever
-tree comes first, and a little noise for each capture.
+Values in the world file are exact. Others are drawn from the profile's ``typical`` and ``spread``: one value per tree
+and quantity, which depends only on the seed, the tree and the quantity, not on the order of visits, plus a little noise
+for each capture.
 """
 
 from __future__ import annotations
@@ -35,10 +35,10 @@ from fieldhand.language import message
 from fieldhand.robot.model import Quantity, RobotProfile
 from fieldhand.site.model import Place, Site
 
-#: Standard deviation of the noise of a capture, as a part of the spread between trees.
+#: Standard deviation of a capture's noise, as a fraction of the spread between trees.
 NOISE = 0.02
 
-#: Metres within which a robot stands at the rim of an obstacle.
+#: Metres within which a robot stands at the edge of an obstacle.
 RIM = 1e-6
 
 Point = tuple[float, float]
@@ -46,10 +46,10 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True, kw_only=True)
 class Hindrance:
-    """Hindrance of a drive: metres along its path, number of the world's fault, and description.
+    """Hindrance of a drive: distance along its path in metres, number of the world's fault, and description.
 
     Attributes:
-        for_s: Of a lost position: for how long.
+        for_s: Duration of a lost position in seconds.
     """
 
     at_m: float
@@ -59,12 +59,13 @@ class Hindrance:
 
 
 class GroundTruth:
-    """The world of one simulated mission: asked for readings, failures and obstacles; counts what is limited.
+    """World of one simulated mission: readings, failures and obstacles; counts faults that occur a limited number of
+    times.
 
     Args:
-        world: What the world file says.
-        site, robot: What the mission runs on.
-        seed: Of the values that the file leaves open.
+        world: Content of the world file.
+        site, robot: Site and robot of the mission.
+        seed: Seed of the values that the file leaves open.
 
     Raises:
         WorldError: The file names a quantity or an action that the robot lacks, or a tree that the site lacks.
@@ -92,7 +93,7 @@ class GroundTruth:
         """Make one attempt at an action; return its readings, and why it failed (empty if it did not).
 
         Args:
-            counted: Whether it may be one of those that a fault strikes which happens so many times and no more.
+            counted: False to leave faults that occur a limited number of times untouched.
         """
         for number, fault in enumerate(self._faults):
             if isinstance(fault, ActionFails) and fault.action == action and self._strikes(number, place, counted):
@@ -113,8 +114,8 @@ class GroundTruth:
         """Return the first obstacle of a drive, or None.
 
         Args:
-            path: In local metres.
-            when: At which second of the mission the robot would be so many metres along it.
+            path: Corners in local metres.
+            when: Returns the mission time in seconds at a distance along the path.
         """
         found: list[tuple[float, int, str]] = []
         for number, fault in enumerate(self._faults):
@@ -131,12 +132,12 @@ class GroundTruth:
         return Hindrance(at_m=at_m, number=number, what=what)
 
     def counts(self) -> tuple[tuple[tuple[str, str, int], ...], tuple[tuple[int, int], ...]]:
-        """Return the counts so far: draws of each quantity at each place, and happenings of each fault."""
+        """Return the counts so far: draws per quantity and place, and occurrences per fault."""
         captures = tuple((quantity, place, times) for (quantity, place), times in self._captures.items())
         return captures, tuple(self._used.items())
 
     def restore(self, seed: int, captures: Iterable[tuple[str, str, int]], struck: Iterable[tuple[int, int]]) -> None:
-        """Go on from another one's seed and :meth:`counts`."""
+        """Continue from the seed and :meth:`counts` of another one."""
         self.seed = seed
         self._captures = Counter({(quantity, place): times for quantity, place, times in captures})
         self._used = Counter(dict(struck))
@@ -146,7 +147,7 @@ class GroundTruth:
         self._used[hindrance.number] += 1
 
     def lost_on(self, path: tuple[Point, ...]) -> Hindrance | None:
-        """Return where along a path the robot first gets lost, or None."""
+        """Return where along a path the position is first lost, or None."""
         found = [
             (reach, number)
             for number, fault in enumerate(self._faults)
@@ -164,7 +165,7 @@ class GroundTruth:
 
     @property
     def lost_spans(self) -> tuple[tuple[float, float], ...]:
-        """From which second of the mission to which the robot does not know where it is, wherever that may be."""
+        """Intervals in seconds of the mission in which the position is lost, regardless of place."""
         return tuple(
             (f.at_s, math.inf if f.for_s is None else f.at_s + f.for_s)
             for f in self._faults
@@ -172,7 +173,7 @@ class GroundTruth:
         )
 
     def drain(self, from_s: float, to_s: float) -> float:
-        """Return the battery's drain as a multiple of its model, on average between two seconds of the mission."""
+        """Return the battery drain between two mission times, as a multiple of its model."""
         edges = [from_s, *(at for at, _ in self._drains if from_s < at < to_s), max(from_s, to_s)]
         paces = [math.prod(factor for at, factor in self._drains if at <= edge) for edge in edges[:-1]]
         if to_s <= from_s:
@@ -214,7 +215,7 @@ class GroundTruth:
         return np.random.default_rng([self.seed, int.from_bytes(digest[:8], "big")])
 
     def _strikes(self, number: int, place: Place, counted: bool = True) -> bool:
-        """Return True if fault ``number`` happens here and now, and count it; limited ones only if ``counted``."""
+        """Return True if a fault occurs here and now, and count it; limited ones only if ``counted``."""
         fault = self._faults[number]
         tree = self._trees.get(number)
         if self._exhausted(number) or (tree is not None and (place.kind, place.id) != ("tree", tree.id)):
@@ -249,7 +250,7 @@ class GroundTruth:
             self._middles[number] = ((one.x + two.x) / 2.0, (one.y + two.y) / 2.0)
 
     def _bound(self, truth: Truth, site: Site, name: str) -> dict[str, float]:
-        """Values by tree id."""
+        """Return the values by tree id."""
         return {
             self._tree(spot, site, f"readings.{name}.trees[{number}]").id: value
             for number, (spot, value) in enumerate(truth.trees)
@@ -268,7 +269,7 @@ class GroundTruth:
                 )
 
     def _tree(self, spot: Spot, site: Site, where: str) -> Place:
-        """Return the tree that a spot names: by id, or the nearest within a tree spacing."""
+        """Return the tree that a reference names: by id, or the nearest within a tree spacing."""
         if spot.id is not None:
             tree = site.by_id.get(spot.id)
             if tree is None:
@@ -292,9 +293,9 @@ class GroundTruth:
 
 
 def _enters(path: tuple[Point, ...], centre: Point, radius: float) -> float | None:
-    """Metres along a path at which it first comes within ``radius`` of a point; None if it never does.
+    """Return the distance in metres at which a path first comes within ``radius`` of a point; None if it never does.
 
-    A path that begins inside is let out, and stopped where it comes back in. A robot that was stopped at the rim is
+    A path that begins inside may leave, and ends where it comes back in. A robot that was stopped at the edge counts as
     outside, so that trying again does not get through.
     """
     driven, outside = 0.0, math.dist(path[0], centre) > radius - RIM

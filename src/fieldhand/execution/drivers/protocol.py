@@ -1,17 +1,16 @@
-"""Protocol of a driver: the contract between execution and a robot.
+"""Driver protocol: the contract between execution and a robot.
 
-A driver has one goal at a time, a drive or an action. Nothing blocks: ``start_*`` begins a goal, :meth:`Driver.poll`
-says how far it is, :meth:`Driver.cancel` asks for its end. That is how a ROS 2 action client works; the simulated
-twin keeps to it.
+A driver has one goal at a time, a drive or an action. No call blocks: ``start_*`` starts a goal, :meth:`Driver.poll`
+returns its progress, :meth:`Driver.cancel` requests its cancellation, as in a ROS 2 action client.
 
     start_drive / start_action ──▶ running ──▶ succeeded | failed
                                       └─cancel──▶ cancelled
 
-A goal that the robot's own stop cuts short (:meth:`Driver.stopped`) is cancelled, too. A goal that fails says
-what kind of failure it was (:data:`GoalFault`): execution decides by the kind what to do, never by the words.
+A goal that is interrupted by the robot's own stop (:meth:`Driver.stopped`) is cancelled, too. A failed goal reports its
+kind of fault (:data:`GoalFault`), on which execution bases its response; the text is for people.
 
-The outcome of a goal stays what :meth:`~Driver.poll` answers until the next goal starts, so that nothing is lost when
-a mission is interrupted between two calls. ``tests/driver_contract.py`` holds every driver to this.
+:meth:`~Driver.poll` returns the outcome of a goal until the next goal starts, so that nothing is lost when a mission is
+interrupted between two calls. ``tests/driver_contract.py`` verifies these properties for every driver.
 """
 
 from __future__ import annotations
@@ -22,22 +21,23 @@ from typing import Literal, Protocol
 
 from fieldhand.site.model import Place
 
-#: ``cut_off`` is no driver's answer: the journal's, for a goal that was under way when the power was cut.
+#: States of a goal. ``cut_off`` is never returned by a driver: the journal records it for a goal interrupted by a power
+#: cut.
 GoalState = Literal["idle", "running", "succeeded", "failed", "cancelled", "cut_off"]
 
-#: Why a goal failed; ``none`` of one that did not.
+#: Kind of fault of a failed goal; ``none`` otherwise.
 #:
-#: * ``blocked``: something stands in the way that the robot's own avoidance found no way past; it stands before it.
-#: * ``lost``: the robot does not know where it is (:meth:`Driver.lost`). It stands still. A goal that is begun while it
-#:   is lost fails at once, and one that is under way when it gets lost is ended: no capture is made by a lost robot.
-#: * ``empty``: the battery is.
+#: * ``blocked``: an obstacle that the robot's own avoidance could not pass; the robot stands before it.
+#: * ``lost``: the position is unknown (:meth:`Driver.lost`) and the robot stands still. A goal started while it is lost
+#:   fails at once, and a running one ends, so a lost robot makes no capture.
+#: * ``empty``: the battery is empty.
 #: * ``failed``: anything else.
 GoalFault = Literal["none", "failed", "blocked", "lost", "empty"]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Position:
-    """Position of the robot itself (not of the tree that it stands beside).
+    """Position of the robot itself (not of the tree it stands beside).
 
     Attributes:
         x, y: Metres east and north in the site's projection.
@@ -55,11 +55,11 @@ class DriveGoal:
     """A drive along a path to a place.
 
     Attributes:
-        place: Where it leads.
-        path_m: Corners of the path in local metres, the robot's own position first, at least two.
+        place: Destination.
+        path_m: Corners of the path in local metres, at least two, starting at the robot's position.
         path_degrees: The same corners as (lat, lon).
-        length_m: Of the path.
-        speed_m_s: Not faster than this.
+        length_m: Length of the path in metres.
+        speed_m_s: Speed limit in m/s.
     """
 
     place: Place
@@ -71,7 +71,7 @@ class DriveGoal:
 
 @dataclass(frozen=True, kw_only=True)
 class ActionGoal:
-    """One capture of an action at the place where the robot stands, with every parameter that the profile declares."""
+    """A capture at the robot's current place, with a value for every parameter that the profile declares."""
 
     action: str
     place: Place
@@ -83,12 +83,11 @@ class Progress:
     """Progress of the current goal, and its cost so far.
 
     Attributes:
-        metres: Driven for this goal, by the robot's odometry.
-        seconds: Since the goal was started, until it was over.
-        readings: What a capture measured, by quantity, in the units of the profile. A sensor that gave nothing is
-            absent.
-        what: Why it failed, in words.
-        fault: Why it failed, by its kind.
+        metres: Distance driven for this goal, by the robot's odometry.
+        seconds: Time since the start of the goal, until its end.
+        readings: Readings of a capture by quantity, in the units of the profile; failed sensors are omitted.
+        what: Cause of a failure, in words.
+        fault: Kind of failure.
     """
 
     state: GoalState
@@ -100,57 +99,57 @@ class Progress:
 
     @property
     def over(self) -> bool:
-        """True if the robot has nothing more to do for the goal."""
+        """True if the robot has finished with the goal."""
         return self.state != "running"
 
 
 class Driver(Protocol):
-    """A robot, real or simulated. One goal at a time; no call blocks; no call fails because a robot does."""
+    """A robot, real or simulated. One goal at a time; no call blocks; no call raises because of the robot."""
 
     @property
     def seed(self) -> int | None:
-        """The seed of a simulation, None where the robot is real."""
+        """Random seed of a simulation; None for a real robot."""
         ...
 
     def start_drive(self, goal: DriveGoal) -> None:
-        """Begin a drive. No goal may be running."""
+        """Start a drive. No goal may be running."""
         ...
 
     def start_action(self, goal: ActionGoal) -> None:
-        """Begin one capture. No goal may be running."""
+        """Start a capture. No goal may be running."""
         ...
 
     def poll(self) -> Progress:
-        """Return the progress of the last goal; ``idle`` before the first. Asking twice changes nothing."""
+        """Return the progress of the last goal; ``idle`` before the first. Repeated calls have no effect."""
         ...
 
     def cancel(self) -> None:
-        """Ask for the end of the goal in hand; it is over when :meth:`poll` says so. Does nothing without one."""
+        """Request cancellation of the current goal; :meth:`poll` reports its end. Has no effect without a goal."""
         ...
 
     def next_event_in(self) -> float | None:
-        """Return seconds until :meth:`poll` is worth calling again, or None if no goal is running.
+        """Return the seconds until :meth:`poll` is worth calling again, or None if no goal is running.
 
-        The simulation knows when a goal will be over, and a simulated clock jumps there; a real robot gives its
-        polling period.
+        A simulation returns when its goal ends, and a simulated clock jumps there; a real robot returns its polling
+        period.
         """
         ...
 
     def position(self) -> Position:
-        """Return the robot's position now."""
+        """Return the robot's position."""
         ...
 
     def charge_percent(self) -> float:
-        """Return the charge of the battery now, 0 to 100."""
+        """Return the battery charge, 0 to 100."""
         ...
 
     def lost(self) -> str | None:
-        """Return why the robot does not know where it is ("no satellite fix"), or None while it does.
+        """Return why the robot's position is unknown ("no satellite fix"), or None if it is known.
 
-        :meth:`position` then is the last that it knew.
+        :meth:`position` then returns the last known position.
         """
         ...
 
     def stopped(self) -> str | None:
-        """Return why the robot will not move again in this mission (an emergency stop), or None while it may."""
+        """Return why the robot will not move again in this mission (an emergency stop), or None."""
         ...

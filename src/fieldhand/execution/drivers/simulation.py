@@ -1,4 +1,4 @@
-"""The simulated robot: it drives at random cost, empties its battery, and finds what the world file says."""
+"""Simulated robot: drives at random cost, drains its battery, and reads what the world file defines."""
 
 from __future__ import annotations
 
@@ -19,22 +19,22 @@ from fieldhand.language import message
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 
-#: Seconds within which two moments are one: clocks add floating-point numbers.
+#: Seconds within which two times are equal: clocks add floating-point numbers.
 EPSILON_S = 1e-6
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Course:
-    """Course of a goal, decided when it starts: the simulation knows the future, the mission does not.
+    """Course of a goal, determined when it starts, but unknown to the mission.
 
     Attributes:
-        start_s: When it started.
-        lasts_s: How long it goes on, until it is done or fails.
-        metres: Driven by then, by odometry.
-        path: Where it leads through, in local metres; empty for an action.
-        reach: How much of the path is done by then, 0 to 1.
-        action_j: Energy of the action, spread evenly over the time.
-        meets: What stops it at its end.
+        start_s: Time of its start in seconds.
+        lasts_s: Duration until it is done or fails.
+        metres: Distance driven by its end, by odometry.
+        path: Corners in local metres; empty for an action.
+        reach: Fraction of the path covered by its end, 0 to 1.
+        action_j: Energy of the action in joules, spread evenly over its duration.
+        meets: Hindrance that ends it.
     """
 
     start_s: float
@@ -50,7 +50,7 @@ class _Course:
     meets: Hindrance | None = None
 
     def cut(self, part: float) -> _Course:
-        """Return the course, failed after this part of it."""
+        """Return the course, failed after this fraction of it."""
         return replace(
             self,
             lasts_s=part * self.lasts_s,
@@ -63,7 +63,7 @@ class _Course:
         )
 
     def done_at(self, now: float) -> float:
-        """Return the part of the course that is done, 0 to 1."""
+        """Return the fraction of the course that is done, 0 to 1."""
         if now >= self.start_s + self.lasts_s - EPSILON_S:
             return 1.0
         return max(0.0, now - self.start_s) / self.lasts_s
@@ -73,14 +73,14 @@ class SimulatedDriver:
     """A :class:`~fieldhand.execution.drivers.protocol.Driver` in simulated time.
 
     A leg of ``d`` metres costs ``d * (alpha + Exp(1 - alpha))`` metres of driving
-    (:class:`~fieldhand.robot.model.LegCost`), at the robot's speed, and the battery empties by what the profile says
-    of metres, seconds and actions.
+    (:class:`~fieldhand.robot.model.LegCost`) at the robot's speed; the battery drains by the profile's consumption per
+    metre, second and action.
 
     Args:
-        site, robot: What the mission runs on. The robot begins at the site's start.
-        world: What sensors read, and what goes wrong.
-        clock: The mission's clock; only the mission advances it.
-        rng: Of the cost of legs, and of readings that the world leaves open.
+        site, robot: Site and robot of the mission. The robot begins at the site's start.
+        world: Sensor readings and faults.
+        clock: Mission clock; only the mission advances it.
+        rng: Generator for leg costs and for readings that the world leaves open.
 
     Raises:
         WorldError: The world does not fit the site or the robot.
@@ -112,7 +112,7 @@ class SimulatedDriver:
         self._begin()
         alpha = self._robot.leg_cost.alpha
         cost = goal.length_m * (alpha + self._rng.exponential(1.0 - alpha) if alpha < 1.0 else 1.0)
-        pace = cost / goal.speed_m_s / goal.length_m if goal.length_m > 0 else 0.0  # seconds for a metre of the path
+        pace = cost / goal.speed_m_s / goal.length_m if goal.length_m > 0 else 0.0  # seconds per metre of the path
         now_s = self._clock.now() - self._begun_s
         course = whole = _Course(
             start_s=self._clock.now(), lasts_s=cost / goal.speed_m_s, outcome="succeeded", metres=cost, path=goal.path_m
@@ -134,7 +134,7 @@ class SimulatedDriver:
     def start_action(self, goal: ActionGoal) -> None:
         self._begin()
         action = self._robot.action[goal.action]
-        # A robot that is lost makes no capture, so none is counted.
+        # A lost robot makes no capture, so none is counted.
         readings, what = ({}, "") if self.lost() else self._truth.capture(goal.action, goal.place)
         self._set_out(
             _Course(
@@ -149,10 +149,9 @@ class SimulatedDriver:
         )
 
     def sense(self, action: str, place: Place) -> Mapping[str, float]:
-        """Return what an action's sensors read at a place without a capture; nothing if they fail.
+        """Return the readings of an action's sensors at a place without a capture; empty if they fail.
 
-        A fault that happens so many times and no more waits for a tree: where a robot stands beside none, mostly
-        nobody listens.
+        Faults that occur a limited number of times are not used up away from trees, where usually no client listens.
         """
         readings, _ = self._truth.capture(action, place, counted=place.kind == "tree")
         return readings
@@ -199,7 +198,7 @@ class SimulatedDriver:
         return left if step <= 0.0 else min(100.0, step * round(left / step))
 
     def _left(self) -> float:
-        """Return the true charge of the battery, whatever its meter shows."""
+        """Return the true charge of the battery, not the meter's."""
         left = self._charge
         if self._course is not None:
             left -= self._used(self._course, self._course.done_at(self._clock.now()))
@@ -221,7 +220,7 @@ class SimulatedDriver:
         return None
 
     def state(self) -> SimulationState:
-        """Return the state from which a new driver continues; a running goal is broken off."""
+        """Return the state from which a new driver continues; a running goal is dropped."""
         here = self.position()
         captures, struck = self._truth.counts()
         return SimulationState(
@@ -237,10 +236,10 @@ class SimulatedDriver:
         )
 
     def restore(self, state: SimulationState) -> None:
-        """Go on as the robot that this memory is of: of the same site, profile and world.
+        """Continue from the state of a robot with the same site, profile and world.
 
         Raises:
-            ValueError: The state of its generator is none.
+            ValueError: The state of its random generator is invalid.
         """
         try:
             self._rng.bit_generator.state = state.generator
@@ -258,7 +257,7 @@ class SimulatedDriver:
         self._charge, self._charged_s = self._left(), self._clock.now()
 
     def _set_out(self, course: _Course) -> None:
-        """Begin a course; it ends where the robot gets lost or the battery is empty."""
+        """Start a course, shortened if the robot gets lost or its battery runs empty."""
         begins_s = course.start_s - self._begun_s
         lost_s = [
             at - begins_s for at, ends in self._truth.lost_spans if at < begins_s + course.lasts_s and begins_s < ends
@@ -274,7 +273,7 @@ class SimulatedDriver:
         self._course = course
 
     def _lasting(self, course: _Course) -> float:
-        """Return the part of a course for which the battery lasts, 0 to 1."""
+        """Return the fraction of a course for which the battery lasts, 0 to 1."""
         low, high = 0.0, 1.0
         for _ in range(60):
             middle = (low + high) / 2.0
@@ -298,7 +297,7 @@ class SimulatedDriver:
         return self._result
 
     def _used(self, course: _Course, done: float) -> float:
-        """Return the percent of the battery that a part of a course takes."""
+        """Return the battery consumption in percent of a fraction of a course."""
         used = self._robot.percent(done * course.metres, done * course.lasts_s, done * course.action_j)
         return self._drained(used, course.start_s, course.start_s + done * course.lasts_s)
 
@@ -308,7 +307,7 @@ class SimulatedDriver:
 
 
 def _along(path: tuple[Point, ...], part: float) -> Point:
-    """Return the point at a part of a path's length, 0 to 1."""
+    """Return the point at a fraction of a path's length, 0 to 1."""
     lengths = [math.dist(a, b) for a, b in itertools.pairwise(path)]
     left = part * sum(lengths)
     if part >= 1.0:

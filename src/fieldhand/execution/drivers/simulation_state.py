@@ -1,4 +1,4 @@
-"""The state of a simulated robot that outlasts the program that simulates it."""
+"""State of a simulated robot, stored across restarts of its program."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, kw_only=True)
 class SimulationState:
-    """The state of a simulated robot without a goal, from which another one continues.
+    """State of a simulated robot without a goal, from which another one continues.
 
     Attributes:
-        seconds: Since it was first made; faults of its world come by them.
-        x, y: Where it stands, in local metres.
-        charge_percent: Of the battery.
-        generator: State of its random generator, as numpy has it.
-        values_seed: Of the readings that its world leaves open.
-        captures: How often each quantity was drawn at each place, by both names.
-        struck: How often each fault of its world has happened, by its number.
-        lost: Until which second it does not know where it is, and why.
+        seconds: Time since it was first created, by which faults of its world occur.
+        x, y: Position in local metres.
+        charge_percent: Battery charge.
+        generator: State of its numpy random generator.
+        values_seed: Seed of the readings that its world leaves open.
+        captures: Number of draws per quantity and place: (quantity, place, count).
+        struck: Number of occurrences per fault of its world: (number, count).
+        lost: Until when, in seconds, its position is lost, and why.
     """
 
     seconds: float

@@ -1,1 +1,1 @@
-"""Durable execution: what a mission needs to go on after a power cut at any instant (docs/execution.md, "Journal")."""
+"""Journal of a mission, from which it resumes after a power cut at any instant (docs/execution.md, "Journal")."""

@@ -1,7 +1,7 @@
-"""Checksums of journal rows: each row's SHA-256 covers the row before it, which reveals rows changed or dropped.
+"""Checksums of journal rows: each row's SHA-256 covers the previous row, which reveals changed or missing rows.
 
-They detect accidents (a failing disk, a file put back from a backup, two programs on one journal). Whoever can write
-the journal can compute them anew: they are not a signature.
+They detect accidents (a failing disk, a file restored from a backup, two programs on one journal). Anyone who can write
+the journal can recompute them: they are not a signature.
 """
 
 from __future__ import annotations
@@ -17,36 +17,36 @@ _ANEW = "carry the Task out as a new mission"
 
 @dataclass(frozen=True, kw_only=True)
 class Head:
-    """The end of a table: how many rows it has, and the checksum of the last one."""
+    """End of a table: number of rows, and checksum of the last one."""
 
     rows: int
     sha256: bytes
 
 
 def start(table: str) -> Head:
-    """Return the head of an empty table of that name."""
+    """Return the head of an empty table."""
     return Head(rows=0, sha256=_sha256(b"", table))
 
 
 def extended(head: Head, *columns: str) -> Head:
-    """Return the head behind one more row with these columns."""
+    """Return the head after one more row with these columns."""
     return Head(rows=head.rows + 1, sha256=_sha256(head.sha256, *columns))
 
 
 def require_chain(head: Head, table: str, rows: Iterable[tuple[int, bytes, tuple[str, ...]]], where: str) -> list[Head]:
-    """Check every row of a table against its checksum.
+    """Verify every row of a table against its checksum.
 
     Args:
-        head: Behind the row before the first of these.
-        table: Its name in messages.
-        rows: Number, checksum and columns of each, in the order of numbers.
-        where: The journal.
+        head: Head before the first of these rows.
+        table: Name of the table, for messages.
+        rows: Number, checksum and columns of each row, in order.
+        where: Path of the journal, for messages.
 
     Returns:
-        The heads behind each row, the given one first.
+        The heads after each row, preceded by the given one.
 
     Raises:
-        JournalError: A row is missing, or is not the one that was written; says which.
+        JournalError: A row is missing or was changed; the error names it.
     """
     heads = [head]
     for number, sha256, columns in rows:

@@ -1,9 +1,9 @@
-"""The high-water mark of a journal, in a file of its own: a journal that has lost rows is recognized by it.
+"""High-water mark of a journal, in a file of its own, which reveals a journal that has lost rows.
 
-SQLite keeps the latest rows in a second file (``-wal``). Where that is deleted, or the journal is put back from a copy,
-what is left is a sound journal of an earlier moment, and the mission would do again what it has done since. The mark
-says how many rows there were and what their checksums were. It is written after each commit, so it never runs ahead of
-the journal; it is synced when the journal is opened and closed, and otherwise outlasts the program, not a power cut.
+SQLite keeps the latest rows in a second file (``-wal``). If that is deleted, or the journal is restored from a copy,
+what is left is a valid journal of an earlier time, and the mission would repeat what it has done since. The mark holds
+the number of rows and their checksums. It is written after each commit, so it is never ahead of the journal; it is
+synced when the journal is opened and closed, so otherwise it survives the end of the program, but not a power cut.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ from fieldhand.errors import JournalError
 from fieldhand.execution.journal.hash_chain import Head
 from fieldhand.files import store_names, write_stored
 
-#: Two copies, written in turn, each in a sector of its own: one that is cut off leaves the other.
+#: Two copies, written in turn, each in its own sector: an interrupted write leaves the other intact.
 _SLOT = 512
 _EMPTY = b" " * (2 * _SLOT)
 
 
 @dataclass(frozen=True, kw_only=True)
 class HighWaterMark:
-    """The last record that a journal had reached.
+    """Last state that a journal had reached.
 
     Attributes:
         epoch: Number of the opening that wrote it.
@@ -38,10 +38,10 @@ class HighWaterMark:
 
 
 class HighWaterMarkFile:
-    """The file of a mark, open for writing.
+    """File of a mark, open for writing.
 
     Args:
-        path: Of the file; :func:`create_mark` has made it.
+        path: File created by :func:`create_mark`.
 
     Raises:
         OSError: It cannot be opened.
@@ -52,11 +52,11 @@ class HighWaterMarkFile:
         self._turn = _latest(os.read(self._descriptor, 2 * _SLOT))[0]
 
     def write(self, mark: HighWaterMark, *, stored: bool = False) -> None:
-        """Write a mark over the older of the two copies.
+        """Overwrite the older of the two copies.
 
         Args:
-            mark: To be written.
-            stored: Wait until it is on the disk.
+            mark: Mark to write.
+            stored: True to sync it.
 
         Raises:
             OSError: It cannot be written.
@@ -70,7 +70,7 @@ class HighWaterMarkFile:
             os.fsync(self._descriptor)
 
     def close(self) -> None:
-        """Wait until the mark is on the disk, and close the file.
+        """Sync the mark and close the file.
 
         Raises:
             OSError: The disk fails.
@@ -103,7 +103,7 @@ def read_mark(path: Path) -> HighWaterMark:
     """Return the mark of a journal.
 
     Raises:
-        JournalError: It is gone, or damaged.
+        JournalError: It is missing or damaged.
     """
     advice = "bring it back with the rest of the folder, or carry the Task out as a new mission"
     try:
@@ -124,7 +124,7 @@ def _encoded(turn: int, mark: HighWaterMark) -> bytes:
 
 
 def _latest(data: bytes) -> tuple[int, HighWaterMark | None]:
-    """Return turn and mark of the later copy that is whole, or (0, None)."""
+    """Return turn and mark of the later intact copy, or (0, None)."""
     found: tuple[int, HighWaterMark | None] = (0, None)
     for slot in (data[:_SLOT], data[_SLOT : 2 * _SLOT]):
         sha256, _, body = slot.strip().partition(b" ")

@@ -1,4 +1,4 @@
-"""Records of a mission's inputs: answers that the robot, the guard or a person gave, as JSON."""
+"""Records of a mission's inputs as JSON: answers of the robot, the guard and the operator."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from fieldhand.execution.orders import Order
 from fieldhand.forecast.state import Choice, Verdict
 from fieldhand.forecast.underway import Foresight
 
-#: ``sight``: an observation. ``begun``: a goal is about to begin. ``cancel``: its end is asked for.
-#: ``admit``, ``choose``: an answer of the guard. ``cut``: here the power was cut. ``interrupt``: Ctrl-C a second time.
-#: ``foresee``: the failsafe's alarm; an answer without one is not kept.
+#: ``sight``: an observation. ``begun``: a goal is about to start. ``cancel``: its cancellation was requested.
+#: ``admit``, ``choose``: an answer of the guard. ``cut``: a power cut. ``interrupt``: a second Ctrl-C.
+#: ``foresee``: an alarm of the failsafe; other answers of it are not recorded.
 Kind = Literal["sight", "begun", "cancel", "admit", "choose", "foresee", "cut", "interrupt"]
 
 
@@ -30,29 +30,29 @@ class Record:
 
 
 class InputLog(Protocol):
-    """A log of inputs and events, in their order."""
+    """Log of inputs and events, in order."""
 
     def next(self) -> Record | None:
-        """Return the next answer recorded before, or None once they are used up."""
+        """Return the next recorded answer, or None once they are used up."""
         ...
 
     def append(self, record: Record) -> None:
-        """Append an answer; it is on the disk after :meth:`commit`."""
+        """Append an answer; :meth:`commit` syncs it."""
         ...
 
     def event(self, line: str) -> None:
-        """Append an event. One that was logged before has to be the same.
+        """Append an event. During a replay it must equal the recorded one.
 
         Raises:
-            JournalError: It is another.
+            JournalError: It differs.
         """
         ...
 
     def commit(self, *, order: int = 0) -> None:
-        """Write what was appended to the disk, and wait until it is there.
+        """Write what was appended to the disk and sync it.
 
         Args:
-            order: Number of the last order that was heard.
+            order: Number of the last operator command that was read.
 
         Raises:
             JournalError: It cannot be written (a full disk).
@@ -61,18 +61,18 @@ class InputLog(Protocol):
 
     @property
     def has_new_events(self) -> bool:
-        """True if there are events that wait for a commit."""
+        """True if there are events that are not committed."""
         ...
 
 
 @dataclass(frozen=True, kw_only=True)
 class Observation:
-    """Robot, time and orders as observed at one instant.
+    """Robot, time and operator command as observed at one instant.
 
     Attributes:
-        lost: Why the robot does not know where it is; None while it does.
-        wall: The time of day, in seconds since 1970; None where there is none.
-        next_in: Seconds until the driver has something to say; None where no goal is running.
+        lost: Why the position is unknown; None if it is known.
+        wall: Time of day in seconds since 1970; None if there is none.
+        next_in: Seconds until the driver is due; None if no goal is running.
     """
 
     t: float
@@ -129,7 +129,7 @@ def observation_of(record: Record) -> Observation:
 
 
 def goal_record(goal: DriveGoal | ActionGoal) -> Record:
-    """Return the record of a goal that begins, with what distinguishes it from any other."""
+    """Return the record of a goal that starts, with everything that distinguishes it."""
     place = [goal.place.kind, goal.place.id]
     if isinstance(goal, DriveGoal):
         body: dict[str, Any] = {"drive": place, "from": goal.path_m[0], "to": goal.path_m[-1], "m": goal.length_m}
@@ -210,14 +210,14 @@ def _error(said: Sequence[str]) -> FieldhandError:
 
 
 def garbled(why: object) -> JournalError:
-    """Return the error for a record that this program did not write."""
+    """Return the error for a record that is invalid."""
     return JournalError(
         f"the journal holds something that no mission wrote ({why})", advice="carry the Task out as a new mission"
     )
 
 
 def diverged(why: str) -> JournalError:
-    """Return the error for a mission that does not go as recorded."""
+    """Return the error for a mission that deviates from its record."""
     return JournalError(
         f"the mission does not go as the journal says: {why}",
         advice="resume it with the version of Fieldhand that began it, or carry the Task out as a new mission",

@@ -1,7 +1,7 @@
-"""The journal of a mission: one SQLite file that survives a power cut at any instant.
+"""Journal of a mission: one SQLite file that survives a power cut at any instant.
 
-Write-ahead log, ``synchronous=FULL``: what was committed is on the disk, what was not never happened. Answers and
-events are committed together, so that they never contradict one another.
+Write-ahead log with ``synchronous=FULL``: a commit is on the disk or did not happen. Answers and events are committed
+together, so that they never contradict each other.
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ from fieldhand.execution.journal.records import Record, diverged
 from fieldhand.execution.log import EventLog
 from fieldhand.folders import FolderLock, FolderTaken, Unguarded, require_own_file
 
-#: Of the file; a program that writes another one refuses this. Rows of format 1 have no checksums: a journal of that
-#: format is read, and gets them when it is gone on with.
+#: Format of the file; a program with another format rejects it. Rows of format 1 have no checksums: a journal of that
+#: format can be read, and gets checksums when it is continued.
 FORMAT, WITHOUT_CHECKSUMS = 2, 1
 
-#: SQLite waits for the disk at every commit. Less is for tests, which do not pull the plug of the machine.
+#: SQLite syncs at every commit. Tests, which do not cut the power, use less.
 SYNCHRONOUS = "FULL"
 
 #: The table of records is called ``tape``.
@@ -43,7 +43,7 @@ _TABLES = (
     "CREATE TABLE events (n INTEGER PRIMARY KEY, at TEXT NOT NULL, line TEXT NOT NULL, sha256 BLOB NOT NULL)",
 )
 _COLUMNS = {"tape": "CAST(kind AS TEXT), CAST(body AS TEXT)", "events": "CAST(at AS TEXT), CAST(line AS TEXT)"}
-#: What SQLite says where the file is sound and cannot be written all the same, and what to do.
+#: Signs in SQLite's messages of a sound file that cannot be written, and advice.
 _CANNOT = {
     "full": "free some space, then fieldhand resume",
     "disk I/O": "see whether the disk is sound, then fieldhand resume",
@@ -57,11 +57,11 @@ _OLDER = "bring the journal back with its -wal file, or carry out what is left a
 
 
 def create(path: Path, mission: str) -> None:
-    """Make the empty journal of a mission, and its mark beside it.
+    """Create the empty journal of a mission, and its mark beside it.
 
     Args:
-        path: A file that is not there yet.
-        mission: SHA-256 of what the mission is.
+        path: File that does not exist yet.
+        mission: SHA-256 of the mission's content.
 
     Raises:
         JournalError: It cannot be written.
@@ -81,21 +81,21 @@ def create(path: Path, mission: str) -> None:
 class Journal:
     """An :class:`~fieldhand.execution.journal.records.InputLog` on the disk, open for writing.
 
-    The folder is locked as long as it is open. Each opening has a number of its own, its epoch, and each commit checks
-    in the same transaction that no later opening has written another one: where the lock did not keep two writers
-    apart, the earlier one stops.
+    The folder is locked while it is open. Each opening has a number, its epoch, and each commit checks in the same
+    transaction that no later opening has written another: if the lock failed to separate two writers, the earlier one
+    stops.
 
     Args:
-        path: Of the journal.
-        mission: SHA-256 of what the mission is.
-        log: Of the mission; it is completed from the journal, and written on.
-        tell: Takes the line of each new event once it is safe.
+        path: Path of the journal.
+        mission: SHA-256 of the mission's content.
+        log: Path of the mission's event log, which is completed from the journal and extended.
+        tell: Receives the line of each new event once it is committed.
 
     Attributes:
-        before: The lines of the events that it held when it was opened.
+        before: Lines of the events that it held when it was opened.
 
     Raises:
-        JournalError: It is in use, damaged, of another mission, or older than its mark or the log say.
+        JournalError: It is in use, damaged, of another mission, or older than its mark or the event log.
     """
 
     def __init__(self, path: Path, mission: str, log: Path, tell: Callable[[str], None]) -> None:
@@ -140,10 +140,10 @@ class Journal:
 
     def commit(self, *, order: int = 0) -> None:
         if self._failed:
-            # What the disk holds after a write that failed is not known before the journal is read again.
+            # The disk's content after a failed write is unknown until the journal is read again.
             raise JournalError("the journal could not be written before", where=str(self._path), advice=_RESUME)
         with _said(self._path):
-            # Before, so that the stop to which this leads is no part of the mission; and behind, for it counts then.
+            # Checked before, so that a resulting stop is not recorded, and after, since the commit counts then.
             self._require_in_place()
             self._write(order)
             self._require_in_place()
@@ -154,7 +154,7 @@ class Journal:
             self._untold.popleft()
 
     def _write(self, order: int) -> None:
-        """Write what is new in one transaction."""
+        """Write new rows in one transaction."""
         db, heads, committing = self._db, dict(self._heads), False
         try:
             db.execute("BEGIN IMMEDIATE")
@@ -168,7 +168,7 @@ class Journal:
             committing = True
             db.execute("COMMIT")
         except BaseException as error:
-            # Ctrl-C behind a commit that is done; whatever else it is, nothing was written.
+            # Ctrl-C after a completed commit; after any other error nothing was written.
             done = committing and not db.in_transaction and not isinstance(error, sqlite3.Error)
             if done:
                 self._settle(heads, order)
@@ -180,15 +180,15 @@ class Journal:
         self._settle(heads, order)
 
     def _settle(self, heads: dict[str, Head], order: int) -> None:
-        """Count as stored what was to be written."""
+        """Mark the pending rows as stored."""
         self._untold.extend(line for _, line in self._events)
         self._heads, self._order, self._records, self._events = heads, order, [], []
 
     def _require_in_place(self) -> None:
-        """Refuse to write to files that were deleted, or that lie elsewhere now.
+        """Refuse to write to files that were deleted or moved.
 
         Raises:
-            JournalError: They do.
+            JournalError: They were.
         """
         if _identity(self._path) != self._files:
             self._failed = True
@@ -227,7 +227,7 @@ class Journal:
 
 @dataclass(frozen=True, kw_only=True)
 class _Opened:
-    """The contents of a journal when it was opened for writing."""
+    """Contents of a journal when it was opened for writing."""
 
     records: list[Record]
     lines: tuple[str, ...]
@@ -236,7 +236,7 @@ class _Opened:
 
 
 def _take_over(db: sqlite3.Connection, path: Path) -> _Opened:
-    """Read and check a journal, and begin its next epoch, in one transaction.
+    """Read and verify a journal, and begin its next epoch, in one transaction.
 
     Raises:
         JournalError: It is damaged, or older than its mark.
@@ -274,17 +274,17 @@ def _take_over(db: sqlite3.Connection, path: Path) -> _Opened:
 def _checked(
     db: sqlite3.Connection, table: str, path: Path, *, after: int = 0, most: int = -1
 ) -> tuple[list[tuple[str, str]], list[Head]]:
-    """Rows of a table without numbers and checksums, and the heads before and behind each.
+    """Return verified rows without numbers and checksums, and the heads before and after each.
 
     Args:
         db: The journal.
-        table: Its name.
-        path: Of the journal.
-        after: Number of the row behind which to begin.
-        most: So many rows at most; -1 for all.
+        table: Name of the table.
+        path: Path of the journal.
+        after: Number of the row after which to begin.
+        most: Largest number of rows; -1 for all.
 
     Raises:
-        JournalError: A row is missing, or is not the one that was written.
+        JournalError: A row is missing or was changed.
     """
     head = start(table)
     if after:
@@ -301,7 +301,7 @@ def _checked(
 
 
 def _require_mark(mark: HighWaterMark, epoch: int, heads: Mapping[str, Sequence[Head]], path: Path) -> None:
-    """Refuse a journal that had come further than it says now."""
+    """Reject a journal that has fewer rows than its mark."""
     for table, reached in mark.heads.items():
         there = heads[table]
         if mark.epoch > epoch or reached.rows >= len(there) or there[reached.rows] != reached:
@@ -314,7 +314,7 @@ def _require_mark(mark: HighWaterMark, epoch: int, heads: Mapping[str, Sequence[
 
 
 def _add_checksums(db: sqlite3.Connection, path: Path) -> None:
-    """Bring a journal of the first format, and its mark, to this one."""
+    """Upgrade a journal of the first format, and its mark."""
     heads = {table: start(table) for table in ("tape", "events")}
     for table in heads:
         rows = db.execute(f"SELECT {_COLUMNS[table]} FROM {table} ORDER BY n").fetchall()  # noqa: S608
@@ -329,7 +329,7 @@ def _add_checksums(db: sqlite3.Connection, path: Path) -> None:
 
 
 def _numbered(head: Head, rows: Sequence[tuple[str, str]]) -> tuple[list[tuple[int, str, str, bytes]], Head]:
-    """Rows as they are written behind a head, and the head behind them."""
+    """Return rows in the form in which they are appended after a head, and the head after them."""
     found = []
     for one, two in rows:
         head = extended(head, one, two)
@@ -371,10 +371,10 @@ def _inode(path: Path) -> tuple[int, int] | None:
 
 
 def mended(path: Path, lines: Sequence[str]) -> EventLog:
-    """Return the event log of a mission, completed to hold these lines and nothing else.
+    """Return the event log of a mission, completed to hold exactly these lines.
 
     Raises:
-        JournalError: It holds events that the journal does not: this is an older journal, and what it lacks was done.
+        JournalError: It holds events that the journal lacks: the journal is older than the mission.
         OutputError: It cannot be written.
     """
     try:
@@ -388,7 +388,7 @@ def mended(path: Path, lines: Sequence[str]) -> EventLog:
             break
         size += len(whole)
     else:
-        # A power cut leaves half a line, or zeros; a whole one was in the journal before it was in the log.
+        # A power cut leaves half a line, or zeros; a complete line was in the journal before.
         more = held[size:].partition(b"\n")
         if more[1] and more[0].startswith(b'{"event"'):
             raise JournalError(
@@ -404,10 +404,11 @@ def mended(path: Path, lines: Sequence[str]) -> EventLog:
 
 
 def heard(path: Path) -> tuple[int, tuple[tuple[str, str], ...], Record | None, Record | None]:
-    """Read a journal without taking it over: last order heard, (time, line) of its events, last sight, last goal.
+    """Read a journal without taking it over: last command read, (time, line) of its events, last observation, last
+    goal.
 
     Raises:
-        JournalError: It cannot be read, or an event is not the one that was written.
+        JournalError: It cannot be read, or an event was changed.
     """
     with _said(path), closing(_open(path, None)) as db:
         db.execute("BEGIN")
@@ -428,10 +429,10 @@ def heard(path: Path) -> tuple[int, tuple[tuple[str, str], ...], Record | None, 
 
 
 def lines_after(path: Path, after: int, most: int) -> tuple[tuple[int, str, str], ...]:
-    """Return (number, time, line) of the events behind number ``after``, in order, so many at most.
+    """Return (number, time, line) of the events after number ``after``, in order, at most ``most``.
 
     Raises:
-        JournalError: The journal cannot be read, or an event is not the one that was written.
+        JournalError: The journal cannot be read, or an event was changed.
     """
     with _said(path), closing(_open(path, None)) as db:
         db.execute("BEGIN")
@@ -447,7 +448,7 @@ def _connect(path: Path) -> sqlite3.Connection:
     try:
         db.execute("PRAGMA journal_mode=WAL")
         db.execute(f"PRAGMA synchronous={SYNCHRONOUS}")
-        # On macOS fsync leaves the data in the drive's own memory.
+        # On macOS, fsync leaves data in the drive's cache.
         db.execute("PRAGMA fullfsync=ON")
         db.execute("PRAGMA checkpoint_fullfsync=ON")
     except BaseException:
@@ -468,7 +469,7 @@ def _open(path: Path, mission: str | None) -> sqlite3.Connection:
 
 
 def _require_plain(path: Path) -> None:
-    """Refuse what is no file of the user's own: under two names SQLite would keep two logs of one journal."""
+    """Reject anything but a regular file of the user: under two names, SQLite would keep two logs of one journal."""
     try:
         found = path.lstat()
     except FileNotFoundError:
@@ -500,7 +501,7 @@ def _require_about(about: Mapping[str, str], mission: str | None, path: Path) ->
 
 @contextmanager
 def _said(path: Path) -> Iterator[None]:
-    """Turn what SQLite or the system complains of into a JournalError."""
+    """Convert errors of SQLite and the system to JournalError."""
     try:
         yield
     except sqlite3.IntegrityError as error:
