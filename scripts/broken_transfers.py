@@ -106,9 +106,10 @@ class Field:
             plan=Act(id="", action="read_co2", at=TreeIs(tree=tree)),
             measures={"read_co2": ("co2",)},
         )
-        approved = mission.authorize(task, self.site, self.robot, by="Ada", at=self.at, confirmed=EveryWarning())
+        review = mission.review(task, self.site, self.robot)
+        approved = mission.authorize(review, by="Ada", at=self.at, confirmed=EveryWarning())
         return pack(
-            approved,
+            approved.authorized,
             self.site,
             self.robot,
             files=site_files("demo"),

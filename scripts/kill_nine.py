@@ -38,6 +38,7 @@ import numpy as np
 
 from fieldhand import mission
 from fieldhand.approval.authorize import EveryWarning, approve
+from fieldhand.approval.checks import examine
 from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.errors import NotApprovedError
 from fieldhand.evaluation.failsafe import BudgetFailsafe
@@ -227,7 +228,8 @@ def approved_draft(seed: int) -> tuple[Draft, AuthorizedTask] | None:
         return None
     try:
         at = "2026-01-01T00:00:00+00:00"
-        return draft, approve(draft.task, draft.site, draft.robot, by="the test", at=at, confirmed=EveryWarning())
+        examined = examine(draft.task, draft.site, draft.robot)
+        return draft, approve(examined, by="the test", at=at, confirmed=EveryWarning())
     except NotApprovedError:
         return None
 

@@ -56,7 +56,7 @@ from fieldhand.task.plan import (
     Sequence as Steps,
 )
 from fieldhand.task.results import Acted, Arrived, Decided, Ended, Event, Exited, Visiting
-from rig import authorized, husky, orchard, task_for
+from rig import approved, husky, orchard, task_for
 
 #: What happens: kind ("drive", "capture", "failure"), id of the node, id of the place.
 Trace = list[tuple[str, str, str]]
@@ -314,9 +314,7 @@ def simulated(seed: int) -> Simulated:
         events: list[Event] = []
         watch = _Watch(events)
         mission.simulate(
-            authorized(task, site, robot),
-            site,
-            robot,
+            approved(task, site, robot),
             world=world,
             seed=seed,
             speed=None,

@@ -27,7 +27,7 @@ from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, Node, Sequence
 from fieldhand.task.results import Event
-from rig import authorized
+from rig import approved
 
 #: What floating-point sums may differ by.
 SUMS = 1e-6
@@ -93,7 +93,7 @@ def fly(seed: int) -> Flown:
     if rng.random() < 0.4 and "meter_step_percent" in {f.name for f in fields(World)}:
         world = replace(world, meter_step_percent=1.0)
     events: list[Event] = []
-    mission.simulate(authorized(task, site, robot), site, robot, world=world, seed=seed, speed=None, emit=events.append)
+    mission.simulate(approved(task, site, robot), world=world, seed=seed, speed=None, emit=events.append)
     log = [json.loads(to_json(event)) for event in events]
     outcomes = mission.assess(task, events).outcomes
     return Flown(task=task, site=site, robot=robot, world=world, log=log, events=tuple(events), outcomes=outcomes)

@@ -42,7 +42,7 @@ from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import FaultedExit, Task
 from fieldhand.task.plan import Act, ForEach, GoTo, Node, Optional, Repeat, Sequence, Try, walk
 from fieldhand.task.results import Event
-from rig import authorized
+from rig import approved
 
 #: Metres within which a robot is at an exit.
 AT_EXIT_M = 1.0
@@ -199,7 +199,7 @@ def fly(seed: int, *, demo: bool = True) -> Flown:
     )
     world = World(faults=random_faults(rng, open_ids, wanted), charge_percent=charge)
     events: list[Event] = []
-    mission.simulate(authorized(task, site, robot), site, robot, world=world, seed=seed, speed=None, emit=events.append)
+    mission.simulate(approved(task, site, robot), world=world, seed=seed, speed=None, emit=events.append)
     log = [json.loads(to_json(event)) for event in events]
     outcomes = mission.assess(task, events).outcomes
     return Flown(task=task, site=site, robot=robot, world=world, log=log, events=tuple(events), outcomes=outcomes)

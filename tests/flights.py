@@ -47,9 +47,9 @@ def fly_task(task: Task, site: Site, robot: str = "husky", *, world: World | Non
     """Approve a Task and carry it out."""
     profile = load_robot(robot)
     at = datetime(2026, 1, 1, tzinfo=UTC)
-    approved = mission.authorize(task, site, profile, by="tester", at=at, confirmed=EveryWarning())
+    approved = mission.authorize(mission.review(task, site, profile), by="tester", at=at, confirmed=EveryWarning())
     events: list[Event] = []
-    mission.simulate(approved, site, profile, world=world or World(), seed=seed, speed=None, emit=events.append)
+    mission.simulate(approved, world=world or World(), seed=seed, speed=None, emit=events.append)
     return Flight(task=task, site=site, events=tuple(events), assessment=mission.assess(task, events))
 
 

@@ -24,9 +24,9 @@ def inputs() -> missions.Inputs:
     plan = Act(id="", action="read_co2", at=TreeIs(tree="5"))
     task = make_task(request="Measure CO2 at tree 5.", plan=plan, measures={"read_co2": ("co2",)})
     at = datetime(2026, 1, 1, tzinfo=UTC)
-    approved = mission.authorize(task, site, robot, by="tester", at=at, confirmed=EveryWarning())
+    approved = mission.authorize(mission.review(task, site, robot), by="tester", at=at, confirmed=EveryWarning())
     return missions.Inputs(
-        authorized=approved,
+        authorized=approved.authorized,
         site=site,
         robot=robot,
         files=files,

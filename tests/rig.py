@@ -9,6 +9,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from fieldhand import mission
 from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.execution.attempt import Attempt
 from fieldhand.execution.drivers.simulation import SimulatedDriver
@@ -97,6 +98,11 @@ def authorized(task: Task, site: Site, robot: RobotProfile) -> AuthorizedTask:
             robot_sha256=robot.sha256,
         ),
     )
+
+
+def approved(task: Task, site: Site, robot: RobotProfile) -> mission.ApprovedMission:
+    """Return a mission as :func:`authorized` approves it."""
+    return mission.ApprovedMission(authorized=authorized(task, site, robot), site=site, robot=robot)
 
 
 @dataclass

@@ -17,6 +17,7 @@ from fieldhand.approval.bundle.container import MANIFEST, SIGNATURE, wrap
 from fieldhand.approval.bundle.opening import Bundle, open_bundle
 from fieldhand.approval.bundle.packing import pack
 from fieldhand.approval.bundle.signature import sign_manifest
+from fieldhand.approval.checks import examine
 from fieldhand.approval.keys.public import PublicKey
 from fieldhand.approval.keys.signing import SigningKey
 from fieldhand.approval.keys.trust import KnownKey
@@ -75,7 +76,7 @@ def pack_mission(
     site = site_of(files, lenient=lenient)
     act = Act(id="", action="read_co2", at=TreeIs(tree="1"), said=((0, 30),))
     task = task_for(site, act, "Take 3 CO2 readings at tree 1.")
-    authorized = approve(task, site, robot, by=by, at=at, confirmed=EveryWarning())
+    authorized = approve(examine(task, site, robot), by=by, at=at, confirmed=EveryWarning())
     return pack(
         authorized, site, robot, files=files, lenient=lenient, profile=profile, key=key, planner="english", **more
     )

@@ -28,6 +28,7 @@ from command import Run, fieldhand
 from fieldhand.approval.authorize import EveryWarning, approve
 from fieldhand.approval.bundle.opening import unseal
 from fieldhand.approval.bundle.packing import pack
+from fieldhand.approval.checks import examine
 from fieldhand.places.selectors import TreeIs, Where
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.llm.scripted import ScriptedEndpoint
@@ -157,7 +158,10 @@ def scene(tmp_path_factory: pytest.TempPathFactory) -> Scene:
     plain = make_task(request=request, plan=plan, measures=measures_of(robot), resources=resources)
     task = replace(plain, command=replace(plain.command, assumptions=(SEEN,), warnings=(SEEN, FORMULA)))
     approved = approve(
-        task, site, robot, by=SEEN, at=datetime.now(UTC).isoformat(timespec="seconds"), confirmed=EveryWarning()
+        examine(task, site, robot),
+        by=SEEN,
+        at=datetime.now(UTC).isoformat(timespec="seconds"),
+        confirmed=EveryWarning(),
     )
     bundle = pack(
         approved, site, robot, files=files, lenient=False, profile=profile, key=signing_key(7, "Eve"), planner=SEEN

@@ -25,13 +25,9 @@ TASK = task_for(SITE, ForEach(id="", select=Corners(), body=Act(id="", action="t
 def log():
     """The event log of a mission that was flown, as text."""
     review = mission.review(TASK, SITE, ROBOT)
-    authorized = mission.authorize(
-        TASK, SITE, ROBOT, by="a", at=datetime(2026, 1, 1, tzinfo=UTC), confirmed=review.warnings
-    )
+    approved = mission.authorize(review, by="a", at=datetime(2026, 1, 1, tzinfo=UTC), confirmed=review.warnings)
     lines: list[str] = []
-    mission.simulate(
-        authorized, SITE, ROBOT, world=World(), seed=1, speed=None, emit=lambda e: lines.append(to_json(e) + "\n")
-    )
+    mission.simulate(approved, world=World(), seed=1, speed=None, emit=lambda e: lines.append(to_json(e) + "\n"))
     return "".join(lines)
 
 

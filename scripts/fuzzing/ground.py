@@ -17,6 +17,7 @@ from fieldhand.approval.authorize import EveryWarning, approve
 from fieldhand.approval.bundle.container import MANIFEST, ROBOT, SIGNATURE, TASK, unwrap, wrap
 from fieldhand.approval.bundle.packing import pack
 from fieldhand.approval.bundle.signature import sign_manifest
+from fieldhand.approval.checks import examine
 from fieldhand.approval.keys.public import PublicKey
 from fieldhand.approval.keys.signing import SigningKey
 from fieldhand.approval.keys.trust import KnownKey
@@ -104,22 +105,23 @@ def tasks() -> tuple[Task, ...]:
 def approved() -> AuthorizedTask:
     """The first of them, approved."""
     here = ground()
-    return approve(tasks()[0], here.site, here.robot, by="Ada", at=WHEN, confirmed=EveryWarning())
+    return approve(examine(tasks()[0], here.site, here.robot), by="Ada", at=WHEN, confirmed=EveryWarning())
 
 
-def flown(world: World, *, task: AuthorizedTask | None = None) -> tuple[Event, ...]:
-    """The events of a mission in such a world."""
-    here, events = ground(), list[Event]()
-    mission.simulate(task or approved(), here.site, here.robot, world=world, seed=0, speed=None, emit=events.append)
-    return tuple(events)
+def flown(world: World, *, approved_mission: mission.ApprovedMission | None = None) -> tuple[Event, ...]:
+    """Return the events of a mission in a world."""
+    here = ground()
+    given = mission.ApprovedMission(authorized=approved(), site=here.site, robot=here.robot)
+    return mission.simulate(approved_mission or given, world=world).events
 
 
 @cache
 def log() -> bytes:
     """The event log of a mission that tests a condition."""
     here = ground()
-    task = mission.authorize(tasks()[2], here.site, here.robot, by="Ada", at=NOW, confirmed=EveryWarning())
-    return b"".join(to_json(event).encode() + b"\n" for event in flown(World(), task=task))
+    review = mission.review(tasks()[2], here.site, here.robot)
+    given = mission.authorize(review, by="Ada", at=NOW, confirmed=EveryWarning())
+    return b"".join(to_json(event).encode() + b"\n" for event in flown(World(), approved_mission=given))
 
 
 @cache

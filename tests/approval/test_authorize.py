@@ -11,7 +11,7 @@ import pytest
 
 import fieldhand
 from fieldhand.approval.authorize import EveryWarning, approve
-from fieldhand.approval.checks import check
+from fieldhand.approval.checks import check, examine
 from fieldhand.errors import NotApprovedError, NotConfirmedError
 from fieldhand.places.selectors import TreeIs
 from fieldhand.task.codec import decode, encode
@@ -29,7 +29,7 @@ WHEN = "2026-05-01T08:00:00+02:00"
 
 
 def test_an_approved_task_carries_who_when_and_the_hashes_of_what():
-    approved = approve(GOOD, SITE, ROBOT, by="Ada", at=WHEN)
+    approved = approve(examine(GOOD, SITE, ROBOT), by="Ada", at=WHEN)
     authorization = approved.authorization
     assert approved.task == GOOD
     assert (authorization.by, authorization.at, authorization.confirmed) == ("Ada", WHEN, ())
@@ -39,7 +39,7 @@ def test_an_approved_task_carries_who_when_and_the_hashes_of_what():
 
 def test_a_task_with_an_error_is_not_approved_and_says_why():
     with pytest.raises(NotApprovedError, match="99"):
-        approve(BAD, SITE, ROBOT, by="Ada", at=WHEN)
+        approve(examine(BAD, SITE, ROBOT), by="Ada", at=WHEN)
 
 
 def test_a_task_is_approved_once_each_of_its_warnings_is_confirmed_and_they_are_kept():
@@ -49,23 +49,23 @@ def test_a_task_is_approved_once_each_of_its_warnings_is_confirmed_and_they_are_
     assert any("perhaps not what was asked" in w and "'3 co2 readings'" in w for w in warnings)
     for confirmed in ((), warnings[1:], warnings[:-1], ["the gate is narrow"], [w.upper() for w in warnings]):
         with pytest.raises(NotConfirmedError) as refused:
-            approve(read, SITE, ROBOT, by="Ada", at=WHEN, confirmed=confirmed)
+            approve(examine(read, SITE, ROBOT), by="Ada", at=WHEN, confirmed=confirmed)
         assert set(refused.value.warnings) == set(warnings) - set(confirmed)
-    approved = approve(read, SITE, ROBOT, by="Ada", at=WHEN, confirmed=[*warnings, "the gate is narrow"])
+    approved = approve(examine(read, SITE, ROBOT), by="Ada", at=WHEN, confirmed=[*warnings, "the gate is narrow"])
     assert approved.authorization.confirmed == tuple(warnings)
-    assert approve(read, SITE, ROBOT, by="Ada", at=WHEN, confirmed=EveryWarning()) == approved
+    assert approve(examine(read, SITE, ROBOT), by="Ada", at=WHEN, confirmed=EveryWarning()) == approved
 
 
 def test_an_error_is_not_to_be_confirmed():
     with pytest.raises(NotApprovedError, match="99") as refused:
-        approve(BAD, SITE, ROBOT, by="Ada", at=WHEN, confirmed=EveryWarning())
+        approve(examine(BAD, SITE, ROBOT), by="Ada", at=WHEN, confirmed=EveryWarning())
     assert not isinstance(refused.value, NotConfirmedError)
 
 
 @pytest.mark.parametrize(("by", "at"), [("", WHEN), ("  ", WHEN), ("Ada", "yesterday"), ("Ada", "2026-05-01T08:00:00")])
 def test_nobody_and_no_moment_approve_nothing(by, at):
     with pytest.raises(NotApprovedError):
-        approve(GOOD, SITE, ROBOT, by=by, at=at)
+        approve(examine(GOOD, SITE, ROBOT), by=by, at=at)
 
 
 def test_no_other_module_makes_an_authorized_task():

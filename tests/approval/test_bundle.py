@@ -132,12 +132,13 @@ def test_a_site_that_was_read_leniently_is_read_so_again() -> None:
 def test_the_files_must_be_those_that_were_approved() -> None:
     from fieldhand.approval.authorize import EveryWarning, approve
     from fieldhand.approval.bundle.packing import pack
+    from fieldhand.approval.checks import examine
     from fieldhand.robot.loader import profile_bytes
 
     bundle = opened(good())
     other, husky = orchard_files(7), profile_bytes("husky")[0]
     task = bundle.authorized.task
-    approved = approve(task, bundle.site, bundle.robot, by="Ada", at=WHEN, confirmed=EveryWarning())
+    approved = approve(examine(task, bundle.site, bundle.robot), by="Ada", at=WHEN, confirmed=EveryWarning())
     for files, profile in ((other, husky), (orchard_files(), husky + b"\n")):
         with pytest.raises(BundleError, match="than was approved"):
             pack(approved, bundle.site, bundle.robot, files=files, lenient=False, profile=profile, key=KEY, planner="x")

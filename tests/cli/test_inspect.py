@@ -15,6 +15,7 @@ from fieldhand.approval.authorize import EveryWarning, approve
 from fieldhand.approval.bundle.container import MANIFEST, SIGNATURE, wrap
 from fieldhand.approval.bundle.packing import pack
 from fieldhand.approval.bundle.signature import sign_manifest
+from fieldhand.approval.checks import examine
 from fieldhand.places.selectors import TreeIs
 from fieldhand.robot.loader import parse_profile, profile_bytes
 from fieldhand.site.geojson import site_of
@@ -45,7 +46,7 @@ def stranger(request: str, folder: Path) -> Path:
     plain = task_for(site, Act(id="", action="read_co2", at=TreeIs(tree="1")), request)
     said = request.replace("\n", " ").replace("\t", " ")
     task = replace(plain, command=replace(plain.command, assumptions=(said,), warnings=(said,)))
-    authorized = approve(task, site, robot, by=said[:400], at=WHEN, confirmed=EveryWarning())
+    authorized = approve(examine(task, site, robot), by=said[:400], at=WHEN, confirmed=EveryWarning())
     path = folder / "m.mission"
     path.write_bytes(
         pack(

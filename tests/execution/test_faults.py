@@ -51,7 +51,7 @@ from fieldhand.task.results import (
     Waited,
 )
 from planted_sites import upright
-from rig import Rig, authorized, captured, husky, of_type, orchard, task_for
+from rig import Rig, approved, captured, husky, of_type, orchard, task_for
 
 CO2 = "read_co2"
 
@@ -284,7 +284,7 @@ def test_a_battery_that_empties_faster_than_modelled_is_learned_of(factor: float
     low = replace(low, energy=replace(low.energy, capacity_j=low.energy.capacity_j / 4))
     seen: list[Event] = []
     mission.simulate(
-        authorized(task_for(plan, nominal="return_to_start"), site, low), site, low,
+        approved(task_for(plan, nominal="return_to_start"), site, low),
         world=world(BatteryDrains(factor=factor), charge_percent=40.0), seed=1, speed=None, emit=seen.append,
     )  # fmt: skip
     ended = seen[-1]
@@ -298,13 +298,13 @@ def test_a_battery_that_empties_faster_than_modelled_is_learned_of(factor: float
 
 def test_setting_the_wall_clock_changes_nothing_but_is_written_down() -> None:
     site, robot = orchard(), husky(alpha=0.5)
-    approved = authorized(task_for(each("r0c0", "r2c3")), site, robot)
+    given_mission = approved(task_for(each("r0c0", "r2c3")), site, robot)
 
     def flown(*faults: WorldFault) -> list[Event]:
         seen: list[Event] = []
         morning = parse_world({"begins": "2026-05-01T06:00:00+02:00"}).begins
         given = world(*faults, begins=morning)
-        mission.simulate(approved, site, robot, world=given, seed=3, speed=None, emit=seen.append)
+        mission.simulate(given_mission, world=given, seed=3, speed=None, emit=seen.append)
         return seen
 
     plain, jumped = flown(), flown(ClockJumps(at_s=5.0, by_s=-7200.0), ClockJumps(at_s=30.0, by_s=86400.0))
@@ -319,7 +319,7 @@ def test_a_full_disk_stops_the_robot_and_comes_out() -> None:
     seen: list[Event] = []
     with pytest.raises(OutputError, match="no space left on the disk") as caught:
         mission.simulate(
-            authorized(task_for(each("r0c0", "r2c3")), site, robot), site, robot,
+            approved(task_for(each("r0c0", "r2c3")), site, robot),
             world=world(DiskFull(at_s=20.0)), seed=0, speed=None, emit=seen.append,
         )  # fmt: skip
     assert "the robot was stopped" in caught.value.advice

@@ -18,7 +18,7 @@ from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
-from rig import authorized
+from rig import approved
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 EXAMPLE = re.compile(r"```yaml\n# (.*?)\n(.*?)```\n\n```text\n(.*?)```", re.DOTALL)
@@ -33,7 +33,7 @@ def test_the_log_says_what_the_page_says(request_: str, world: str, said: str) -
     lines: list[str] = []
     try:
         mission.simulate(
-            authorized(outcome.task, site, robot), site, robot, world=parse_world(yaml.safe_load(world)), seed=0,
+            approved(outcome.task, site, robot), world=parse_world(yaml.safe_load(world)), seed=0,
             speed=None, emit=lambda event: lines.append(teller.tell(event) or ""),
         )  # fmt: skip
     except OutputError as error:

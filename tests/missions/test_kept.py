@@ -33,7 +33,11 @@ def test_a_mission_from_its_folder_alone(tmp_path: Path) -> None:
     plain: list[Event] = []
     assert given.world != World()
     mission.simulate(
-        given.authorized, given.site, given.robot, world=given.world, seed=3, speed=None, emit=plain.append
+        mission.ApprovedMission(authorized=given.authorized, site=given.site, robot=given.robot),
+        world=given.world,
+        seed=3,
+        speed=None,
+        emit=plain.append,
     )
     assert plain == events
     again = missions.carry_out(given, speed=None, emit=lambda event: pytest.fail(f"told twice: {event}"))

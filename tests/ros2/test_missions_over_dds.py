@@ -36,7 +36,6 @@ from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot, profile_bytes
 from fieldhand.site.geojson import open_site, site_files
-from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.results import Acted, Arrived, Ended, Event, InDoubt, Paused, Resumed, Shed
 from fieldhand_bench.missions.case_file import load_cases
@@ -93,7 +92,7 @@ class Plan:
         seed: Of every random thing in the simulation, and of the guard.
     """
 
-    authorized: AuthorizedTask
+    approved: mission.ApprovedMission
     site: str
     robot: str = "husky"
     seed: int = 0
@@ -104,20 +103,19 @@ class Plan:
         outcome = mission.plan(request, place, profile, EnglishPlanner())
         assert isinstance(outcome, Planned), outcome
         at = datetime(2026, 1, 1, tzinfo=UTC)
-        approved = mission.authorize(outcome.task, place, profile, by="tester", at=at, confirmed=EveryWarning())
-        return cls(authorized=approved, site=site, robot=robot, seed=seed)
+        approved = mission.authorize(
+            mission.review(outcome.task, place, profile), by="tester", at=at, confirmed=EveryWarning()
+        )
+        return cls(approved=approved, site=site, robot=robot, seed=seed)
 
     def simulated(self, world: World) -> tuple[Event, ...]:
         """What happens in the plain simulation."""
-        site, robot = open_site(self.site), load_robot(self.robot)
-        return mission.simulate(
-            self.authorized, site, robot, world=world, seed=self.seed, speed=None, emit=lambda _: None
-        ).events
+        return mission.simulate(self.approved, world=world, seed=self.seed, speed=None, emit=lambda _: None).events
 
     def kept(self, under: Path, vehicle: Vehicle) -> missions.Mission:
         """Its folder."""
         inputs = missions.Inputs(
-            authorized=self.authorized,
+            authorized=self.approved.authorized,
             site=open_site(self.site),
             robot=load_robot(self.robot),
             files=site_files(self.site),
@@ -141,7 +139,7 @@ class Plan:
             under_way: Called at each tick once the robot is some metres from where it stood.
         """
         site, robot = open_site(self.site), load_robot(self.robot)
-        with connected_robot(site, robot, self.authorized.task, robot_there.by) as vehicle:
+        with connected_robot(site, robot, self.approved.task, robot_there.by) as vehicle:
             return self.carried_out_by(vehicle, under, emit, under_way)
 
     def carried_out_by(
@@ -173,7 +171,7 @@ def test_the_demo_goes_as_in_simulation(tmp_path: Path) -> None:
     decided depends on no process that waits for its turn."""
     husky = str(patient(tmp_path, type="nav2_msgs/action/NavigateThroughPoses"))
     plan = Plan.of(REQUEST, robot=husky, seed=7)
-    with connected_simulated_robot("demo", husky, plan.authorized.task, seed=plan.seed, tick_s=0.5) as (vehicle, far):
+    with connected_simulated_robot("demo", husky, plan.approved.task, seed=plan.seed, tick_s=0.5) as (vehicle, far):
         there = plan.carried_out_by(vehicle, tmp_path)
         made = [place for name, place in far.state["made"] if name.endswith("take_picture")]
     here = plan.simulated(World())

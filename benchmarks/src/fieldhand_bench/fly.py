@@ -22,7 +22,6 @@ from fieldhand.forecast.steps import Answer, Step
 from fieldhand.forecast.walk import walk
 from fieldhand.robot.model import LegCost, RobotProfile
 from fieldhand.task import plan
-from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.frames import Task, Then
 from fieldhand.task.plan import Node
 from fieldhand.task.results import Decided, Event
@@ -151,7 +150,10 @@ def fly(seed: int, most_trees: int = MOST_TREES) -> Flight:
             continue
         try:
             approved = mission.authorize(
-                draft.task, draft.site, draft.robot, by="the experiment", at=_APPROVED_AT, confirmed=EveryWarning()
+                mission.review(draft.task, draft.site, draft.robot),
+                by="the experiment",
+                at=_APPROVED_AT,
+                confirmed=EveryWarning(),
             )
         except NotApprovedError as error:
             refused.append(error.what)
@@ -160,24 +162,16 @@ def fly(seed: int, most_trees: int = MOST_TREES) -> Flight:
     raise FieldhandError(f"no mission of seed {seed} is approved", advice="take another seed")
 
 
-def _flown(draft: Draft, approved: AuthorizedTask, refused: tuple[str, ...]) -> Flight:
+def _flown(draft: Draft, approved: mission.ApprovedMission, refused: tuple[str, ...]) -> Flight:
     timed: list[TimedGuard] = []
-    events: list[Event] = []
 
     def watched(guard: Guard) -> Guard:
         timed.append(TimedGuard(guard))
         return timed[-1]
 
-    mission.simulate(
-        approved,
-        draft.site,
-        draft.robot,
-        world=World(charge_percent=draft.charge_percent),
-        seed=draft.flight_seed,
-        speed=None,
-        emit=events.append,
-        watched=watched,
-    )
+    events = mission.simulate(
+        approved, world=World(charge_percent=draft.charge_percent), seed=draft.flight_seed, watched=watched
+    ).events
     return Flight(trial=_trial(draft, refused, events, timed[0]), draft=draft, events=tuple(events))
 
 

@@ -12,12 +12,11 @@ from numpy.typing import NDArray
 
 from fieldhand import mission
 from fieldhand.approval.authorize import EveryWarning
-from fieldhand.execution.world import World
 from fieldhand.forecast.figures import BranchEstimate, Figure
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
-from fieldhand.task.results import Ended, Event
+from fieldhand.task.results import Ended
 from fieldhand_bench.orienteering.run import wilson
 from fieldhand_bench.referee import judge
 
@@ -131,11 +130,13 @@ def fly_again(task: Task, site: Site, robot: RobotProfile, seeds: Sequence[int],
     """
     from joblib import Parallel, delayed
 
-    authorized = mission.authorize(task, site, robot, by="the experiment", at=_APPROVED_AT, confirmed=EveryWarning())
+    approved = mission.authorize(
+        mission.review(task, site, robot), by="the experiment", at=_APPROVED_AT, confirmed=EveryWarning()
+    )
 
     def fly(seed: int) -> Mission:
-        began, events = time.process_time(), list[Event]()
-        mission.simulate(authorized, site, robot, world=World(), seed=seed, speed=None, emit=events.append)
+        began = time.process_time()
+        events = mission.simulate(approved, seed=seed).events
         ruling, ended = judge(task, site, robot, events), events[-1]
         assert isinstance(ended, Ended)  # noqa: S101  a simulated mission ends
         return Mission(

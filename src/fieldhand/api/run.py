@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import asdict
 from datetime import UTC, datetime
 from typing import Any
@@ -21,10 +21,9 @@ from fieldhand.api.work import Limits, Workers
 from fieldhand.approval.production import require_unsigned_allowed
 from fieldhand.evaluation.telling import Teller, goal_names
 from fieldhand.planning.planner import Planned
-from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Task
-from fieldhand.task.results import Ended, Event
+from fieldhand.task.results import Ended
 
 
 def router(workers: Workers, planners: Planners, limits: Limits) -> APIRouter:
@@ -53,27 +52,20 @@ def _run(body: RunBody, planners: Planners, limits: Limits) -> dict[str, Any]:
         task = outcome.task
     else:
         task, _ = open_task(body.xml or "", ground.robot)
-    authorized = mission.authorize(
-        task,
-        ground.site,
-        ground.robot,
+    approved = mission.authorize(
+        mission.review(task, ground.site, ground.robot),
         by=body.approved_by,
         at=datetime.now(UTC),
         confirmed=body.confirmed,
         language=body.lang,
     )
-    events: list[Event] = []
-    mission.simulate(
-        authorized,
-        ground.site,
-        ground.robot,
+    run = mission.simulate(
+        approved,
         world=world,
         seed=world.seed if body.seed is None else body.seed,
-        speed=None,
-        emit=events.append,
         interrupted=_deadline(limits.run_s),
     )
-    return _answer(authorized, ground, events)
+    return _answer(run, ground)
 
 
 def _deadline(seconds: float) -> Callable[[], str | None]:
@@ -82,8 +74,8 @@ def _deadline(seconds: float) -> Callable[[], str | None]:
     return lambda: f"the simulation took longer than {seconds:g} s" if time.monotonic() > until else None
 
 
-def _answer(authorized: AuthorizedTask, ground: Ground, events: Sequence[Event]) -> dict[str, Any]:
-    assessment = mission.assess(authorized.task, events, ground.robot)
+def _answer(run: mission.Run, ground: Ground) -> dict[str, Any]:
+    authorized, events, assessment = run.mission.authorized, run.events, run.assessment
     ended = next(event for event in reversed(events) if isinstance(event, Ended))
     tell = Teller(ground.robot).tell
     return {

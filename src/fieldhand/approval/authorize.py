@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Container
 from datetime import datetime
 
-from fieldhand.approval.checks import check
+from fieldhand.approval.checks import Examination
 from fieldhand.errors import NotApprovedError, NotConfirmedError
 from fieldhand.language import joined, message, open_language
 from fieldhand.robot.model import RobotProfile
@@ -24,25 +24,22 @@ class EveryWarning(Container[str]):
 
 
 def approve(
-    task: Task,
-    site: Site,
-    robot: RobotProfile,
+    examined: Examination,
     *,
     by: str,
     at: str,
     confirmed: Container[str] = (),
     language: str = "en",
 ) -> AuthorizedTask:
-    """Approve a Task for this site and this robot, in the name of a person.
+    """Approve a Task for the site and the robot it was examined for, in the name of a person.
 
     Args:
-        task: The Task, as it was read back.
-        site, robot: For which it is approved, byte by byte.
-        by: Who approves.
-        at: When, ISO 8601 with time zone.
+        examined: Result of every check; the Task, site and robot in it are approved byte by byte.
+        by: Name of the person.
+        at: Time of the approval, ISO 8601 with time zone.
         confirmed: The warnings that were shown and accepted, each in its own words (``line`` of the problem) in the
             language in which it was shown.
-        language: In which the plan and its warnings were read, by its code.
+        language: Code of the language in which the plan and its warnings were read.
 
     Raises:
         NotConfirmedError: There is a warning that is not among the confirmed ones.
@@ -51,22 +48,21 @@ def approve(
     if not by.strip():
         raise NotApprovedError(message("nobody approves"), where="by", advice=message("say who approves"))
     _require_moment(at)
-    problems = check(task, site, robot)
-    errors = [p for p in problems if p.severity == "error"]
-    if errors:
-        raise NotApprovedError(joined("; ", map(str, errors)), advice=message("mend this and approve again"))
-    warnings = open_language(language).read(tuple(p.line() for p in problems if p.severity == "warning"))
+    if examined.errors:
+        raise NotApprovedError(joined("; ", map(str, examined.errors)), advice=message("mend this and approve again"))
+    lines = tuple(p.line() for p in examined.problems if p.severity == "warning")
+    warnings = open_language(language).read(lines)
     _require_confirmed(warnings, confirmed)
     authorization = Authorization(
         by=by,
         at=at,
-        task_sha256=hashlib.sha256(encode(task)).hexdigest(),
-        site_sha256=site.sha256,
-        robot_sha256=robot.sha256,
+        task_sha256=hashlib.sha256(encode(examined.task)).hexdigest(),
+        site_sha256=examined.site.sha256,
+        robot_sha256=examined.robot.sha256,
         confirmed=warnings,
         language=language,
     )
-    return AuthorizedTask(task=task, authorization=authorization)
+    return AuthorizedTask(task=examined.task, authorization=authorization)
 
 
 def uphold(task: Task, authorization: Authorization) -> AuthorizedTask:

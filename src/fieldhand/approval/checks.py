@@ -18,6 +18,7 @@ from fieldhand.approval.budget import budget_problems
 from fieldhand.approval.doubts import doubts
 from fieldhand.approval.problem import Problem, node_in, with_words
 from fieldhand.approval.sentences import say_place
+from fieldhand.brief import brief_repr
 from fieldhand.errors import FieldhandError, PlaceError, TaskError
 from fieldhand.forecast.estimate import Estimate, estimate, explore
 from fieldhand.forecast.routes import beginning, drives_for
@@ -38,12 +39,23 @@ from fieldhand.task.schema import validate
 __all__ = ["Examination", "Problem", "check", "examine"]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Examination:
-    """What the checks found, and the estimate that they needed (None where the mission cannot be walked through)."""
+    """The examination of a Task for a site and a robot; :func:`examine` alone makes it, approval takes it.
 
+    Attributes:
+        task, site, robot: What was examined.
+        problems: Every problem found, errors first.
+        estimate: The forecast that the checks used; None if the mission cannot be walked through.
+    """
+
+    task: Task
+    site: Site
+    robot: RobotProfile
     problems: tuple[Problem, ...]
     estimate: Estimate | None
+
+    __repr__ = brief_repr
 
     @property
     def errors(self) -> tuple[Problem, ...]:
@@ -97,7 +109,8 @@ def examine(
                 problems.extend(budget_problems(task, site, robot, forecast))
                 problems.extend(battery_problems(task, robot))
     once = dict.fromkeys(with_words(problem, task) for problem in problems)
-    return Examination(problems=tuple(sorted(once, key=lambda p: p.severity != "error")), estimate=forecast)
+    found = tuple(sorted(once, key=lambda p: p.severity != "error"))
+    return Examination(task=task, site=site, robot=robot, problems=found, estimate=forecast)
 
 
 def _errors(problems: list[Problem]) -> bool:

@@ -47,10 +47,16 @@ def save_map(
     Raises:
         OutputError: The file cannot be written, or its ending is of no kind of picture.
     """
+    save_figure(plan_figure(task, site, robot, estimate, language), path, what=message("map", context="file"))
+
+
+def plan_figure(
+    task: Task, site: Site, robot: RobotProfile, estimate: Estimate, language: Language = ENGLISH
+) -> Figure:
+    """Draw the planned mission, with its words beside it, as :func:`save_map` writes it."""
     words = read_back(task, site, robot, estimate)
     plan = plan_of(task, [b.walk for b in estimate.branches], words.lines)
-    figure = draw_map(task, site, plan, words, language)
-    save_figure(figure, path, what=message("map", context="file"))
+    return draw_map(task, site, plan, words, language)
 
 
 def draw_map(task: Task, site: Site, plan: Plan, words: ReadBack, language: Language = ENGLISH) -> Figure:

@@ -97,7 +97,7 @@ def approve(
         draw_plan(picture, review, ground, language)
         if not json:
             show.out.print(language.say(message("Map: {file}", file=str(picture))))
-    authorized = approve_plan(ground, review, consent, message("Approve and sign?"))
+    authorized = approve_plan(review, consent, message("Approve and sign?")).authorized
     signing = own.open(chosen, passphrase)
     data = pack(
         authorized,

@@ -16,7 +16,7 @@ from fieldhand.language.words import some_names
 from fieldhand.task.frames import Task
 
 if TYPE_CHECKING:
-    from fieldhand.task.authorization import AuthorizedTask
+    pass
 
 
 class Consent(Protocol):
@@ -65,11 +65,10 @@ def review_plan(ground: Ground, task: Task, document: bytes | None, consent: Con
     return review
 
 
-def approve_plan(ground: Ground, review: mission.Review, consent: Consent, question: Message) -> AuthorizedTask:
+def approve_plan(review: mission.Review, consent: Consent, question: Message) -> mission.ApprovedMission:
     """Have the warnings confirmed and the plan approved.
 
     Args:
-        ground: For which it is approved.
         review: As it was shown.
         consent: Whose it is, and how it is asked for.
         question: What a person is asked at the end.
@@ -87,9 +86,7 @@ def approve_plan(ground: Ground, review: mission.Review, consent: Consent, quest
     if consent.ask:
         _ask(question, consent.language)
     return mission.authorize(
-        review.task,
-        ground.site,
-        ground.robot,
+        review,
         by=consent.by or user_name(),
         at=datetime.now(UTC),
         confirmed=consent.language.read(review.warnings),

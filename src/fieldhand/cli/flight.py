@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
     from fieldhand.execution.vehicle import Vehicle
     from fieldhand.execution.world import World
+    from fieldhand.robot.model import RobotProfile
+    from fieldhand.site.model import Site
     from fieldhand.task.authorization import AuthorizedTask
 
 
@@ -90,7 +92,10 @@ def fly(
     planner: str,
     authorized: AuthorizedTask | None = None,
 ) -> int:
-    """Review, approve, carry out, judge and report one mission; ``authorized`` was approved before.
+    """Review, approve, carry out, judge and report one mission.
+
+    Args:
+        authorized: The Task with its authorization if it was approved before: a signed mission.
 
     Returns:
         The exit status: 0 if the plan was done and every goal was met, else 1.
@@ -103,12 +108,16 @@ def fly(
     """
     review = review_plan(ground, task, document, orders)
     if authorized is None:
-        authorized = approve_plan(ground, review, orders, message("Approve and carry out?"))
+        approved = approve_plan(review, orders, message("Approve and carry out?"))
+    else:
+        approved = mission.ApprovedMission(
+            authorized=authorized, site=ground.site, robot=ground.robot, estimate=review.estimate
+        )
     leave_plan(ground, review, document, orders)
     if orders.vehicle is not None:
         see_off(ground, review, orders.vehicle, orders)
-    events, name = _carry_out(ground, authorized, orders, planner)
-    return conclude(ground, review, authorized, events, orders, planner, name)
+    events, name = _carry_out(approved, orders, planner)
+    return conclude(approved, events, orders, planner, name)
 
 
 def parse_speed(text: str | None) -> float | None:
@@ -143,26 +152,24 @@ def leave_plan(ground: Ground, review: mission.Review, document: bytes | None, o
     draw_plan(orders.folder / "map.png", review, ground, orders.language)
 
 
-def _carry_out(
-    ground: Ground, authorized: AuthorizedTask, orders: Orders, planner: str
-) -> tuple[tuple[Event, ...], str]:
+def _carry_out(approved: mission.ApprovedMission, orders: Orders, planner: str) -> tuple[tuple[Event, ...], str]:
     """The events of a mission, and the name under which it is kept; none is begun before every log is open."""
     from fieldhand.execution.vehicle import simulation
 
-    with _taking(ground, orders, ()) as take:
+    with _taking(approved.site, approved.robot, orders, ()) as take:
         if orders.kept is not None:
-            given = _begin(ground, authorized, orders, orders.kept, planner)
+            given = _begin(approved, orders, orders.kept, planner)
             return missions.carry_out(given, speed=orders.speed, vehicle=orders.vehicle, emit=take).events, given.id
-        site, robot, seed = ground.site, ground.robot, orders.seed
+        site, robot, seed = approved.site, approved.robot, orders.seed
         vehicle = orders.vehicle or simulation(site, robot, orders.world, seed=seed, speed=orders.speed)
-        return mission.carry_out(authorized, site, robot, vehicle=vehicle, seed=seed, emit=take).events, ""
+        return mission.carry_out(approved, vehicle=vehicle, seed=seed, emit=take).events, ""
 
 
-def _begin(ground: Ground, authorized: AuthorizedTask, orders: Orders, kept: Kept, planner: str) -> missions.Mission:
+def _begin(approved: mission.ApprovedMission, orders: Orders, kept: Kept, planner: str) -> missions.Mission:
     inputs = missions.Inputs(
-        authorized=authorized,
-        site=ground.site,
-        robot=ground.robot,
+        authorized=approved.authorized,
+        site=approved.site,
+        robot=approved.robot,
         files=kept.files.site,
         profile=kept.files.profile,
         lenient=kept.files.lenient,
@@ -184,17 +191,19 @@ def _begin(ground: Ground, authorized: AuthorizedTask, orders: Orders, kept: Kep
 def go_on(given: missions.Mission, orders: Orders) -> tuple[Event, ...]:
     """Carry out what is left of a mission that is kept, as after a power cut."""
     before = missions.events_of(given.folder)
-    with _taking(Ground(site=given.site, robot=given.robot), orders, before) as take:
+    with _taking(given.site, given.robot, orders, before) as take:
         return missions.carry_out(given, speed=orders.speed, vehicle=orders.vehicle, emit=take).events
 
 
 @contextmanager
-def _taking(ground: Ground, orders: Orders, before: Sequence[Event]) -> Iterator[Callable[[Event], None]]:
+def _taking(
+    site: Site, robot: RobotProfile, orders: Orders, before: Sequence[Event]
+) -> Iterator[Callable[[Event], None]]:
     """What takes each event: the logs that were asked for, in which those before stand as well, and the terminal."""
     from fieldhand.evaluation.telling import Teller
     from fieldhand.execution.log import EventLog
 
-    teller = Teller(ground.robot)
+    teller = Teller(robot)
     if not orders.quiet:
         show.heading(orders.language.say(message("The mission")))
         if before:
@@ -211,7 +220,7 @@ def _taking(ground: Ground, orders: Orders, before: Sequence[Event]) -> Iterator
         if orders.mcap is not None:
             from fieldhand.exchange.mcap import McapLog
 
-            logs.append(stack.enter_context(McapLog(orders.mcap, tell=teller.tell, site=ground.site)))
+            logs.append(stack.enter_context(McapLog(orders.mcap, tell=teller.tell, site=site)))
 
         def take(event: Event) -> None:
             for log in logs:
@@ -227,9 +236,7 @@ def _taking(ground: Ground, orders: Orders, before: Sequence[Event]) -> Iterator
 
 
 def conclude(
-    ground: Ground,
-    review: mission.Review,
-    authorized: AuthorizedTask,
+    approved: mission.ApprovedMission,
     events: Sequence[Event],
     orders: Orders,
     planner: str,
@@ -243,11 +250,11 @@ def conclude(
     from fieldhand.evaluation.telling import goal_names
 
     done = past.conclude(
-        authorized,
-        ground.site,
-        ground.robot,
+        approved.authorized,
+        approved.site,
+        approved.robot,
         events,
-        estimate=review.estimate,
+        estimate=approved.estimate,
         folder=orders.folder,
         history=orders.history,
         at=datetime.now(UTC),
@@ -262,11 +269,11 @@ def conclude(
         written = list(left_in(orders.folder))
     status = 0 if assessment.success else 1
     if orders.quiet:
-        record = show.mission_record(review.task, planner, ended, assessment, written)
+        record = show.mission_record(approved.task, planner, ended, assessment, written)
         signed = None if orders.bundle is None else signer_record(orders.bundle)
         show.print_json({"mission": name} | record | {"signed": signed})
         return status
-    show.show_outcomes(assessment, goal_names(review.task, ground.robot), orders.language)
+    show.show_outcomes(assessment, goal_names(approved.task, approved.robot), orders.language)
     if ended is not None and assessment.status is not None:
         show.out.print()
         show.out.print(orders.language.say(_say_end(assessment.status, assessment.reason, ended)))

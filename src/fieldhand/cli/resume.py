@@ -81,9 +81,12 @@ def resume(
     )
     ground = Ground(site=given.site, robot=given.robot)
     review = steps.review(given.authorized.task, given.site, given.robot)
+    approved = steps.ApprovedMission(
+        authorized=given.authorized, site=given.site, robot=given.robot, estimate=review.estimate
+    )
     with boarded(ground, given.authorized.task, connection, quiet=json, language=language) as vehicle:
         if vehicle is not None:
             missions.require_in_place(given.site, given.robot, vehicle.driver)
         leave_plan(ground, review, None, orders)
         done = go_on(given, replace(orders, vehicle=vehicle))
-        raise SystemExit(conclude(ground, review, given.authorized, done, orders, given.planner, given.id))
+        raise SystemExit(conclude(approved, done, orders, given.planner, given.id))

@@ -97,10 +97,9 @@ def carry_out(
         Journal(folder / JOURNAL, given.sha256, folder / LOG, tell) as journal,
         closing(OrderFile(folder / ORDERS)) as order_file,
     ):
-        return mission.carry_out(
-            given.authorized,
-            given.site,
-            given.robot,
+        approved = mission.ApprovedMission(authorized=given.authorized, site=given.site, robot=given.robot)
+        run = mission.carry_out(
+            approved,
             vehicle=vehicle,
             seed=given.seed,
             emit=emit,
@@ -109,6 +108,7 @@ def carry_out(
             orders=latest(given.told, order_file.current),
             log=journal,
         )
+        return run.result
 
 
 def require_vehicle(name: str, departure: Departure | None, *, simulated: bool) -> None:

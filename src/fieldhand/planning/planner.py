@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import NoReturn, Protocol
 
-from fieldhand.language import message
+from fieldhand.errors import RequestError
+from fieldhand.language import joined, message
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.frames import Task
@@ -35,6 +36,20 @@ class Clarify:
     places: tuple[tuple[Place, ...], ...] = ()
     planner: str = ""
     free: bool = False
+
+    @property
+    def task(self) -> NoReturn:
+        """Raise: a question has no Task.
+
+        Raises:
+            RequestError: Always; it holds the question.
+        """
+        raise RequestError(
+            message("a question first: {question}", question=self.question),
+            advice=message("answer it: {choices}", choices="; ".join(self.choices))
+            if self.choices
+            else message("answer it, or say it in the request"),
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,6 +92,18 @@ class Refused:
 
     reasons: tuple[Reason, ...]
     planner: str = ""
+
+    @property
+    def task(self) -> NoReturn:
+        """Raise: a refused request has no Task.
+
+        Raises:
+            RequestError: Always; it holds the reasons.
+        """
+        raise RequestError(
+            joined("; ", [reason.what for reason in self.reasons]),
+            advice=joined("; ", [reason.advice for reason in self.reasons if reason.advice]),
+        )
 
 
 Outcome = Planned | Clarify | Refused

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 from typing import Literal
 
 from fieldhand.brief import brief_repr
@@ -198,6 +199,17 @@ class RobotProfile:
     ros2: Ros2Bindings | None = None
 
     __repr__ = brief_repr
+
+    @classmethod
+    def load(cls, name_or_path: str | Path) -> RobotProfile:
+        """Load a robot: a built-in one by its name, such as ``husky``, or the profile in a YAML file.
+
+        Raises:
+            ProfileError: There is no such robot, or its profile cannot be used; says where, and what to do.
+        """
+        from fieldhand.robot.loader import load_robot
+
+        return load_robot(str(name_or_path))
 
     @cached_property
     def action(self) -> Mapping[str, Action]:

@@ -6,8 +6,9 @@ Metres are east (x) and north (y) in one projection per site, whose origin is th
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
+from pathlib import Path
 from types import MappingProxyType
 from typing import Literal
 
@@ -73,6 +74,13 @@ class Tree:
         if not isinstance(self.properties, MappingProxyType):
             object.__setattr__(self, "properties", MappingProxyType(dict(self.properties)))
 
+    def __reduce__(self) -> tuple[object, ...]:
+        return _tree, (self.place, self.index, self.feature, dict(self.properties), self.row)
+
+
+def _tree(place: Place, index: int, feature: int, properties: dict[str, Value], row: str) -> Tree:
+    return Tree(place=place, index=index, feature=feature, properties=properties, row=row)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Zone:
@@ -122,6 +130,41 @@ class Site:
     def __post_init__(self) -> None:
         if not isinstance(self.markers, MappingProxyType):
             object.__setattr__(self, "markers", MappingProxyType(dict(self.markers)))
+
+    @classmethod
+    def read(cls, path: str | Path, *, lenient: bool = False) -> Site:
+        """Read a site from a file: GeoJSON, CSV; with the extra ``gis`` Shapefile, GeoPackage, KML, KMZ, or a zip.
+
+        Args:
+            path: Path of the file; its ending names the format.
+            lenient: Leave out features that cannot be used, each with a note, instead of refusing the file.
+
+        Raises:
+            SiteError: The file cannot be read, or does not hold a site; names the features at fault.
+        """
+        from fieldhand.site.geojson import load_site
+
+        return load_site(Path(path), lenient=lenient)
+
+    @classmethod
+    def demo(cls) -> Site:
+        """Return the built-in orchard, which is made up."""
+        from fieldhand.site.geojson import load_demo
+
+        return load_demo()
+
+    def __getstate__(self) -> dict[str, object]:
+        """Return the fields alone: what was computed of them is computed anew in another process."""
+        return {f.name: getattr(self, f.name) for f in fields(self)} | {"markers": dict(self.markers)}
+
+    def __setstate__(self, state: dict[str, object]) -> None:
+        self.__dict__.update(state, markers=MappingProxyType(state["markers"]))  # type: ignore[arg-type]
+
+    def _repr_html_(self) -> str:
+        """Return a map and the facts of the site for a notebook."""
+        from fieldhand.site.drawing.notebook import html_of_site
+
+        return html_of_site(self)
 
     @cached_property
     def content_sha256(self) -> str:

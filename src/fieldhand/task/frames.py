@@ -6,6 +6,7 @@ Command (goal, state, parameter), task composition (plan, exits), results (goals
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal
 
 from fieldhand.brief import brief_repr
@@ -138,3 +139,26 @@ class Task:
     resources: tuple[Resource, ...] = ()
 
     __repr__ = brief_repr
+
+    @classmethod
+    def from_xml(cls, document: bytes | str | Path) -> Task:
+        """Read a Task from its XML, or from a file of that path.
+
+        Whether a robot can carry it out is part of the review.
+
+        Raises:
+            TaskError: The file cannot be read, or it holds no Task; says where.
+        """
+        from fieldhand.task.codec import decode
+        from fieldhand.task.codec_xml import read_xml
+
+        if isinstance(document, Path):
+            data, source = read_xml(document, advice="give a Task document"), str(document)
+            return decode(data, source=source)
+        return decode(document.encode() if isinstance(document, str) else document)
+
+    def to_xml(self) -> bytes:
+        """Return the Task as XML, UTF-8; the same bytes for the same Task."""
+        from fieldhand.task.codec import encode
+
+        return encode(self)

@@ -174,4 +174,4 @@ def test_a_plan_that_cannot_be_done_is_stopped_by_approval_whoever_planned_it() 
     review = mission.review(outcome.task, SITE, HUSKY)
     assert review.errors
     with pytest.raises(NotApprovedError):
-        mission.authorize(outcome.task, SITE, HUSKY, by="nobody", at=datetime(2026, 1, 1, tzinfo=UTC))
+        mission.authorize(mission.review(outcome.task, SITE, HUSKY), by="nobody", at=datetime(2026, 1, 1, tzinfo=UTC))

@@ -18,7 +18,6 @@ from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.geojson import load_site
 from fieldhand.site.model import Site
-from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import walk
@@ -153,7 +152,7 @@ def _try(case: Case, robot: RobotProfile, on: Range) -> Trial:
         if not case.asks:
             try:
                 approved = _approve(outcome.task, site, robot)
-                logs = [_drive(approved, world, site, robot, on.seed) for world in case.worlds]
+                logs = [_drive(approved, world, on.seed) for world in case.worlds]
                 wrong = _judged(case, logs, on)
             except NotApprovedError as error:
                 answer, why = "not approved", str(error)
@@ -201,28 +200,20 @@ def _size(task: Task) -> tuple[int, int]:
     return sum(n.act is not None for n in nodes), sum(n.tested is not None for n in nodes)
 
 
-def _approve(task: Task, site: Site, robot: RobotProfile) -> AuthorizedTask:
+def _approve(task: Task, site: Site, robot: RobotProfile) -> mission.ApprovedMission:
     """Approved with every warning, as by a person who accepts them all.
 
     Raises:
         NotApprovedError: A check forbids it.
     """
-    return mission.authorize(task, site, robot, by="the experiment", at=_APPROVED_AT, confirmed=EveryWarning())
-
-
-def _drive(approved: AuthorizedTask, world: CaseWorld, site: Site, robot: RobotProfile, seed: int) -> tuple[str, ...]:
-    """The lines of the mission's event log."""
-    lines: list[str] = []
-    mission.simulate(
-        approved,
-        site,
-        robot,
-        world=world.world,
-        seed=seed,
-        speed=None,
-        emit=lambda event: lines.append(to_json(event)),
+    return mission.authorize(
+        mission.review(task, site, robot), by="the experiment", at=_APPROVED_AT, confirmed=EveryWarning()
     )
-    return tuple(lines)
+
+
+def _drive(approved: mission.ApprovedMission, world: CaseWorld, seed: int) -> tuple[str, ...]:
+    """Return the lines of the mission's event log."""
+    return tuple(to_json(event) for event in mission.simulate(approved, world=world.world, seed=seed).events)
 
 
 def _judged(case: Case, logs: Sequence[Sequence[str]], on: Range) -> list[tuple[str, ...]]:

@@ -4,56 +4,82 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import astuple, dataclass, fields
 from typing import Any
 
 from fieldhand.task.results import Acted, Event, InDoubt
 from fieldhand.visible import csv_text, visible_json
 
-COLUMNS = (
-    "t_s",
-    "node",
-    "kind",
-    "place",
-    "lat",
-    "lon",
-    "action",
-    "status",
-    "attempt",
-    "quantity",
-    "value",
-    "unit",
-    "charge_percent",
-    "what",
-)
+
+@dataclass(frozen=True, kw_only=True)
+class ObservationRow:
+    """A reading; or a capture that read nothing, failed or is in doubt.
+
+    Attributes:
+        t_s: Seconds since the mission began.
+        node: Id of the plan node.
+        kind, place: Kind and name of the place.
+        lat, lon: Degrees, WGS 84.
+        action, status, attempt: The capture, its result, and which try it was, counted from 1.
+        quantity, value, unit: The reading; empty and None where there is none.
+        charge_percent: Charge afterwards, in percent of a full battery.
+        what: What the robot reported, in words.
+    """
+
+    t_s: float
+    node: str
+    kind: str
+    place: str
+    lat: float
+    lon: float
+    action: str
+    status: str
+    attempt: int
+    quantity: str
+    value: float | None
+    unit: str
+    charge_percent: float
+    what: str
+
+
+COLUMNS = tuple(field.name for field in fields(ObservationRow))
+
+
+def observation_rows(events: Sequence[Event]) -> tuple[ObservationRow, ...]:
+    """Return a row per reading, and per capture that read nothing, failed or is in doubt."""
+    return tuple(
+        ObservationRow(
+            t_s=round(event.t, 3),
+            node=event.node,
+            kind=event.kind,
+            place=event.place,
+            lat=event.lat,
+            lon=event.lon,
+            action=event.action,
+            status=event.status,
+            attempt=event.attempt,
+            quantity=quantity,
+            value=value if value is not None and math.isfinite(value) else None,
+            unit=event.units.get(quantity, ""),
+            charge_percent=round(event.charge_percent, 3),
+            what=event.what,
+        )
+        for event in _tried(events)
+        for quantity, value in _readings_of(event)
+    )
+
+
+def _readings_of(event: Acted | InDoubt) -> list[tuple[str, float | None]]:
+    return [*sorted(event.readings.items())] or [("", None)]
 
 
 def observations_csv(events: Sequence[Event]) -> str:
-    """Return CSV with a row per reading, and per capture that read nothing, failed or is in doubt.
+    """Return the rows of :func:`observation_rows` as CSV.
 
     Times are seconds, positions degrees WGS 84. Text that a spreadsheet would evaluate gets a leading apostrophe.
     """
-    rows: list[tuple[object, ...]] = [COLUMNS]
-    for event in _tried(events):
-        readings: list[tuple[str, float | None]] = [*sorted(event.readings.items())]
-        for quantity, value in readings or [("", None)]:
-            row = (
-                round(event.t, 3),
-                event.node,
-                event.kind,
-                event.place,
-                event.lat,
-                event.lon,
-                event.action,
-                event.status,
-                event.attempt,
-                quantity,
-                value if value is not None and math.isfinite(value) else "",
-                event.units.get(quantity, ""),
-                round(event.charge_percent, 3),
-                event.what,
-            )
-            rows.append(row)
-    return csv_text(rows)
+    rows = (tuple("" if cell is None else cell for cell in astuple(row)) for row in observation_rows(events))
+    return csv_text([COLUMNS, *rows])
 
 
 def observations_geojson(events: Sequence[Event]) -> str:

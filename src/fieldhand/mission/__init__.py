@@ -1,0 +1,39 @@
+"""The way of a mission: one function a step. The command line, the API, the page and Python programs call these.
+
+request ──plan──▶ Task ──review──▶ Review ──authorize──▶ ApprovedMission ──carry_out──▶ Run ──report──▶ files
+"""
+
+from fieldhand.mission.approve import ApprovedMission, authorize
+from fieldhand.mission.documents import decode_task, open_bundle, read_task
+from fieldhand.mission.execute import carry_out, check_world, simulate
+from fieldhand.mission.plan_request import PLANNERS, Plan, make_planner, plan, transcript_path
+from fieldhand.mission.review_task import Review, review
+from fieldhand.mission.run import Assessment, Run, assess, report
+from fieldhand.mission.simulations import Simulation, Simulations, fly_many
+from fieldhand.mission.task_builder import build_task
+
+__all__ = [
+    "PLANNERS",
+    "ApprovedMission",
+    "Assessment",
+    "Plan",
+    "Review",
+    "Run",
+    "Simulation",
+    "Simulations",
+    "assess",
+    "authorize",
+    "build_task",
+    "carry_out",
+    "check_world",
+    "decode_task",
+    "fly_many",
+    "make_planner",
+    "open_bundle",
+    "plan",
+    "read_task",
+    "report",
+    "review",
+    "simulate",
+    "transcript_path",
+]

@@ -1,0 +1,116 @@
+"""Carry an approved mission out: in simulation, or on a robot."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from fieldhand.mission.approve import ApprovedMission
+from fieldhand.mission.run import Run
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.task.results import Event
+
+if TYPE_CHECKING:
+    from fieldhand.execution.guard import Guard
+    from fieldhand.execution.journal.records import InputLog
+    from fieldhand.execution.orders import Order
+    from fieldhand.execution.vehicle import Vehicle
+    from fieldhand.execution.world import World
+
+
+def _ignore(_: Event) -> None:
+    """Leave an event to whoever reads the run afterwards."""
+
+
+def check_world(world: World, site: Site, robot: RobotProfile) -> None:
+    """Require that a simulated world fits the site and the robot.
+
+    Raises:
+        WorldError: It names a tree, a quantity or an action that does not exist.
+    """
+    from fieldhand.execution.drivers.groundtruth import GroundTruth
+
+    GroundTruth(world, site, robot, seed=0)
+
+
+def carry_out(
+    mission: ApprovedMission,
+    *,
+    vehicle: Vehicle,
+    seed: int = 0,
+    emit: Callable[[Event], None] = _ignore,
+    interrupted: Callable[[], str | None] = lambda: None,
+    watched: Callable[[Guard], Guard] = lambda guard: guard,
+    orders: Callable[[], Order | None] = lambda: None,
+    log: InputLog | None = None,
+) -> Run:
+    """Carry a mission out on a vehicle, and return what happened.
+
+    :mod:`fieldhand.missions` does the same with a journal on disk, so that the mission survives a power cut.
+
+    Args:
+        mission: The approved mission.
+        vehicle: Connection to the robot, or a simulation.
+        seed: Seed of the budget guard's random draws.
+        emit: Called with each event as it happens.
+        interrupted: Called at every tick; returns a reason to end the mission, or None.
+        watched: Wraps the budget guard, for example to time its decisions.
+        orders: Returns an operator command that has not been carried out yet, or None.
+        log: Records every external input, so that the mission can be resumed.
+
+    Raises:
+        ExecutionError: The Task was approved for another site or robot.
+    """
+    from fieldhand.evaluation.failsafe import BudgetFailsafe
+    from fieldhand.evaluation.guard import BudgetGuard
+    from fieldhand.execution.mission_runner import run
+    from fieldhand.forecast.routes import drives_for
+
+    site, robot, task = mission.site, mission.robot, mission.task
+    guard = BudgetGuard(task, site, robot, drives_for(site, robot), seed, charge_percent=vehicle.charge_percent)
+    result = run(
+        mission.authorized,
+        site=site,
+        robot=robot,
+        driver=vehicle.driver,
+        guard=watched(guard),
+        failsafe=BudgetFailsafe(task, robot, guard.drain),
+        clock=vehicle.clock,
+        emit=vehicle.disk(emit),
+        interrupted=interrupted,
+        wall=vehicle.wall,
+        orders=orders,
+        log=log,
+        simulated=vehicle.simulated,
+    )
+    return Run(mission=mission, result=result)
+
+
+def simulate(
+    mission: ApprovedMission,
+    *,
+    world: World | None = None,
+    seed: int = 0,
+    speed: float | None = None,
+    emit: Callable[[Event], None] = _ignore,
+    interrupted: Callable[[], str | None] = lambda: None,
+    watched: Callable[[Guard], Guard] = lambda guard: guard,
+) -> Run:
+    """Carry a mission out in simulation. The same seed gives the same events.
+
+    Args:
+        mission: The approved mission.
+        world: Readings of the sensors, faults, and charge at the start; by default nothing fails.
+        seed: Seed of everything random: drives, readings, decisions of the budget guard.
+        speed: Simulated seconds per second; None for as fast as possible.
+        emit, interrupted, watched: As for :func:`carry_out`.
+
+    Raises:
+        WorldError: The world does not fit the site or the robot.
+    """
+    from fieldhand.execution.vehicle import simulation
+    from fieldhand.execution.world import World
+
+    vehicle = simulation(mission.site, mission.robot, world or World(), seed=seed, speed=speed)
+    return carry_out(mission, vehicle=vehicle, seed=seed, emit=emit, interrupted=interrupted, watched=watched)

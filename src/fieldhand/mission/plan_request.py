@@ -1,0 +1,137 @@
+"""Plan a request: choose a planner, and turn words into a Task, a question or a refusal."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from fieldhand.brief import brief_repr
+from fieldhand.errors import InputError, RequestError
+from fieldhand.files import state_folder
+from fieldhand.language import message
+from fieldhand.planning.planner import Answer, Clarify, Planned, Planner, Refused
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.visible import find_hidden
+
+if TYPE_CHECKING:
+    from fieldhand.planning.llm.chat import Chat
+
+PLANNERS = ("auto", "english", "llm")
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Plan(Planned):
+    """A planned request, with the site and the robot it was planned for.
+
+    Attributes:
+        task: The Task: what is to be done, at which places, within which limits.
+        planner: Name of the planner that understood the request.
+        site, robot: Site and robot of the request.
+    """
+
+    site: Site
+    robot: RobotProfile
+
+    __repr__ = brief_repr
+
+    def _repr_html_(self) -> str:
+        """Return map and read-back for a notebook."""
+        from fieldhand.mission.notebook import html_of_review
+        from fieldhand.mission.review_task import review
+
+        return html_of_review(review(self.task, self.site, self.robot))
+
+
+def make_planner(
+    name: str,
+    environ: Mapping[str, str],
+    transcript: Path | None = None,
+    *,
+    watched: Callable[[Chat], Chat] = lambda chat: chat,
+) -> Planner:
+    """Return the planner of a name; a language model is configured from the environment.
+
+    Args:
+        name: ``auto``, ``english`` or ``llm``.
+        environ: Environment variables that configure the language model.
+        transcript: File to which prompts and answers of the model are appended; else :func:`transcript_path`.
+        watched: Wraps the connection to the model, for example to count its answers.
+
+    Raises:
+        InputError: There is no planner of that name.
+        ModelError: ``llm`` was asked for and no model is configured, or one is configured wrongly.
+    """
+    if name not in PLANNERS:
+        raise InputError(
+            message("no planner '{name}'", name=name),
+            where="--planner",
+            advice=message("choose one of {planners}", planners=", ".join(PLANNERS)),
+        )
+    from fieldhand.planning.auto import AutoPlanner
+    from fieldhand.planning.english.planner import EnglishPlanner
+
+    if name == "english":
+        return EnglishPlanner()
+    from fieldhand.planning.llm.settings import require_settings, settings_from_environment
+
+    settings = require_settings(environ) if name == "llm" else settings_from_environment(environ)
+    if settings is None:
+        return AutoPlanner(EnglishPlanner(), None)
+    from fieldhand.planning.llm.planner import LlmPlanner
+    from fieldhand.planning.llm.transport import ModelChat
+
+    model = LlmPlanner(settings, transcript or transcript_path(environ), chat=watched(ModelChat(settings)))
+    return model if name == "llm" else AutoPlanner(EnglishPlanner(), model)
+
+
+def transcript_path(environ: Mapping[str, str]) -> Path:
+    """Return the default file of transcripts, in the user's state folder."""
+    return state_folder(environ) / "transcripts.jsonl"
+
+
+def plan(
+    request: str,
+    site: Site,
+    robot: RobotProfile,
+    planner: Planner | str = "auto",
+    answers: Sequence[Answer] = (),
+) -> Plan | Clarify | Refused:
+    """Turn a request into a Task, a question, or a refusal.
+
+    Args:
+        request: The request in plain words.
+        site, robot: Site and robot that it is for.
+        planner: A planner, or the name of one; a language model is configured from the process's environment.
+        answers: Answers to earlier questions about this request, in their order.
+
+    Raises:
+        RequestError: The request is empty or too long, or contains an invisible character.
+        InputError: There is no planner of that name.
+        ModelError: A language model was needed and could not be used.
+    """
+    _require_visible_words(request, answers)
+    chosen = make_planner(planner, os.environ) if isinstance(planner, str) else planner
+    outcome = chosen.plan(request, site, robot, tuple(answers))
+    if isinstance(outcome, Planned):
+        return Plan(task=outcome.task, planner=outcome.planner, site=site, robot=robot)
+    return outcome
+
+
+def _require_visible_words(request: str, answers: Sequence[Answer]) -> None:
+    if not request.strip():
+        raise RequestError(
+            message("the request is empty"), advice=message("say what the robot should do, and at which trees")
+        )
+    for what, text in ((message("request"), request), *((message("answer"), answer.answer) for answer in answers)):
+        hidden = find_hidden(text, lines=True)
+        if hidden is not None:
+            where = message("the {what}, character {number}", what=what, number=hidden.at + 1)
+            raise RequestError(
+                message("nobody can see the character {name}", name=hidden.name),
+                where=where,
+                advice=message("leave it out"),
+            )

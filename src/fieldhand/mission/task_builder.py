@@ -1,0 +1,45 @@
+"""Build a Task in Python, from plan nodes and selectors, without a planner."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from fieldhand.robot.capabilities import measures_of
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.task.build import make_task
+from fieldhand.task.frames import Budget, Constraints, Resource, Task, Then
+from fieldhand.task.plan import Node
+
+
+def build_task(
+    plan: Node,
+    site: Site,
+    robot: RobotProfile,
+    *,
+    request: str = "",
+    budgets: Sequence[Budget] = (),
+    reserve_percent: float | None = None,
+    then: Then = "return_to_end",
+) -> Task:
+    """Build a Task for a site and a robot; :func:`review` checks it as it checks every Task.
+
+    Args:
+        plan: The plan, made of :mod:`fieldhand.task.plan` nodes; their ids are assigned here and may be left empty.
+        site, robot: Site and robot that the Task is for.
+        request: What the Task is for, in words; they appear on maps and in reports.
+        budgets: Limits of distance, time or energy for the whole mission, the way home included.
+        reserve_percent: Charge that must be left at the end, in percent; None for the robot's own reserve.
+        then: Where the robot goes when the plan is done.
+    """
+    return make_task(
+        request=request,
+        plan=plan,
+        measures=measures_of(robot),
+        resources=(
+            Resource(kind="robot", name=robot.name, sha256=robot.sha256),
+            Resource(kind="site", name=site.name, sha256=site.sha256),
+        ),
+        constraints=Constraints(budgets=tuple(budgets), reserve_percent=reserve_percent),
+        nominal=then,
+    )
