@@ -17,8 +17,6 @@ from pathlib import Path
 
 from hypothesis import HealthCheck, Phase, given, settings
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
-
 from fieldhand.cli.demo import REQUEST
 from fieldhand.errors import TaskError
 from fieldhand.exchange.btcpp import write_tree
@@ -30,7 +28,7 @@ from fieldhand.site.geojson import load_demo
 from fieldhand.task import plan as p
 from fieldhand.task.conditions import AllOf, AnyOf, Condition, Not
 from fieldhand.task.frames import Task
-from strategies import ROVER, Parts
+from fieldhand.testing.generated.tasks import ROVER, Parts
 
 PLACES = 2
 MOST_LINES = 20_000

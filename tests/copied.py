@@ -28,8 +28,8 @@ def load() -> None:
         *pkgutil.walk_packages(fieldhand.__path__, "fieldhand."),
         *pkgutil.walk_packages(fieldhand_bench.__path__, "fieldhand_bench."),
     ):
-        # What needs a ROS that is sourced is loaded by whoever asks for it.
-        if not module.name.endswith("__main__") and ".ros2.rclpy." not in module.name:
+        # What needs a ROS that is sourced is loaded by whoever asks for it, and no command needs what is for tests.
+        if not module.name.endswith("__main__") and not any(s in module.name for s in (".ros2.rclpy.", ".testing")):
             importlib.import_module(module.name)
     from fieldhand.planning.english.planner import EnglishPlanner
     from fieldhand.robot.loader import load_robot

@@ -12,7 +12,7 @@ from fieldhand.execution.drivers.simulation import SimulatedDriver
 from fieldhand.execution.world import World
 from fieldhand.robot.model import LegCost
 from fieldhand.task.results import Acted, Arrived, Driving, Ended, Started
-from orchards import husky, orchard
+from fieldhand.testing.small_orchard import husky, orchard
 
 SITE, PROFILE = orchard(), husky()
 #: As it really is: slower, hungrier, more even than its profile says.

@@ -26,7 +26,7 @@ from fieldhand.robot.loader import parse_profile, profile_bytes
 from fieldhand.site.formats.files import SiteFiles
 from fieldhand.site.geojson import site_of
 from fieldhand.task.plan import Act
-from orchards import at, task_for
+from fieldhand.testing.small_orchard import at, task_for
 from sites import collection, point
 
 WHEN = "2026-05-01T08:00:00+02:00"

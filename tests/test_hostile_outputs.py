@@ -32,6 +32,7 @@ from fieldhand.approval.checks import examine
 from fieldhand.places.selectors import TreeIs, Where
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.llm.scripted import ScriptedEndpoint
+from fieldhand.robot.capabilities import measures_of
 from fieldhand.robot.loader import parse_profile, profile_bytes
 from fieldhand.site.drawing.choices import save_choices_picture
 from fieldhand.site.formats.files import SiteFiles
@@ -52,7 +53,6 @@ from hostile import (
     require_visible,
     require_xml,
 )  # fmt: skip
-from orchards import measures_of
 from signed import signing_key
 from test_hostile_inputs import orchard
 

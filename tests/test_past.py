@@ -15,7 +15,7 @@ from fieldhand.places.selectors import Corners
 from fieldhand.task.codec import encode
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.plan import Act, ForEach
-from orchards import husky, orchard, task_for
+from fieldhand.testing.small_orchard import husky, orchard, task_for
 
 SITE, ROBOT = orchard(), husky()
 TASK = task_for(SITE, ForEach(id="", select=Corners(), body=Act(id="", action="take_thermal_picture")), "corners")

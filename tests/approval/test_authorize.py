@@ -16,7 +16,7 @@ from fieldhand.errors import NotApprovedError, NotConfirmedError
 from fieldhand.places.selectors import TreeIs
 from fieldhand.task.codec import decode, encode
 from fieldhand.task.plan import Act
-from orchards import husky, orchard, task_for
+from fieldhand.testing.small_orchard import husky, orchard, task_for
 
 SITE, ROBOT = orchard(), husky()
 GOOD = task_for(SITE, Act(id="", action="read_co2", at=TreeIs(tree="1")))

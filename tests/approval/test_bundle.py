@@ -22,8 +22,8 @@ from fieldhand.site.formats import gis
 from fieldhand.site.formats.files import SiteFiles, read_files
 from fieldhand.site.geojson import site_files, site_of
 from fieldhand.task.codec import encode
+from fieldhand.testing.small_orchard import at
 from gisfiles import kml, placemark, write_layer
-from orchards import at
 from signed import KEY, NOW, WHEN, good, manifest_of, members_of, opened, orchard_files, pack_mission, signing_key
 from sites import collection, point
 

@@ -19,7 +19,7 @@ from fieldhand.task.codec import encode
 from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import Budget, Constraints, Resource
 from fieldhand.task.plan import Act, ForEach, GoTo, If, Sequence
-from orchards import block, husky, orchard, task_for
+from fieldhand.testing.small_orchard import block, husky, orchard, task_for
 
 SITE, ROBOT = orchard(), husky()
 PICTURE = Act(id="", action="take_thermal_picture")

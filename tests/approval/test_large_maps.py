@@ -19,7 +19,7 @@ from fieldhand.site.geojson import parse_site
 from fieldhand.site.orchards import random_orchard
 from fieldhand.task.plan import ForEach
 from fieldhand.task.results import Acted, Arrived, Driving
-from orchards import husky, orchard, task_for
+from fieldhand.testing.small_orchard import husky, orchard, task_for
 
 #: Names of all kinds that stand on maps.
 GIDS = ("name", "zone", "block", "row", "tree", "gate", "label", "window label", "value")

@@ -17,6 +17,7 @@ from fieldhand.approval.keys.trust import TrustStore
 from fieldhand.approval.memory import ApprovalMemory
 from fieldhand.cli.approve import parse_validity
 from fieldhand.errors import InputError, KeyFileError, NotApprovedError
+from fieldhand.testing.fixed_clock import FixedClock
 from signed import KEY, NOW, good, opened, pack_mission, signing_key, undated
 
 DAY = timedelta(days=1)
@@ -30,7 +31,7 @@ class Machine:
         self.config.mkdir(parents=True)
         self.copies = {"state": folder / "state" / "seen.json", "config": self.config / "seen.json"}
         self.memory = ApprovalMemory(*self.copies.values())
-        self.store = TrustStore(self.config, memory=self.memory, clock=lambda: NOW)
+        self.store = TrustStore(self.config, memory=self.memory, clock=FixedClock(NOW))
 
     def admit(self, data: bytes, clock: datetime = NOW) -> None:
         bundle = opened(data, now=clock)

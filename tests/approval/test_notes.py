@@ -11,7 +11,7 @@ from fieldhand.places.selectors import AlongRow, Top, TreeIs
 from fieldhand.site.geojson import load_demo
 from fieldhand.site.model import Site
 from fieldhand.task.plan import Act, ForEach, Sequence
-from orchards import husky, orchard, task_for
+from fieldhand.testing.small_orchard import husky, orchard, task_for
 
 SITE = orchard(rows=8, columns=4)
 PICTURE = Act(id="", action="take_thermal_picture")

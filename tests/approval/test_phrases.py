@@ -15,8 +15,8 @@ from fieldhand.places.saying import say_selector
 from fieldhand.task import conditions as c
 from fieldhand.task.plan import Act
 from fieldhand.terms import Side, Test
-from orchards import husky
-from strategies import ROVER, Parts
+from fieldhand.testing.generated.tasks import ROVER, Parts
+from fieldhand.testing.small_orchard import husky
 
 PARTS = Parts(ROVER)
 YELLOW = s.Where(attribute="leaf_color", test="eq", value="yellow")

@@ -13,7 +13,7 @@ from fieldhand.places.selectors import Corners, TreeIs, Trees
 from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, If, Optional, Sequence
-from orchards import block, husky, orchard, task_for
+from fieldhand.testing.small_orchard import block, husky, orchard, task_for
 
 SITE, ROBOT = orchard(), husky()
 PICTURE = Act(id="", action="take_thermal_picture")

@@ -26,7 +26,7 @@ from fieldhand.places.selectors import (
 from fieldhand.task.conditions import Compare, Level
 from fieldhand.task.frames import Budget, Constraints, FaultedExit
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Optional, Repeat, Sequence, Stop, Try, walk
-from orchards import husky, orchard, task_for
+from fieldhand.testing.small_orchard import husky, orchard, task_for
 
 PICTURE, CO2 = "take_thermal_picture", "read_co2"
 SITE = orchard()

@@ -22,8 +22,8 @@ from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import load_demo
 from fieldhand.task.codec import decode, encode
-from orchards import husky, orchard
-from strategies import ROVER, Parts
+from fieldhand.testing.generated.tasks import ROVER, Parts
+from fieldhand.testing.small_orchard import husky, orchard
 
 SPANISH = open_language("es")
 DEMO = load_demo()

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 from fieldhand.errors import CaseError
+from fieldhand.testing.small_orchard import at as lon_lat
 from fieldhand_bench.missions.case_form import ExpectForm
 from fieldhand_bench.missions.cases import Expected, Step
 from fieldhand_bench.missions.ground import Ground
 from fieldhand_bench.missions.judge import judge
 from fieldhand_bench.missions.log import read_log
 from fieldhand_bench.missions.places import Place, Positions
-from orchards import at as lon_lat
 from tampered import tampered
 
 ROWS, COLUMNS = 4, 5

@@ -13,9 +13,9 @@ from fieldhand.places.selectors import Trees
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach
+from fieldhand.testing.small_orchard import husky, orchard, task_for
 from fieldhand_bench.repeated import Mission, compare, summarized
 from fieldhand_bench.scenes import made_block
-from orchards import husky, orchard, task_for
 
 SITE, ROBOT = orchard(), husky()
 MANY = ForEach(id="n1", select=Trees(), body=Act(id="", action="take_thermal_picture"), optional=True)

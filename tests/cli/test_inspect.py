@@ -21,7 +21,7 @@ from fieldhand.robot.loader import parse_profile, profile_bytes
 from fieldhand.site.geojson import site_of
 from fieldhand.task.codec import decode, encode
 from fieldhand.task.plan import Act
-from orchards import task_for
+from fieldhand.testing.small_orchard import task_for
 from signed import WHEN, manifest_of, members_of, orchard_files, signing_key
 from terminal import screen
 from test_visible import hidden

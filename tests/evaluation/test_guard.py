@@ -22,7 +22,7 @@ from fieldhand.site.geojson import load_site
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, Repeat, Sequence
 from fieldhand.task.results import Shed
-from orchards import block, husky, orchard, task_for
+from fieldhand.testing.small_orchard import block, husky, orchard, task_for
 from paper import Paper
 
 ROBOT = husky()

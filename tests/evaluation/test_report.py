@@ -51,8 +51,8 @@ from fieldhand.task.results import (
     Visiting,
     Waited,
 )
+from fieldhand.testing.small_orchard import husky, orchard, task_for
 from fieldhand.visible import visible
-from orchards import husky, orchard, task_for
 
 SITE, ROBOT = orchard(), husky()
 TASK = task_for(

@@ -8,7 +8,7 @@ from fieldhand.errors import TaskError
 from fieldhand.exchange.btcpp import read_tree
 from fieldhand.exchange.btcpp.nodes import MAX_NODES
 from fieldhand.task.codec_xml import MAX_BYTES
-from strategies import ROVER
+from fieldhand.testing.generated.tasks import ROVER
 
 
 def tree(inside: str, head: str = "") -> bytes:

@@ -12,7 +12,7 @@ from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
 from fieldhand.task.conditions import AllOf, Compare, Not, TreeHas
 from fieldhand.task.frames import Task
-from strategies import ROVER, Parts
+from fieldhand.testing.generated.tasks import ROVER, Parts
 
 MEASURES = {"read_co2": (("co2", "ppm"),)}
 WET = Compare(reading="r", quantity="co2", test="gt", value=400, unit="ppm")

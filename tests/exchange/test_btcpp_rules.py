@@ -15,7 +15,7 @@ from lxml import etree
 from fieldhand.errors import TaskError
 from fieldhand.exchange.btcpp import write_tree
 from fieldhand.task.frames import Task
-from strategies import ROVER, Parts
+from fieldhand.testing.generated.tasks import ROVER, Parts
 
 FORBIDDEN = re.compile(r"[\s<>&\"'/\\:*?|.\x00-\x1f\x7f]")
 #: Of the library's own nodes: least and most children, and ports.

@@ -38,7 +38,7 @@ from fieldhand.task.results import (
     Started,
     Waited,
 )
-from orchards import at, husky, orchard
+from fieldhand.testing.small_orchard import at, husky, orchard
 
 SITE = orchard()
 TELL = Teller(husky()).tell

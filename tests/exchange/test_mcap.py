@@ -21,7 +21,7 @@ from fieldhand.exchange.mcap import McapLog, is_mcap, read_mcap
 from fieldhand.exchange.mcap.reading import MAGIC, MAX_RECORD
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.results import Acted, Arrived, Event
-from random_events import events as random_events
+from fieldhand.testing.generated.events import events as random_events
 
 
 def written(path: Path, events: tuple[Event, ...], **more: object) -> Path:

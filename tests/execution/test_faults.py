@@ -9,7 +9,6 @@ from dataclasses import replace
 
 import pytest
 
-from driver_contract import finish
 from fieldhand import mission
 from fieldhand.errors import OutputError
 from fieldhand.execution.drivers.protocol import ActionGoal
@@ -50,6 +49,7 @@ from fieldhand.task.results import (
     Started,
     Waited,
 )
+from fieldhand.testing.driver_contract import finish
 from planted_sites import upright
 from rig import Rig, approved, captured, husky, of_type, orchard, task_for
 

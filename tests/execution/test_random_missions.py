@@ -28,8 +28,8 @@ from fieldhand.task.event_lines import from_json, to_json
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import walk
 from fieldhand.task.results import Acted, Arrived, Ended, Exited, Shed, Started
+from fieldhand.testing.generated.tasks import Parts
 from rig import Rig, husky, of_type, orchard
-from strategies import Parts
 
 TASKS = Parts(capabilities_of(husky())).tasks()
 TREES = st.sampled_from([t.place.id for t in orchard().trees]).map(lambda i: Spot(id=i))

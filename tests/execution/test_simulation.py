@@ -8,13 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from driver_contract import DriverContract, drive_goal, finish
 from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.execution.drivers.protocol import ActionGoal, Driver
 from fieldhand.execution.drivers.simulation import SimulatedDriver
 from fieldhand.execution.world import ActionFails, BatteryDrains, Blocked, LocalisationLost, RobotStops, Spot, World
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
+from fieldhand.testing.driver_contract import DriverContract, drive_goal, finish
 from rig import husky, orchard
 
 SITE = orchard()
@@ -50,7 +50,7 @@ class TestSimulatedDriver(DriverContract):
 def test_a_drive_without_chance_takes_exactly_what_the_profile_says() -> None:
     driver, clock = driver_of(World(charge_percent=80))
     robot = husky()
-    driver.start_drive(drive_goal(SITE, SITE.start, FAR, speed_m_s=0.5))
+    driver.start_drive(drive_goal(SITE.start, FAR, speed_m_s=0.5))
     progress = finish(driver, clock)
     assert progress.metres == pytest.approx(LENGTH)
     assert progress.seconds == clock.now() == pytest.approx(LENGTH / 0.5)
@@ -72,7 +72,7 @@ def test_leg_costs_follow_the_published_model() -> None:
     costs = []
     for seed in range(600):
         driver, clock = driver_of(robot=husky(alpha=0.5), seed=seed)
-        driver.start_drive(drive_goal(SITE, SITE.start, FAR))
+        driver.start_drive(drive_goal(SITE.start, FAR))
         costs.append(finish(driver, clock).metres / LENGTH)
     assert min(costs) >= 0.5
     assert abs(np.mean(costs) - 1) < 5 * 0.5 / math.sqrt(600)
@@ -82,7 +82,7 @@ def test_leg_costs_follow_the_published_model() -> None:
 def test_the_same_seed_drives_the_same() -> None:
     def metres(seed: int) -> float:
         driver, clock = driver_of(robot=husky(alpha=0.2), seed=seed)
-        driver.start_drive(drive_goal(SITE, SITE.start, FAR))
+        driver.start_drive(drive_goal(SITE.start, FAR))
         return finish(driver, clock).metres
 
     assert metres(3) == metres(3) != metres(4)
@@ -91,14 +91,14 @@ def test_the_same_seed_drives_the_same() -> None:
 
 def test_a_blocked_leg_fails_where_the_obstacle_is() -> None:
     driver, clock = driver_of(World(faults=(Blocked(at=Spot(id=FAR.id), within_m=2.0, times=1),)))
-    driver.start_drive(drive_goal(SITE, SITE.start, FAR))
+    driver.start_drive(drive_goal(SITE.start, FAR))
     progress = finish(driver, clock)
     assert progress.state == "failed"
     assert FAR.id in progress.what
     assert progress.metres == pytest.approx(LENGTH - 2.0)
     here = driver.position()
     assert math.dist((here.x, here.y), FAR.xy) == pytest.approx(2.0)
-    driver.start_drive(drive_goal(SITE, SITE.start, FAR))
+    driver.start_drive(drive_goal(SITE.start, FAR))
     assert finish(driver, clock).state == "succeeded"
 
 
@@ -106,7 +106,7 @@ def test_a_battery_that_drains_faster_drains_by_the_factor() -> None:
     fine, clock = driver_of()
     poor, later = driver_of(World(faults=(BatteryDrains(factor=3.0),)))
     for driver, time in ((fine, clock), (poor, later)):
-        driver.start_drive(drive_goal(SITE, SITE.start, FAR))
+        driver.start_drive(drive_goal(SITE.start, FAR))
         finish(driver, time)
     assert 100 - poor.charge_percent() == pytest.approx(3 * (100 - fine.charge_percent()))
 
@@ -114,7 +114,7 @@ def test_a_battery_that_drains_faster_drains_by_the_factor() -> None:
 def test_an_empty_battery_ends_the_drive_on_the_way_and_every_goal_after_it() -> None:
     needed = husky().percent(LENGTH, LENGTH)
     driver, clock = driver_of(World(charge_percent=needed / 4))
-    driver.start_drive(drive_goal(SITE, SITE.start, FAR))
+    driver.start_drive(drive_goal(SITE.start, FAR))
     progress = finish(driver, clock)
     assert (progress.state, progress.what) == ("failed", "the battery is empty")
     assert progress.metres == pytest.approx(LENGTH / 4)
@@ -125,7 +125,7 @@ def test_an_empty_battery_ends_the_drive_on_the_way_and_every_goal_after_it() ->
 
 def test_a_power_cut_ends_the_goal_in_hand_at_its_second() -> None:
     driver, clock = driver_of(World(faults=(RobotStops(at_s=5.0, why="power cut"),)))
-    driver.start_drive(drive_goal(SITE, SITE.start, FAR))
+    driver.start_drive(drive_goal(SITE.start, FAR))
     progress = finish(driver, clock)
     assert (progress.state, progress.what) == ("cancelled", "power cut")
     assert clock.now() == pytest.approx(5.0)
@@ -142,6 +142,6 @@ def test_waiting_empties_the_battery_by_the_idle_power() -> None:
 def test_a_profile_with_other_costs_is_followed() -> None:
     robot = replace(husky(), energy=replace(husky().energy, idle_w=0.0, drive_j_per_m=1000.0))
     driver, clock = driver_of(robot=robot)
-    driver.start_drive(drive_goal(SITE, SITE.start, FAR))
+    driver.start_drive(drive_goal(SITE.start, FAR))
     finish(driver, clock)
     assert 100 - driver.charge_percent() == pytest.approx(100 * 1000 * LENGTH / robot.energy.capacity_j)

@@ -19,8 +19,8 @@ from fieldhand.site.geojson import open_site
 from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
 from fieldhand.task.frames import Task
+from fieldhand.testing.generated.tasks import ROVER, Parts
 from plan_mutants import mutants
-from strategies import ROVER, Parts
 
 DEMO = open_site("demo")
 ROBOTS = {name: load_robot(name) for name in ("husky", "amiga")}

@@ -21,7 +21,7 @@ from fieldhand.task.conditions import Compare, Level, TreeHas
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, If, Node, Optional, Repeat, Sequence, Stop, Try
 from fieldhand.task.results import Acted, Decided
-from orchards import block, husky, orchard, task_for
+from fieldhand.testing.small_orchard import block, husky, orchard, task_for
 from rig import Rig
 
 SITE, ROBOT = orchard(), husky()

@@ -19,7 +19,7 @@ from fieldhand.places.selectors import Marker, TreeIs, Trees
 from fieldhand.task.conditions import Level
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, If, Repeat, Sequence
-from orchards import husky, orchard, task_for
+from fieldhand.testing.small_orchard import husky, orchard, task_for
 from paper import frames_at
 
 SITE = orchard()

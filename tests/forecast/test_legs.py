@@ -13,8 +13,8 @@ from fieldhand.orienteering.policy import State
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import parse_site
 from fieldhand.task.frames import Budget, Constraints
+from fieldhand.testing.small_orchard import orchard
 from fieldhand_bench.site.orchard import benchmark_orchard
-from orchards import orchard
 
 ROBOT = load_robot("husky")
 

@@ -22,7 +22,7 @@ from fieldhand.places.selectors import Extreme, TreeIs, Trees, Where
 from fieldhand.task.build import number
 from fieldhand.task.conditions import TreeHas
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Repeat, Sequence, Try
-from orchards import husky, orchard, task_for
+from fieldhand.testing.small_orchard import husky, orchard, task_for
 
 SITE = orchard()
 DRIVES = drives_for(SITE, husky())

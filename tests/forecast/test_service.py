@@ -6,7 +6,7 @@ from fieldhand.forecast.service import service_of
 from fieldhand.places.selectors import Trees
 from fieldhand.task.conditions import Level
 from fieldhand.task.plan import Act, ForEach, GoTo, If, Repeat, Sequence, Stop, Try
-from orchards import husky
+from fieldhand.testing.small_orchard import husky
 
 ROBOT = husky()
 PICTURE = ROBOT.action["take_thermal_picture"]

@@ -11,7 +11,7 @@ from fieldhand.places.selectors import Bound, Here, Marker, Nearest, Other, Tree
 from fieldhand.task.conditions import Level
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Repeat, Sequence, Stop, Try
-from orchards import block, husky, orchard, task_for
+from fieldhand.testing.small_orchard import block, husky, orchard, task_for
 
 SITE = orchard()
 ROBOT = husky()

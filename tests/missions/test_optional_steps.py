@@ -15,8 +15,8 @@ from fieldhand.site.model import Zone
 from fieldhand.task.frames import Budget, Constraints, Task
 from fieldhand.task.plan import Act, AnyOrder, ForEach, Node, Optional, Sequence
 from fieldhand.task.results import Acted, Shed
+from fieldhand.testing.small_orchard import husky, orchard, task_for
 from flights import Flight, fly_request, fly_task
-from orchards import husky, orchard, task_for
 
 SITE, ROBOT = orchard(rows=5, columns=6), husky()
 PICTURE = "take_thermal_picture"

@@ -16,8 +16,8 @@ from fieldhand.site.model import Site, Zone
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach
 from fieldhand.task.results import Acted, Shed
+from fieldhand.testing.small_orchard import husky, orchard, task_for
 from flights import fly_task
-from orchards import husky, orchard, task_for
 
 PICTURE = Act(id="", action="take_thermal_picture")
 

@@ -11,7 +11,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from driver_contract import DriverContract, drive_goal, finish
 from examples import examples
 from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.errors import Ros2Error
@@ -20,6 +19,7 @@ from fieldhand.execution.drivers.ros2.action_client import CANCEL_S, ActionClien
 from fieldhand.execution.drivers.ros2.driver import LOST_S, Ros2Driver
 from fieldhand.execution.drivers.ros2.telemetry import JUMPED_S, Telemetry
 from fieldhand.site.model import Place, Site
+from fieldhand.testing.driver_contract import DriverContract, drive_goal, finish
 from rig import husky
 from ros2.in_memory import Disturbed, Graph
 from ros2.scripted import Script, ScriptedAction
@@ -33,7 +33,7 @@ def capture(action: str = "read_co2", **parameters: str | float) -> ActionGoal:
 
 
 def drive(to: Place = FAR) -> DriveGoal:
-    return drive_goal(SITE, SITE.start, to)
+    return drive_goal(SITE.start, to)
 
 
 class TestOverAGraphInMemory(DriverContract):

@@ -11,7 +11,6 @@ from typing import Any
 
 import pytest
 
-from driver_contract import drive_goal, finish
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import ActionGoal, Progress
 from fieldhand.execution.drivers.ros2.dds.names import reply_name, request_name, wire_type
@@ -20,6 +19,7 @@ from fieldhand.execution.mission_runner import Result
 from fieldhand.places.selectors import TreeIs
 from fieldhand.task.plan import Act, GoTo, Node, Sequence
 from fieldhand.task.results import Acted, Driving, Faulted, Waited
+from fieldhand.testing.driver_contract import drive_goal, finish
 from patience import until
 from rig import captured, of_type
 from ros2.other_vendor import OtherVendor
@@ -70,7 +70,7 @@ def act(action: str, tree: str) -> Act:
 def driven(meeting: Meeting, *, until_m: float | None = None, **change: Any) -> Progress:
     """How a drive to the last tree ends, when after some metres something changes."""
     driver = meeting.connect()
-    driver.start_drive(drive_goal(SITE, SITE.start, FAR))
+    driver.start_drive(drive_goal(SITE.start, FAR))
     if until_m is not None:
         while meeting.robot.state["driven_m"] < until_m:
             meeting.clock.advance(0.2)

@@ -17,13 +17,13 @@ import pytest
 import yaml
 
 from command import fieldhand
-from driver_contract import drive_goal
 from fieldhand.execution.drivers.protocol import ActionGoal
 from fieldhand.execution.drivers.ros2.dds import open_dds
 from fieldhand.execution.drivers.ros2.driver import Ros2Driver
 from fieldhand.execution.drivers.ros2.ros_clock import RosClock
 from fieldhand.robot.loader import load_robot, profile_bytes
 from fieldhand.site.geojson import open_site
+from fieldhand.testing.driver_contract import drive_goal
 from patience import LONG_S, until
 from ros2.sim_robots import patient
 from ros2.simulated_robot_rig import interfaces_of
@@ -85,7 +85,7 @@ def test_a_killed_robot_goes_on_where_it_stood_and_a_told_one_ends_in_order(tmp_
         assert "gave an error" in finish(driver).what  # once
         assert line(process)["name"] == "/co2_sensor/read"
         start = kept(state)
-        driver.start_drive(drive_goal(site, site.start, site.trees[-1].place))
+        driver.start_drive(drive_goal(site.start, site.trees[-1].place))
         until(lambda: driver.poll() and math.dist(start, kept(state)) > 20.0)
         process.send_signal(signal.SIGKILL)
         process.wait(LONG_S)

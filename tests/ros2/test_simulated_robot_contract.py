@@ -9,7 +9,6 @@ from typing import ClassVar
 
 import pytest
 
-from driver_contract import DriverContract, drive_goal, finish
 from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.execution.drivers.protocol import Driver
 from fieldhand.execution.drivers.ros2.dds import open_dds
@@ -26,6 +25,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.geojson import open_site
 from fieldhand.site.model import Site
 from fieldhand.task.results import Acted
+from fieldhand.testing.driver_contract import DriverContract, drive_goal, finish
 from patience import until
 from rig import Rig, authorized, husky, of_type
 from ros2.in_memory import Graph
@@ -212,7 +212,7 @@ class HeardLate(OverSimulatedRobot):
 def test_a_position_from_before_the_robot_drove_on_is_no_sign_of_a_wrong_map(monkeypatch: pytest.MonkeyPatch) -> None:
     """A busy computer takes feedback some seconds after the position; both say when they are from."""
     driver, clock, site = HeardLate().make_in(World(), DEMO)
-    driver.start_drive(drive_goal(site, site.start, site.trees[0].place))
+    driver.start_drive(drive_goal(site.start, site.trees[0].place))
     clock.advance(2.0)
     with monkeypatch.context() as held:
         held.setattr(driver._telemetry, "listen", lambda: None)  # type: ignore[attr-defined]

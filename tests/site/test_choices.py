@@ -9,7 +9,7 @@ import pytest
 from fieldhand.errors import OutputError
 from fieldhand.site.choices import choice_marks
 from fieldhand.site.drawing import save_choices_picture
-from orchards import orchard
+from fieldhand.testing.small_orchard import orchard
 
 SITE = orchard(rows=4, columns=5)
 TREES = [tree.place for tree in SITE.trees]

@@ -20,7 +20,7 @@ from fieldhand.site.driving.free import Area
 from fieldhand.site.driving.roads import Roads
 from fieldhand.site.driving.visibility import Visibility
 from fieldhand.site.model import Site
-from generated_orchards import orchard_sites
+from fieldhand.testing.generated.orchards import orchard_sites
 from planted_sites import generated, planted, scattered, upright
 from sites import place_at
 

@@ -16,7 +16,7 @@ from fieldhand.site.geojson import load_demo, load_site
 from fieldhand.site.model import Site
 from fieldhand.site.orchards import BlockShape, make_orchard, random_orchard
 from fieldhand.site.planting import Planting
-from generated_orchards import block_shapes, made_orchards, seeds, site_of_made
+from fieldhand.testing.generated.orchards import block_shapes, made_orchards, seeds, site_of_made
 from sites import grid, orchard, site_of
 
 FARMS = Path(__file__).parents[3] / "shared" / "data" / "farms"

@@ -18,7 +18,7 @@ from fieldhand.task.conditions import Condition, TreeHas
 from fieldhand.task.frames import Budget, Command, Composition, Constraints, Task
 from fieldhand.task.plan import Act, GoTo, If, Node, Sequence, Stop
 from fieldhand.task.schema import validate
-from strategies import ROVER, Parts, numbers, texts, values
+from fieldhand.testing.generated.tasks import ROVER, Parts, numbers, texts, values
 
 PARTS = Parts(ROVER)
 SLOW = (HealthCheck.too_slow, HealthCheck.data_too_large)

@@ -12,7 +12,7 @@ from fieldhand.task.conditions import AllOf, Between, Compare, Level, Not
 from fieldhand.task.frames import Goal, Variable
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Optional, Repeat, Sequence, Stop, Try
 from fieldhand.task.references import references
-from strategies import ROVER
+from fieldhand.testing.generated.tasks import ROVER
 
 MEASURES = {"probe_soil": (("soil_moisture", "percent"), ("soil_ph", "pH")), "read_co2": (("co2", "ppm"),)}
 

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from fieldhand.errors import TaskError
 from fieldhand.task.event_lines import from_json, to_json
 from fieldhand.task.results import Event
-from random_events import events
+from fieldhand.testing.generated.events import events
 
 
 @given(events)

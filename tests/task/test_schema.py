@@ -21,7 +21,7 @@ from fieldhand.task.codec_shapes import all_shapes
 from fieldhand.task.plan import walk
 from fieldhand.task.references import references
 from fieldhand.task.schema import require_valid, schema_xsd, validate
-from strategies import ROVER, Parts
+from fieldhand.testing.generated.tasks import ROVER, Parts
 
 DOCUMENT = b"""<task xmlns="urn:fieldhand:task:1" id="t">
   <command>

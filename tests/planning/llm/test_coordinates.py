@@ -15,7 +15,7 @@ from fieldhand.robot.loader import load_robot
 from fieldhand.site.model import Site
 from fieldhand.task.codec import Draft
 from fieldhand.task.codec_shapes import all_shapes
-from scripted_chat import ScriptedChat, planner_of, task_document
+from fieldhand.testing.scripted_chat import ScriptedChat, planner_of, task_document
 from site_grids import grid
 
 HUSKY = load_robot("husky")

@@ -14,7 +14,7 @@ from fieldhand.site.geojson import open_site
 from fieldhand.task.codec import decode, encode
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Act
-from scripted_chat import SETTINGS, ScriptedChat, planner_of, task_document
+from fieldhand.testing.scripted_chat import SETTINGS, ScriptedChat, planner_of, task_document
 
 DEMO, HUSKY = open_site("demo"), load_robot("husky")
 REQUEST = "Take 3 pictures of tree 4."

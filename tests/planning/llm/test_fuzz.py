@@ -19,8 +19,8 @@ from fieldhand.site.geojson import open_site
 from fieldhand.task.build import make_task
 from fieldhand.task.codec import Draft, encode
 from fieldhand.task.frames import Task
-from scripted_chat import task_document
-from strategies import ROVER, Parts
+from fieldhand.testing.generated.tasks import ROVER, Parts
+from fieldhand.testing.scripted_chat import task_document
 
 DEMO, HUSKY = open_site("demo"), load_robot("husky")
 ABLE = capabilities_of(HUSKY)

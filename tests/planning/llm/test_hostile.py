@@ -20,8 +20,8 @@ from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site, Zone
 from fieldhand.task.codec import decode, encode
+from fieldhand.testing.scripted_chat import ScriptedChat, planner_of, task_document
 from fieldhand.visible import visible
-from scripted_chat import ScriptedChat, planner_of, task_document
 from site_grids import grid
 
 HUSKY = load_robot("husky")

@@ -25,7 +25,7 @@ from fieldhand.task.codec_shapes import all_shapes, element_name, shape_of
 from fieldhand.task.conditions import Condition
 from fieldhand.task.plan import Node
 from fieldhand.task.schema import schema_xsd
-from strategies import ROVER
+from fieldhand.testing.generated.tasks import ROVER
 
 HUSKY, AMIGA = capabilities_of(load_robot("husky")), capabilities_of(load_robot("amiga"))
 #: Parts of a draft that the program writes.

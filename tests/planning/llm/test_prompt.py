@@ -20,7 +20,7 @@ from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import builtin_names, load_robot
 from fieldhand.site.model import Site
 from fieldhand.task.codec import Draft
-from scripted_chat import ScriptedChat, planner_of
+from fieldhand.testing.scripted_chat import ScriptedChat, planner_of
 from site_grids import LAT, LON, grid
 from sites import area, point, read
 

@@ -16,8 +16,8 @@ from fieldhand.task.build import number
 from fieldhand.task.codec import Draft, encode
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import walk
+from fieldhand.testing.generated.tasks import ROVER, Parts
 from site_grids import grid
-from strategies import ROVER, Parts
 
 SITE = grid(4, 6)
 AMIGA = capabilities_of(load_robot("amiga"))

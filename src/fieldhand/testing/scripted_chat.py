@@ -1,4 +1,4 @@
-"""A language model that says what it is told to say, without a network between."""
+"""A language model that gives prepared answers, without a network: for tests of the llm planner."""
 
 from __future__ import annotations
 
@@ -12,7 +12,14 @@ SETTINGS = LlmSettings(provider="openai-compatible", model="script", base_url="h
 
 
 class ScriptedChat:
-    """Gives its answers in order, the last one again and again, and keeps what it was told."""
+    """A model that gives its answers in order, the last one repeatedly.
+
+    Args:
+        answers: What it answers.
+
+    Attributes:
+        told: The last message of each request to it, in order.
+    """
 
     def __init__(self, *answers: str) -> None:
         self.answers = answers
@@ -24,12 +31,17 @@ class ScriptedChat:
 
 
 def planner_of(chat: ScriptedChat, settings: LlmSettings = SETTINGS) -> LlmPlanner:
-    """A planner behind which the script stands."""
+    """Return an llm planner that asks this model."""
     return LlmPlanner(settings, chat=chat)
 
 
 def task_document(plan: str, frames: str = "") -> str:
-    """An answer with this plan; ``frames`` may hold exits before ``<!--constraints-->`` and constraints after it."""
+    """Return an answer with a plan.
+
+    Args:
+        plan: XML of its nodes.
+        frames: Exits, and after ``<!--constraints-->`` constraints.
+    """
     exits, _, constraints = frames.partition("<!--constraints-->")
     return (
         f'<task xmlns="urn:fieldhand:task:1">\n<task-composition>\n<plan>\n{plan}\n</plan>{exits}\n</task-composition>'

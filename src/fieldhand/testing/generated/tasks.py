@@ -7,8 +7,9 @@ not promised. Numbers are finite; text holds whatever XML can hold.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import MISSING, dataclass, field, fields
-from functools import cached_property
+from dataclasses import MISSING, dataclass, field, fields, replace
+from functools import cached_property, reduce
+from operator import or_
 from types import NoneType, UnionType
 from typing import Any, Literal, Union, get_args, get_origin
 
@@ -83,23 +84,29 @@ class Parts:
 
     @cached_property
     def selectors(self) -> st.SearchStrategy[Any]:
+        """Strategy for selectors."""
         return self.one_of(SELECTORS, self.depth)
 
     @cached_property
     def conditions(self) -> st.SearchStrategy[Any]:
+        """Strategy for conditions."""
         return self.one_of(get_args(Condition), self.depth)
 
     @cached_property
     def plans(self) -> st.SearchStrategy[Any]:
+        """Strategy for plans."""
         return self.one_of(get_args(Node), self.depth)
 
     def one_of(self, options: tuple[type, ...], depth: int) -> st.SearchStrategy[Any]:
-        """Any of some classes; at depth 0 those that need nothing inside."""
+        """Return a strategy for any of some classes; at depth 0 those that need nothing inside."""
         usable = [o for o in options if depth > 0 or not _needs_parts(o)]
-        return st.one_of(*(st.deferred(lambda o=o: self.instance(o, depth)) for o in usable))
+        return st.one_of(*(self._deferred(o, depth) for o in usable))
+
+    def _deferred(self, cls: type, depth: int) -> st.SearchStrategy[Any]:
+        return st.deferred(lambda: self.instance(cls, depth))
 
     def instance(self, cls: type, depth: int = 1) -> st.SearchStrategy[Any]:
-        """Instances of one class with parts at most ``depth`` deep."""
+        """Return a strategy for instances of one class with parts at most ``depth`` deep."""
         if (cls, depth) not in self._made:
             hints = hints_of(cls)
             drawn = {}
@@ -113,9 +120,9 @@ class Parts:
         return self._made[cls, depth]
 
     def of_hint(self, name: str, hint: Any, depth: int) -> st.SearchStrategy[Any]:
-        """Values of a field."""
+        """Return a strategy for the values of a field."""
         if get_origin(hint) in (Union, UnionType) and NoneType in get_args(hint):
-            rest = Union[tuple(a for a in get_args(hint) if a is not NoneType)]  # noqa: UP007
+            rest = reduce(or_, (a for a in get_args(hint) if a is not NoneType))
             return st.one_of(st.none(), self.of_hint(name, rest, depth))
         if name == "reward" and hint is float:
             return st.floats(0, 1e6)
@@ -143,7 +150,7 @@ class Parts:
         return plain[hint]
 
     def fitted(self, cls: type, made: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
-        """Instances whose action or quantity is one of the robot's, with what belongs to it."""
+        """Return a strategy for instances whose action or quantity is one of the robot's, with what belongs to it."""
         if cls is Act:
             return st.builds(_with_action, made, self.actions())
         if cls in (Compare, Between, Level):
@@ -152,7 +159,7 @@ class Parts:
         return made
 
     def actions(self) -> st.SearchStrategy[tuple[str, tuple[tuple[str, str | float], ...]]]:
-        """An action with some of its parameters."""
+        """Return a strategy for an action with some of its parameters."""
 
         def parameters(name: str) -> st.SearchStrategy[Any]:
             specs = self.capabilities.actions[name].parameters
@@ -163,7 +170,7 @@ class Parts:
         return st.sampled_from(sorted(self.capabilities.actions)).flatmap(parameters)
 
     def tasks(self) -> st.SearchStrategy[Task]:
-        """Whole Tasks as ``make_task`` makes them: numbered, with goals and state variables."""
+        """Return a strategy for whole Tasks as ``make_task`` makes them: numbered, with goals and state variables."""
         quantities = self.capabilities.quantities
         measures = {
             name: tuple((q, quantities[q].unit) for q in action.measures)
@@ -193,18 +200,14 @@ class Parts:
 
 
 def _with_action(act: Act, chosen: tuple[str, tuple[tuple[str, str | float], ...]]) -> Act:
-    return _changed(act, action=chosen[0], parameters=chosen[1])
+    return replace(act, action=chosen[0], parameters=chosen[1])
 
 
 def _with_quantity(part: Any, name: str, able: Mapping[str, QuantityCapability], pick: int) -> Any:
     quantity = able[name]
     if isinstance(part, Level):
-        return _changed(part, quantity=name, level=quantity.levels[pick % len(quantity.levels)])
-    return _changed(part, quantity=name, unit=quantity.unit)
-
-
-def _changed(part: Any, **changes: Any) -> Any:
-    return type(part)(**({f.name: getattr(part, f.name) for f in fields(part)} | changes))
+        return replace(part, quantity=name, level=quantity.levels[pick % len(quantity.levels)])
+    return replace(part, quantity=name, unit=quantity.unit)
 
 
 def _parameter(spec: NumberParameter | ChoiceParameter) -> st.SearchStrategy[str | float]:

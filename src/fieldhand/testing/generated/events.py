@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from fieldhand.task.results import Event
 
-_texts = st.text(st.characters(exclude_categories=("Cs",)), max_size=12)
+_texts = st.text(st.characters(exclude_categories=["Cs"]), max_size=12)
 _numbers = st.floats(allow_nan=False, allow_infinity=False)
 
 

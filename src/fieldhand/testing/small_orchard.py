@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence as Sequence_
+from collections.abc import Sequence
 from typing import Any
 
 from fieldhand.robot.capabilities import measures_of
@@ -21,12 +21,19 @@ SOUTH_WEST = (37.0, -120.0)
 
 
 def at(row: float, column: float) -> list[float]:
-    """Longitude and latitude of a place counted in rows northwards and columns eastwards."""
+    """Return longitude and latitude of a place counted in rows northwards and columns eastwards."""
     return [SOUTH_WEST[1] + column * LON_STEP, SOUTH_WEST[0] + row * LAT_STEP]
 
 
-def orchard(rows: int = 4, columns: int = 5, zones: Sequence_[dict[str, Any]] = ()) -> Site:
-    """Trees 1, 2, ... row by row from the south-west; every third is yellow, the others green; reward is the id."""
+def orchard(rows: int = 4, columns: int = 5, zones: Sequence[dict[str, Any]] = ()) -> Site:
+    """Return a site of trees 1, 2, ... row by row from the south-west, with a start and an end.
+
+    Every third tree is yellow, the others green; the reward of a tree is its id.
+
+    Args:
+        rows, columns: Its size; trees stand about 5 m apart.
+        zones: GeoJSON features beside the trees, see :func:`block`.
+    """
     features = [_point(at(-1, 0), {"kind": "start"}), _point(at(-1, columns - 1), {"kind": "end"})]
     for k in range(rows * columns):
         row, column = divmod(k, columns)
@@ -37,7 +44,7 @@ def orchard(rows: int = 4, columns: int = 5, zones: Sequence_[dict[str, Any]] = 
 
 
 def block(kind: str, name: str, south_west: tuple[float, float], north_east: tuple[float, float]) -> dict[str, Any]:
-    """A rectangle as a zone, in rows and columns."""
+    """Return a rectangle as a GeoJSON zone of a kind (``block``, ``obstacle``, ...), corners in rows and columns."""
     (r0, c0), (r1, c1) = south_west, north_east
     ring = [at(r0, c0), at(r0, c1), at(r1, c1), at(r1, c0), at(r0, c0)]
     return {
@@ -48,12 +55,19 @@ def block(kind: str, name: str, south_west: tuple[float, float], north_east: tup
 
 
 def husky() -> RobotProfile:
-    """The built-in robot."""
+    """Return the profile of the built-in robot."""
     return load_robot("husky")
 
 
 def task_for(site: Site, plan: Node, request: str = "", **more: Any) -> Task:
-    """A Task for the site and the husky."""
+    """Return a Task for the site and the husky.
+
+    Args:
+        site: Where the plan is to be carried out.
+        plan: What is to be done.
+        request: The words that the plan stands for.
+        more: Further arguments of :func:`fieldhand.task.build.make_task`.
+    """
     robot = husky()
     resources = (
         Resource(kind="site", name=site.name, sha256=site.sha256),

@@ -14,7 +14,7 @@ seeds = st.integers(0, 2**32 - 1)
 
 @st.composite
 def block_shapes(draw: st.DrawFn, *, most_rows: int = 7, most_along: int = 10, jitter: float = 0.1) -> BlockShape:
-    """A block of 4 rows or more, clearly planted: rows at least 1.25 times as far apart as their trees."""
+    """Draw a block of 4 rows or more, clearly planted: rows at least 1.25 times as far apart as their trees."""
     spacing = draw(st.floats(3.0, 7.0))
     return BlockShape(
         rows=draw(st.integers(4, most_rows)),
@@ -32,7 +32,7 @@ def block_shapes(draw: st.DrawFn, *, most_rows: int = 7, most_along: int = 10, j
 def made_orchards(
     draw: st.DrawFn, *, most_blocks: int = 2, surrounded: bool = True, named: bool = False
 ) -> MadeOrchard:
-    """An orchard of a few blocks, with what is true of it.
+    """Draw an orchard of a few blocks, with what is true of it.
 
     Args:
         most_blocks: Of the orchard.
@@ -54,10 +54,10 @@ def made_orchards(
 
 @st.composite
 def orchard_sites(draw: st.DrawFn, *, most_blocks: int = 2, surrounded: bool = True, named: bool = False) -> Site:
-    """The site of one of :func:`made_orchards`."""
+    """Draw the site of one of :func:`made_orchards`."""
     return site_of_made(draw(made_orchards(most_blocks=most_blocks, surrounded=surrounded, named=named)))
 
 
 def site_of_made(made: MadeOrchard) -> Site:
-    """The site that the made orchard's file is read as."""
+    """Return the site that the made orchard's file is read as."""
     return parse_site(made.to_bytes(), name="made")
