@@ -16,7 +16,7 @@ from fieldhand.execution.guard import Guard
 from fieldhand.forecast.routes import drives_for, visits_in_order
 from fieldhand.forecast.state import Spent, Visit
 from fieldhand.forecast.walk import walk
-from fieldhand.orienteering.tail import exceeding
+from fieldhand.orienteering.overrun import overrun_probability
 from fieldhand.places.selectors import TreeIs, Trees
 from fieldhand.site.geojson import load_site
 from fieldhand.task.frames import Budget, Constraints
@@ -44,7 +44,9 @@ def lasts(places, chance):
     """Metres that the drives from place to place exceed with that chance."""
     legs = np.array([drives_for(SITE, ROBOT).between(a, b).length_m for a, b in pairwise(places)])
     metres = np.arange(legs.sum(), 2 * legs.sum(), 0.5)
-    return float(metres[np.argmax(exceeding(legs.sum(), (legs**2).sum() / 4, (legs**3).sum() / 4, metres) <= chance)])
+    return float(
+        metres[np.argmax(overrun_probability(legs.sum(), (legs**2).sum() / 4, (legs**3).sum() / 4, metres) <= chance)]
+    )
 
 
 def optional_mission(site, seed, constraints, robot=ROBOT, node=MANY, nominal="return_to_end"):

@@ -6,7 +6,7 @@ import pytest
 from fieldhand.evaluation.threshold import Threshold
 from fieldhand.forecast.state import Visit
 from fieldhand.orienteering.costs import ShiftedExponential
-from fieldhand.orienteering.tail import exceeding
+from fieldhand.orienteering.overrun import overrun_probability
 from fieldhand.site.model import Place
 
 COSTS = ShiftedExponential(0.5)
@@ -27,7 +27,7 @@ def missions(threshold, chance, stops, left, count, seed):
         at, room = threshold.here, left
         for stop in stops:
             legs = np.array([metres(at, stop), metres(stop, place(0.0))])
-            risk = exceeding(legs.sum(), 0.25 * (legs**2).sum(), 0.25 * (legs**3).sum(), room)
+            risk = overrun_probability(legs.sum(), 0.25 * (legs**2).sum(), 0.25 * (legs**3).sum(), room)
             if float(risk) > chance:
                 break
             room -= legs[0] * float(COSTS.draw(rng, 1)[0])

@@ -13,7 +13,7 @@ from fieldhand.forecast.limits import resources_of
 from fieldhand.forecast.rest import rest_after
 from fieldhand.forecast.routes import drives_for
 from fieldhand.forecast.state import Spent, Visit
-from fieldhand.orienteering.tail import exceeding
+from fieldhand.orienteering.overrun import overrun_probability
 from fieldhand.places.context import Context
 from fieldhand.places.selectors import Marker, TreeIs, Trees
 from fieldhand.task.conditions import Level
@@ -69,7 +69,7 @@ def test_the_chance_of_each_budget_is_that_of_the_tail():
     legs = np.array(estimate(task_for(SITE, ROUND), SITE, ROBOT).worst.walk.legs_m)
     for limit in (legs.sum() * 0.95, legs.sum() * 1.05, legs.sum() * 1.2):
         chance = estimate(task_for(SITE, ROUND, constraints=limited("distance_m", limit)), SITE, ROBOT).worst.chances[0]
-        tail = float(exceeding(legs.sum(), (legs**2).sum() / 4, (legs**3).sum() / 4, limit))
+        tail = float(overrun_probability(legs.sum(), (legs**2).sum() / 4, (legs**3).sum() / 4, limit))
         assert chance.chance == pytest.approx(tail, abs=0.04)
 
 

@@ -57,11 +57,11 @@ def test_a_policy_over_the_graph_visits_about_as_much(planted):
             robot=ROBOT,
             spent=Spent(),
             accepted=0.1,
-            most=None,
+            max_visits=None,
         )
         policy = policy_for(problem)
         assert 1 <= policy.next(State(vertex=0, left=tuple(x.budget for x in problem.limits))) < problem.end
-        found.append(policy.outlook.reward)
+        found.append(policy.expectation.reward)
     assert found[1] == pytest.approx(found[0], rel=0.08)
 
 
@@ -73,8 +73,8 @@ def test_where_drives_are_straight_lines_coordinates_do():
     rest = Rest(stops=(site.home("return_to_end", here),))
     legs = legs_between(here, visits, rest, drives, table=3)
     lengths = legs_between(here, visits, rest, drives).distances
-    if legs.plane is not None:
-        between = np.hypot(*(legs.plane[:, None] - legs.plane[None]).transpose(2, 0, 1))
+    if legs.coordinates is not None:
+        between = np.hypot(*(legs.coordinates[:, None] - legs.plane[None]).transpose(2, 0, 1))
         assert between == pytest.approx(lengths, abs=1e-6)
     else:
         assert legs.table is not None

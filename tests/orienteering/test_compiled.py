@@ -4,10 +4,10 @@ import numba
 import numpy as np
 
 from fieldhand.orienteering.costs import Gamma
-from fieldhand.orienteering.kernels import anneal, grow, legs, value
+from fieldhand.orienteering.kernels import anneal, insertion, legs, order_value
 from fieldhand.orienteering.kernels.compiled import compiled
 from fieldhand.orienteering.kernels.legs import sort_by, uniform
-from fieldhand.orienteering.policy import Policy, State, Stop, compile_ahead, solve
+from fieldhand.orienteering.policy import Policy, State, StoppingCriterion, compile_ahead, solve
 from fieldhand.orienteering.problem import Limit, Problem
 
 
@@ -54,7 +54,7 @@ def test_sorting_is_that_of_numpy():
 
 def entered():
     """How often each loop that Python calls has been compiled or loaded in this process."""
-    loops = [loop for module in (anneal, grow, legs, value) for loop in vars(module).values()]
+    loops = [loop for module in (anneal, insertion, legs, order_value) for loop in vars(module).values()]
     return {loop.__name__: len(loop.signatures) for loop in loops if hasattr(loop, "signatures")}
 
 
@@ -63,10 +63,13 @@ def test_what_is_compiled_ahead_serves_every_kind_of_problem():
     before = entered()
     x = np.linspace(0.0, 1.0, 12)
     limits = (Limit(budget=4.0), Limit(budget=5.0, service=np.full(12, 0.1)))
-    kinds = ({"distances": np.abs(x[:, None] - x)}, {"plane": np.stack([x, x], axis=1), "after": (0.1,), "most": 3})
+    kinds = (
+        {"distances": np.abs(x[:, None] - x)},
+        {"coordinates": np.stack([x, x], axis=1), "legs_after": (0.1,), "max_visits": 3},
+    )
     for kind, costs in zip(kinds, (Gamma(0.5), None), strict=True):
         problem = Problem(rewards=np.ones(12), start=0, end=11, limits=limits, costs=costs, **kind)
-        solve(problem, 0, Stop(rounds=10))
+        solve(problem, 0, StoppingCriterion(rounds=10))
         policy = Policy(problem, 0)
         policy.next(State(vertex=0, left=(4.0, 5.0)), seconds=0.02)
         policy.chances()

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from fieldhand.errors import ProblemError
 from fieldhand.orienteering.costs import Deterministic, Empirical, Gamma, Lognormal, ShiftedExponential, slices
-from fieldhand.orienteering.kernels.legs import needed
-from fieldhand.orienteering.tail import exceeding, quantile_table
+from fieldhand.orienteering.kernels.legs import cost_quantile
+from fieldhand.orienteering.overrun import overrun_probability, quantile_table
 
 MEASURED = tuple(np.random.default_rng(1).weibull(1.5, 200))
 #: Largest error of the chance of exceeding, for chances up to 10 % and up to 50 %; docs/orienteering.md has the same.
@@ -60,7 +60,7 @@ def test_the_chance_of_exceeding_is_as_near_to_sampling_as_the_documentation_say
     second, third = model.cumulants()
     for wanted in (0.5, 0.3, 0.1, 0.05, 0.02):
         left = costs[int((1 - wanted) * len(costs))]
-        found = float(exceeding(legs.sum(), second * (legs**2).sum(), third * (legs**3).sum(), left))
+        found = float(overrun_probability(legs.sum(), second * (legs**2).sum(), third * (legs**3).sum(), left))
         noise = 3.0 * np.sqrt(wanted * (1 - wanted) / len(costs))
         assert abs(found - wanted) <= (tail if wanted <= 0.1 else body) + noise
 
@@ -73,10 +73,10 @@ def test_the_chance_of_exceeding_is_as_near_to_sampling_as_the_documentation_say
 )
 @settings(max_examples=60, deadline=None)
 def test_the_table_of_quantiles_is_the_inverse_of_the_chance(mean, deviation, skewness, chance):
-    # ``needed`` takes legs' sums; these are those of one leg with such cumulants.
+    # ``cost_quantile`` takes legs' sums; these are those of one leg with such cumulants.
     cumulants = np.array([deviation**2, skewness * deviation**3])
-    at = needed(1.0, 1.0, 1.0, cumulants, quantile_table(chance)) - 1.0 + mean
-    found = float(exceeding(mean, deviation**2, skewness * deviation**3, at))
+    at = cost_quantile(1.0, 1.0, 1.0, cumulants, quantile_table(chance)) - 1.0 + mean
+    found = float(overrun_probability(mean, deviation**2, skewness * deviation**3, at))
     # Between its entries the table is linear. Below 0 no cost is.
     assert at < 0.0 or found == pytest.approx(chance, abs=0.02)
 
@@ -84,13 +84,13 @@ def test_the_table_of_quantiles_is_the_inverse_of_the_chance(mean, deviation, sk
 def test_the_chance_falls_with_what_is_left_for_any_skewness():
     left = np.linspace(0.0, 12.0, 200)
     for third in (-20.0, -1.0, -1e-6, 0.0, 1e-6, 1.0, 20.0):
-        chances = exceeding(5.0, 4.0, third, left)
+        chances = overrun_probability(5.0, 4.0, third, left)
         assert (np.diff(chances) <= 1e-9).all()
         assert ((chances >= 0.0) & (chances <= 1.0)).all()
 
 
 def test_certain_costs_exceed_what_is_left_or_do_not():
-    assert exceeding([3.0, 3.0, np.inf], 0.0, 0.0, [3.0, 2.9, 9.0]).tolist() == [0.0, 1.0, 1.0]
+    assert overrun_probability([3.0, 3.0, np.inf], 0.0, 0.0, [3.0, 2.9, 9.0]).tolist() == [0.0, 1.0, 1.0]
 
 
 @pytest.mark.parametrize(

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from fieldhand.errors import ProblemError
 from fieldhand.orienteering.costs import Deterministic, Empirical, Gamma, Lognormal
 from fieldhand.orienteering.policy import Policy, State, solve
-from fieldhand.orienteering.problem import Limit, Problem, left_of
-from fieldhand.orienteering.trials import drive
+from fieldhand.orienteering.problem import Limit, Problem, remaining_problem
+from fieldhand.orienteering.simulated_mission import simulate_mission
 from graphs import begun, mission, problem
 
 MISSIONS = 25
@@ -56,7 +56,9 @@ def test_what_is_accepted_more_often_collects_more():
     rewards, failures = [], []
     for given_ in (bold, careful):
         policy = begun(given_)
-        driven = [drive(given_, policy.again(s, policy.price).next, np.random.default_rng(s)) for s in range(40)]
+        driven = [
+            simulate_mission(given_, policy.again(s, policy.price).next, np.random.default_rng(s)) for s in range(40)
+        ]
         rewards.append(np.mean([m.reward for m in driven]))
         failures.append(np.mean([m.chance for m in driven]))
     assert rewards[0] > rewards[1]
@@ -68,7 +70,9 @@ def test_more_budget_never_collects_less_beyond_noise():
     for budget in (1.5, 2.0, 3.0, 5.0):
         given_ = problem(20, 7, budget=budget)
         policy = begun(given_)
-        driven = [drive(given_, policy.again(s, policy.price).next, np.random.default_rng(s)) for s in range(30)]
+        driven = [
+            simulate_mission(given_, policy.again(s, policy.price).next, np.random.default_rng(s)) for s in range(30)
+        ]
         means.append(np.mean([m.reward if m.kept else 0.0 for m in driven]))
     assert all(more > less - 0.05 * less for less, more in pairwise(means))
 
@@ -76,9 +80,9 @@ def test_more_budget_never_collects_less_beyond_noise():
 def test_coordinates_and_their_distances_are_the_same_problem():
     xy = np.random.default_rng(3).random((30, 2))
     values = {"rewards": np.random.default_rng(4).random(30), "start": 0, "end": 29, "limits": (Limit(budget=2.0),)}
-    by_plane = Problem(plane=xy, **values)
+    by_plane = Problem(coordinates=xy, **values)
     by_table = Problem(distances=np.hypot(*(xy[:, None] - xy[None]).transpose(2, 0, 1)), **values)
-    paths = [drive(p, Policy(p, 5).next, np.random.default_rng(6)).path for p in (by_plane, by_table)]
+    paths = [simulate_mission(p, Policy(p, 5).next, np.random.default_rng(6)).path for p in (by_plane, by_table)]
     assert paths[0] == paths[1]
 
 
@@ -101,15 +105,15 @@ def test_any_cost_model_can_be_driven_within_the_accepted_chance(costs):
     drawn = problem(15, 1, budget=2.5)
     given_ = replace(drawn, costs=costs)
     policy = begun(given_)
-    driven = [drive(given_, policy.again(s, policy.price).next, np.random.default_rng(s)) for s in range(60)]
+    driven = [simulate_mission(given_, policy.again(s, policy.price).next, np.random.default_rng(s)) for s in range(60)]
     assert np.mean([m.chance for m in driven]) <= 0.1 + 3 * np.sqrt(0.1 * 0.9 / 60)
     assert np.mean([m.reward for m in driven]) > 0.0
 
 
 def test_hundreds_of_vertices_are_driven_over_from_end_to_end():
     xy = np.random.default_rng(3).random((300, 2))
-    given_ = Problem(plane=xy, rewards=np.ones(300), start=0, end=0, limits=(Limit(budget=6.0),))
-    made = drive(given_, Policy(given_, 5).next, np.random.default_rng(6))
+    given_ = Problem(coordinates=xy, rewards=np.ones(300), start=0, end=0, limits=(Limit(budget=6.0),))
+    made = simulate_mission(given_, Policy(given_, 5).next, np.random.default_rng(6))
     assert made.path[0] == made.path[-1] == 0
     assert len(set(made.path)) == len(made.path) - 1
     assert len(made.path) > 80
@@ -121,7 +125,7 @@ def test_more_time_gives_an_order_no_worse():
     quick, slow = Policy(given_, 1, price=1.0), Policy(given_, 1, price=1.0)
     quick.next(state)
     slow.next(state, seconds=0.3)
-    values = [p.outlook.reward + 1.0 * p.outlook.success for p in (quick, slow)]
+    values = [p.expectation.reward + 1.0 * p.expectation.success for p in (quick, slow)]
     assert values[1] >= values[0] - 1e-9
 
 
@@ -130,21 +134,21 @@ def test_the_chances_of_visits_add_up_to_what_the_outlook_expects():
     policy = Policy(given_, 1)
     first = policy.next(State(vertex=0, left=(1.8,)))
     chances = policy.chances()
-    assert tuple(chances) == policy.outlook.vertices[1:-1]
+    assert tuple(chances) == policy.expectation.vertices[1:-1]
     assert chances[first] == pytest.approx(1.0)
     assert all(0.0 <= chance <= 1.0 for chance in chances.values())
     # Reward of missions that fail does not count in the outlook; of those that succeed every visit does.
-    assert policy.outlook.reward <= sum(chances.values()) + 1e-6
-    assert sum(chances.values()) - (1.0 - policy.outlook.success) * len(chances) <= policy.outlook.reward + 1e-6
+    assert policy.expectation.reward <= sum(chances.values()) + 1e-6
+    assert sum(chances.values()) - (1.0 - policy.expectation.success) * len(chances) <= policy.expectation.reward + 1e-6
 
 
 def test_a_mission_can_be_taken_up_by_a_policy_for_what_is_left():
     given_ = problem(20, 3, budget=2.0)
     policy = Policy(given_, 1)
     first = policy.next(State(vertex=0, left=(2.0,)))
-    rest = left_of(given_, first, (1.6,), (first, 0))
+    rest = remaining_problem(given_, first, (1.6,), (first, 0))
     taken = Policy(
-        rest, 1, price=policy.price, collected=float(given_.rewards[first]), warm=policy.outlook.vertices[2:-1]
+        rest, 1, price=policy.price, collected=float(given_.rewards[first]), warm=policy.expectation.vertices[2:-1]
     )
     vertex = taken.next(State(vertex=first, left=(1.6,)))
     assert vertex not in (0, first)
@@ -176,10 +180,10 @@ def test_a_state_of_another_problem_is_refused(state, says):
         Policy(problem(10, 1), 0).next(state)
 
 
-@pytest.mark.parametrize("daring", [-0.1, 1.1, float("nan")])
-def test_daring_is_a_number_from_zero_to_one(daring):
-    with pytest.raises(ProblemError, match="daring"):
-        Policy(problem(10, 1), 0, daring=daring)
+@pytest.mark.parametrize("risk_tolerance", [-0.1, 1.1, float("nan")])
+def test_daring_is_a_number_from_zero_to_one(risk_tolerance):
+    with pytest.raises(ProblemError, match="risk tolerance"):
+        Policy(problem(10, 1), 0, risk_tolerance=risk_tolerance)
 
 
 def test_certain_missions_never_exceed_their_budget():

@@ -8,7 +8,7 @@ import pytest
 from fieldhand.orienteering.policy import Policy, State
 from fieldhand.orienteering.preview import preview
 from fieldhand.orienteering.problem import Limit, Problem
-from fieldhand.orienteering.trials import drive
+from fieldhand.orienteering.simulated_mission import simulate_mission
 
 MISSIONS = 400
 
@@ -22,13 +22,13 @@ def scattered(n, budget, seed=0, alpha=0.5, service=0.0, after=()):
         end=n - 1,
         limits=(Limit(budget=budget, service=np.full(n, service)),),
         alpha=alpha,
-        after=after,
+        legs_after=after,
     )
 
 
 def looked_ahead(problem, used=None):
     state = State(vertex=problem.start, left=tuple(limit.budget for limit in problem.limits))
-    policy = Policy(problem, 0, daring=0.0)
+    policy = Policy(problem, 0, risk_tolerance=0.0)
     return preview(policy, state, np.random.default_rng(1), np.zeros(MISSIONS) if used is None else used)
 
 
@@ -36,9 +36,11 @@ def looked_ahead(problem, used=None):
 def test_missions_make_about_as_many_visits_as_was_said_and_use_as_much(n, budget, service):
     problem = scattered(n, budget, service=service)
     found = looked_ahead(problem)
-    policy = Policy(problem, 0, daring=0.0)
+    policy = Policy(problem, 0, risk_tolerance=0.0)
     policy.next(State(vertex=0, left=(budget,)))
-    driven = [drive(problem, policy.again(k, policy.price).next, np.random.default_rng(k)) for k in range(60)]
+    driven = [
+        simulate_mission(problem, policy.again(k, policy.price).next, np.random.default_rng(k)) for k in range(60)
+    ]
     visits = np.array([len(m.path) - 2 for m in driven])
     assert found.visits.mean() == pytest.approx(visits.mean(), abs=0.8 + 3 * visits.std() / np.sqrt(60))
     cost = found.legs + found.last + service * (found.visits + 1)

@@ -9,13 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.errors import ProblemError
-from fieldhand.orienteering.policy import Stop, solve
+from fieldhand.orienteering.overrun import overrun_probability
+from fieldhand.orienteering.policy import StoppingCriterion, solve
 from fieldhand.orienteering.problem import Limit, Problem
-from fieldhand.orienteering.tail import exceeding
 from graphs import euclidean, problem
 
 seeds = st.integers(0, 10_000)
-BRIEF = Stop(rounds=4000)
+BRIEF = StoppingCriterion(rounds=4000)
 
 
 @given(n=st.integers(4, 40), seed=seeds, budget=st.floats(2.0, 4.0), pf=st.sampled_from([0.05, 0.1, 0.3]))
@@ -27,7 +27,7 @@ def test_a_route_joins_start_and_end_visits_nothing_twice_and_keeps_the_chance(n
     except ProblemError:
         # Only where even the direct way is too risky.
         direct = given_.distances[0, n - 1]
-        assert float(exceeding(direct, direct**2 / 4, direct**3 / 4, budget)) > pf
+        assert float(overrun_probability(direct, direct**2 / 4, direct**3 / 4, budget)) > pf
         return
     assert (route.vertices[0], route.vertices[-1]) == (0, n - 1)
     assert len(set(route.vertices)) == len(route.vertices)
@@ -75,7 +75,7 @@ def test_a_second_limit_with_service_binds_where_it_is_the_tighter_one():
 
 def test_legs_after_the_end_count():
     alone = problem(30, 5, budget=3.0)
-    followed = replace(alone, after=(0.4, 0.4))
+    followed = replace(alone, legs_after=(0.4, 0.4))
     assert solve(followed, 0).reward < solve(alone, 0).reward
 
 
@@ -85,7 +85,7 @@ def test_stops_on_the_way_make_a_long_way_safe_enough():
     given_ = Problem(
         distances=np.abs(x[:, None] - x), rewards=np.ones(11), start=0, end=10, limits=(Limit(budget=130.0),)
     )
-    assert float(exceeding(100.0, 2_500.0, 250_000.0, 130.0)) > 0.1
+    assert float(overrun_probability(100.0, 2_500.0, 250_000.0, 130.0)) > 0.1
     assert solve(given_, 0).vertices == tuple(range(11))
 
 
@@ -144,10 +144,10 @@ def _distances(value, both=True):
         ({"distances": np.zeros((3, 2))}, "shape"),
         ({"limits": (Limit(budget=3.0, service=np.array([0.0, -1.0, 0.0])),)}, "service"),
         ({"limits": (Limit(budget=1.9),)}, "direct way"),
-        ({"after": (-1.0,)}, "after the end"),
-        ({"distances": np.zeros((0, 0)), "plane": np.array([[0.0, 0.0], [1.0, np.nan], [2.0, 0.0]])}, "vertex 1"),
-        ({"distances": np.zeros((0, 0)), "plane": np.zeros((2, 2))}, "coordinates of shape"),
-        ({"plane": np.zeros((3, 2))}, "more than one way"),
+        ({"legs_after": (-1.0,)}, "after the end"),
+        ({"distances": np.zeros((0, 0)), "coordinates": np.array([[0.0, 0.0], [1.0, np.nan], [2.0, 0.0]])}, "vertex 1"),
+        ({"distances": np.zeros((0, 0)), "coordinates": np.zeros((2, 2))}, "coordinates of shape"),
+        ({"coordinates": np.zeros((3, 2))}, "more than one way"),
         ({"distances": np.array([[0, 1, np.inf], [1, 0, np.inf], [np.inf, np.inf, 0]])}, "no way"),
     ],
 )
@@ -164,11 +164,11 @@ def test_a_budget_that_no_route_keeps_often_enough_is_refused():
 def test_a_search_that_is_given_no_time_is_refused():
     for wrong in ({"rounds": 0}, {"seconds": 0.0}, {"seconds": float("nan")}):
         with pytest.raises(ProblemError, match="round"):
-            Stop(**wrong)
+            StoppingCriterion(**wrong)
 
 
 def test_a_search_by_time_gives_a_route_as_good_as_a_counted_one():
     given_ = problem(25, 6, budget=2.5)
-    timed = solve(given_, 0, Stop(rounds=10**9, seconds=0.2))
+    timed = solve(given_, 0, StoppingCriterion(rounds=10**9, seconds=0.2))
     assert timed.chances[0] <= 0.1 + 1e-9
-    assert timed.reward >= 0.95 * solve(given_, 0, Stop(rounds=2000)).reward
+    assert timed.reward >= 0.95 * solve(given_, 0, StoppingCriterion(rounds=2000)).reward

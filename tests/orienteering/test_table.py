@@ -8,14 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.errors import ProblemError
-from fieldhand.orienteering.ground import ground_of
 from fieldhand.orienteering.kernels.legs import length
 from fieldhand.orienteering.network import Network
 from fieldhand.orienteering.policy import Policy, State, solve
-from fieldhand.orienteering.problem import Limit, Problem, left_of
-from fieldhand.orienteering.route import Stop
+from fieldhand.orienteering.prepared_problem import prepare_problem
+from fieldhand.orienteering.problem import Limit, Problem, remaining_problem
+from fieldhand.orienteering.route import StoppingCriterion
+from fieldhand.orienteering.simulated_mission import simulate_mission
 from fieldhand.orienteering.table import MOST
-from fieldhand.orienteering.trials import drive
 
 seeds = st.integers(0, 10_000)
 
@@ -27,7 +27,7 @@ def sparse(nodes, seed, ways=1.3):
     lengths = rng.random(len(pairs)) * (rng.random(len(pairs)) > 0.15)
     twice = rng.integers(0, len(pairs), 3)
     return Network(
-        nodes=nodes, ways=np.concatenate([pairs, pairs[twice, ::-1]]), lengths=np.append(lengths, rng.random(3))
+        nodes=nodes, edges=np.concatenate([pairs, pairs[twice, ::-1]]), lengths=np.append(lengths, rng.random(3))
     )
 
 
@@ -37,7 +37,7 @@ def grid(side, seed=0):
     ways = np.concatenate(
         [np.stack([at[:, :-1], at[:, 1:]], -1).reshape(-1, 2), np.stack([at[:-1], at[1:]], -1).reshape(-1, 2)]
     )
-    return Network(nodes=side * side, ways=ways, lengths=1.0 + 0.2 * np.random.default_rng(seed).random(len(ways)))
+    return Network(nodes=side * side, edges=ways, lengths=1.0 + 0.2 * np.random.default_rng(seed).random(len(ways)))
 
 
 def both(network, rewards, start, end, *limits):
@@ -60,11 +60,11 @@ def test_distances_are_symmetric_and_those_in_double_precision(seed, ways):
 @settings(max_examples=15, deadline=None)
 def test_loops_and_problem_see_the_same_lengths_in_both_precisions(seed, start):
     double, single = both(sparse(30, seed), np.ones(30), start, start, Limit(budget=1.0))
-    first, second = ground_of(double), ground_of(single)
+    first, second = prepare_problem(double), prepare_problem(single)
     for u in range(31):
         assert second.row(u) == pytest.approx(first.row(u), rel=1e-6)
         for v in range(31):
-            assert length(second.ways, u, v) == pytest.approx(length(first.ways, u, v), rel=1e-6)
+            assert length(second.lengths, u, v) == pytest.approx(length(first.lengths, u, v), rel=1e-6)
     assert single.length(3, 17) == pytest.approx(double.length(3, 17), rel=1e-6)
 
 
@@ -87,22 +87,22 @@ def test_routes_and_missions_are_as_valid_and_as_good_as_in_double_precision(see
     rewards = np.random.default_rng(seed).random(49)
     rewards[::3] = 0.0
     double, single = both(grid(7, seed), rewards, 0, 48, Limit(budget=26.0))
-    routes = [solve(problem, seed, Stop(rounds=3000)) for problem in (double, single)]
+    routes = [solve(problem, seed, StoppingCriterion(rounds=3000)) for problem in (double, single)]
     assert routes[1].reward >= 0.97 * routes[0].reward
     assert routes[1].chances[0] <= 0.1 + 1e-9
     legs = sum(double.distances[a, b] for a, b in pairwise(routes[1].vertices))
     assert routes[1].length == pytest.approx(legs)
-    made = drive(single, Policy(single, seed).next, np.random.default_rng(seed))
+    made = simulate_mission(single, Policy(single, seed).next, np.random.default_rng(seed))
     assert (made.path[0], made.path[-1]) == (single.start, single.end)
     assert len(set(made.path)) == len(made.path)
-    assert drive(single, Policy(single, seed).next, np.random.default_rng(seed)) == made
+    assert simulate_mission(single, Policy(single, seed).next, np.random.default_rng(seed)) == made
 
 
 def test_what_is_left_of_a_problem_keeps_its_table():
     given_ = both(grid(5), np.ones(25), 0, 24, Limit(budget=14.0))[1]
     policy = Policy(given_, 0)
     first = policy.next(State(vertex=0, left=(14.0,)))
-    rest = left_of(given_, first, (12.0,), (first, 0))
+    rest = remaining_problem(given_, first, (12.0,), (first, 0))
     assert rest.table is given_.table
     assert Policy(rest, 0, price=policy.price).next(State(vertex=first, left=(12.0,))) not in (0, first)
 
@@ -117,7 +117,7 @@ def test_many_vertices_are_kept_in_single_precision_and_too_many_are_refused():
 
 
 def test_an_end_without_a_way_to_it_is_refused():
-    network = Network(nodes=4, ways=np.array([[0, 1], [2, 3]]), lengths=np.ones(2))
+    network = Network(nodes=4, edges=np.array([[0, 1], [2, 3]]), lengths=np.ones(2))
     for form in ("double", "single"):
         with pytest.raises(ProblemError, match="no way"):
             network.problem(np.ones(4), 0, 3, (Limit(budget=9.0),), precision=form)
@@ -127,11 +127,11 @@ def test_an_end_without_a_way_to_it_is_refused():
 def test_what_cannot_be_reached_is_never_visited(form):
     near, far = grid(4), grid(5, 1)
     apart = Network(
-        nodes=41, ways=np.concatenate([near.ways, far.ways + 16]), lengths=np.append(near.lengths, far.lengths)
+        nodes=41, edges=np.concatenate([near.edges, far.edges + 16]), lengths=np.append(near.lengths, far.lengths)
     )
     given_, nodes = apart.problem(np.r_[np.ones(16), np.full(25, 9.0)], 0, 15, (Limit(budget=30.0),), precision=form)
-    made = drive(given_, Policy(given_, 0).next, np.random.default_rng(0))
-    for way in (solve(given_, 0, Stop(rounds=500)).vertices, made.path):
+    made = simulate_mission(given_, Policy(given_, 0).next, np.random.default_rng(0))
+    for way in (solve(given_, 0, StoppingCriterion(rounds=500)).vertices, made.path):
         assert max(nodes[v] for v in way) < 16
         assert len(way) > 8
 
@@ -142,4 +142,4 @@ def test_a_table_that_does_not_belong_to_a_problem_is_refused():
     with pytest.raises(ProblemError, match="table of 9"):
         Problem(table=table, rewards=np.ones(8), **values)
     with pytest.raises(ProblemError, match="more than one way"):
-        Problem(table=table, plane=np.zeros((9, 2)), rewards=np.ones(9), **values)
+        Problem(table=table, coordinates=np.zeros((9, 2)), rewards=np.ones(9), **values)

@@ -16,7 +16,7 @@ from fieldhand.forecast.state import Work
 from fieldhand.forecast.ways import cost_model
 from fieldhand.language import message
 from fieldhand.language.words import say_duration, say_number, say_rounded
-from fieldhand.orienteering.tail import quantile_table, standardised
+from fieldhand.orienteering.overrun import quantile_table, standardised_quantile
 from fieldhand.places.context import Context
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -98,7 +98,7 @@ def _exceeded(metres: Sequence[float], robot: RobotProfile, chance: float) -> fl
     """Return the metres that drives of these lengths cost together with that chance, or more."""
     second, third = cost_model(robot).cumulants()
     variance, cubes = (sum(length**power for length in metres) for power in (2, 3))
-    over = standardised(quantile_table(chance), second * variance, third * cubes)
+    over = standardised_quantile(quantile_table(chance), second * variance, third * cubes)
     return sum(metres) + math.sqrt(second * variance) * over
 
 

@@ -18,7 +18,7 @@ from fieldhand.forecast.rest import Rest, optional_runs
 from fieldhand.forecast.state import Choice, MissionState, Visit
 from fieldhand.forecast.ways import cost_model, way_of
 from fieldhand.language import joined
-from fieldhand.orienteering.tail import exceeding
+from fieldhand.orienteering.overrun import overrun_probability
 from fieldhand.places.context import Context
 from fieldhand.site.model import Place
 
@@ -122,7 +122,7 @@ class Choosing:
         else:
             run.done.add(chosen)
             index = open_[known.index(chosen)]
-            chance = chances[index] if run.new else 1.0 - run.policy.outlook.success
+            chance = chances[index] if run.new else 1.0 - run.policy.expectation.success
             gone = [i for i in open_ if chances[i] >= GONE and i != index]
         reasons = [no_way(candidates, cut_off)] if cut_off else []
         if gone:
@@ -151,14 +151,14 @@ class Choosing:
             robot=self._means.robot,
             spent=state.spent,
             accepted=accepted,
-            most=at_most,
+            max_visits=at_most,
         )
         vertex = {_key(visit.place): number for number, visit in enumerate(visits, start=1)}
         warm: list[int] = []
         price = None
         if run is not None:
             price, place_of = run.policy.price, {v: k for k, v in run.vertex.items()}
-            ahead = [place_of.get(v) for v in run.policy.outlook.vertices[1:-1]]
+            ahead = [place_of.get(v) for v in run.policy.expectation.vertices[1:-1]]
             warm = [vertex[key] for key in ahead if key in vertex]
         made = _Run(
             problem=problem,
@@ -194,7 +194,7 @@ class Choosing:
             # A long order is driven as planned at first: its chance is not known yet, so it counts for all its share.
             without = float(self._without(state, run.rest).max())
             priced = run.policy.price is not None
-            self._means.add((1.0 - run.policy.outlook.success if priced else run.accepted) - without)
+            self._means.add((1.0 - run.policy.expectation.success if priced else run.accepted) - without)
         return chosen
 
     def _fits(self, state: MissionState, visit: Visit, rest: Rest, run: _Run) -> bool:
@@ -248,13 +248,13 @@ class Choosing:
         for k, visit in enumerate(visits):
             if visit.leaves is not None and run.rest.first is not None:
                 back[k] = self._means.length(visit.leaves, run.rest.first)
-        after = np.array(problem.after)
+        after = np.array(problem.legs_after)
         first, squares, cubes = ((there**k + back**k + (after**k).sum()) for k in (1, 2, 3))
         second, third = cost_model(self._means.robot).cumulants()
         worst = np.zeros(len(vertices))
         for limit, amount in zip(problem.limits, left, strict=True):
             work = 0.0 if limit.service is None else limit.service[vertices]
-            worst = np.maximum(worst, exceeding(first, second * squares, third * cubes, amount - work))
+            worst = np.maximum(worst, overrun_probability(first, second * squares, third * cubes, amount - work))
         return worst
 
     def _skipped(

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from fieldhand.forecast.allowance import SLIVER
 from fieldhand.forecast.state import Visit
 from fieldhand.orienteering.costs import CostModel
-from fieldhand.orienteering.tail import quantile_table, standardised
+from fieldhand.orienteering.overrun import quantile_table, standardised_quantile
 from fieldhand.site.model import Place
 
 Floats = NDArray[np.float64]
@@ -92,7 +92,7 @@ class Threshold:
         was_home = self.length(self.here, self.home(self.here))
         for k, (leg, home) in enumerate(zip(legs, homes, strict=True)):
             variance, cubes = second * (leg**2 + home**2), third * (leg**3 + home**3)
-            needs = [leg + home + np.sqrt(variance) * standardised(t, variance, cubes) for t in tables]
+            needs = [leg + home + np.sqrt(variance) * standardised_quantile(t, variance, cubes) for t in tables]
             goes = under_way & (left - self.service[k] >= np.array(needs)).all(axis=1)
             turns = under_way & ~goes
             failed[turns] = left[turns] - (was_home * factors[1, k, turns])[:, None] < 0.0

@@ -124,7 +124,7 @@ def _several(
         robot=robot,
         spent=walker.spent,
         accepted=accepted,
-        most=node.at_most,
+        max_visits=node.at_most,
     )
     state = State(vertex=0, left=left_before(resources, robot, walker.spent, rest))
     return preview(policy_for(problem, warm=warm), state, rng, used)

@@ -29,7 +29,7 @@ class Legs:
     """Metres between vertices, in one of the forms that a problem takes; the others are empty."""
 
     distances: Floats = field(default_factory=lambda: np.zeros((0, 0)))
-    plane: Floats | None = None
+    coordinates: Floats | None = None
     table: Table | None = None
 
 
@@ -94,6 +94,6 @@ def _along_roads(places: Sequence[Place], drives: Drives) -> Legs:
 
     roads = drives.roads(places)
     if roads.straight:
-        return Legs(plane=np.ascontiguousarray(roads.at[: len(places)]))
-    network = Network(nodes=len(roads.at), ways=roads.ways, lengths=roads.lengths)
+        return Legs(coordinates=np.ascontiguousarray(roads.at[: len(places)]))
+    network = Network(nodes=len(roads.at), edges=roads.ways, lengths=roads.lengths)
     return Legs(table=network.table(range(len(places))))

@@ -12,7 +12,7 @@ from fieldhand.forecast.legs import Legs
 from fieldhand.forecast.limits import Resource, limits_of
 from fieldhand.forecast.rest import Rest
 from fieldhand.forecast.state import Spent, Work
-from fieldhand.orienteering.problem import Problem, under_way
+from fieldhand.orienteering.problem import Problem, unchecked_problem
 from fieldhand.robot.model import RobotProfile
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ def visits_problem(
     robot: RobotProfile,
     spent: Spent,
     accepted: float,
-    most: int | None,
+    max_visits: int | None,
 ) -> Problem:
     """The orienteering problem of a robot that stands before optional visits.
 
@@ -52,24 +52,24 @@ def visits_problem(
         robot: Its cost of legs, and the energy of work.
         spent: What has been used.
         accepted: Chance of running short of any of it.
-        most: Visits that may be made; None for as many as fit.
+        max_visits: Visits that may be made; None for as many as fit.
 
     Returns:
         A problem with here as vertex 0, the candidates after it, and the end as the last vertex. Its budgets may be too
         small for the way home: a mission under way can have come to that.
     """
     chance = min(max(accepted, _LEAST), _MOST)
-    return under_way(
+    return unchecked_problem(
         distances=legs.distances,
-        plane=legs.plane,
+        coordinates=legs.coordinates,
         table=legs.table,
         rewards=np.array([0.0, *rewards, 0.0]),
         start=0,
         end=len(rewards) + 1,
         limits=limits_of(resources, robot, spent, [Work(), *service, Work()], rest.work, chance),
         alpha=robot.leg_cost.alpha,
-        after=rest.legs_m,
-        most=most,
+        legs_after=rest.legs_m,
+        max_visits=max_visits,
     )
 
 
@@ -88,8 +88,8 @@ def policy_for(problem: Problem, *, price: float | None = None, warm: Sequence[i
         price: Of a failure, where an earlier decision of the same run found it.
         warm: Vertices that were planned.
     """
-    from fieldhand.orienteering.adaptive import Depth
+    from fieldhand.orienteering.decision import SearchEffort
     from fieldhand.orienteering.policy import Policy
 
-    depth = Depth(remakes=_REMAKES) if warm else Depth()
-    return Policy(problem, _SEED, daring=0.0, price=price, warm=warm, depth=depth)
+    effort = SearchEffort(remakes=_REMAKES) if warm else SearchEffort()
+    return Policy(problem, _SEED, risk_tolerance=0.0, price=price, warm=warm, effort=effort)

@@ -10,7 +10,7 @@ import numpy as np
 
 from fieldhand.errors import PlaceError
 from fieldhand.language import joined, message
-from fieldhand.orienteering.order import shortest_order
+from fieldhand.orienteering.shortest_order import shortest_order
 from fieldhand.places.context import Context
 from fieldhand.places.selector import Selector
 from fieldhand.robot.model import RobotProfile

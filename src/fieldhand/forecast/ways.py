@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from fieldhand.forecast.limits import Resource
 from fieldhand.forecast.state import Spent, Work
 from fieldhand.orienteering.costs import CostModel, Deterministic, ShiftedExponential
-from fieldhand.orienteering.tail import exceeding
+from fieldhand.orienteering.overrun import overrun_probability
 from fieldhand.robot.model import RobotProfile
 
 Floats = NDArray[np.float64]
@@ -67,4 +67,4 @@ def chances_short(
     second, third = cost_model(robot).cumulants()
     room = np.array([r.metres_left(spent) - r.metres_of(way.work, robot) for r in resources])
     left = room if used is None else room[:, None] - used
-    return exceeding(first, second * squares, third * cubes, left)
+    return overrun_probability(first, second * squares, third * cubes, left)

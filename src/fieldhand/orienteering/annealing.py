@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.orienteering.ground import Ground
 from fieldhand.orienteering.kernels.anneal import anneal, begin, excess
+from fieldhand.orienteering.prepared_problem import PreparedProblem
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -25,48 +25,48 @@ class Annealing:
     """Simulated annealing of the route from one vertex over some of ``free`` to the end.
 
     Args:
-        ground: The problem.
+        prepared: The problem.
         here: Where the route begins.
         free: Vertices that may be visited.
         budgets: What may be used of each limit.
         tables: For each limit the quantiles of the cost that may not exceed its budget (:func:`quantile_table`).
         stops: The route to begin with; where it takes too much, those of its stops worth least are left out.
         state: One word, the state of the random numbers.
-        most: Stops that the route may have; None for any number.
+        max_visits: Stops that the route may have; None for any number.
     """
 
     def __init__(
         self,
-        ground: Ground,
+        prepared: PreparedProblem,
         here: int,
         free: Ints,
         budgets: Floats,
         tables: Floats,
         stops: Ints,
         state: NDArray[np.uint64],
-        most: int | None = None,
+        max_visits: int | None = None,
     ) -> None:
-        nodes, limits = ground.size + 1, len(budgets)
+        nodes, limits = prepared.size + 1, len(budgets)
         self._free = free
         self._after, self._before = np.empty(nodes, np.int64), np.empty(nodes, np.int64)
         self._sums, self._used = np.empty(5), np.empty(limits)
         self._best = np.empty(nodes, np.int64)
         self._record = np.array([-1.0, np.inf, 0.0])
-        self._ways = ground.ways
-        self._priced = (ground.rewards, ground.service)
-        self._limits = (budgets, ground.cumulants, tables)
-        self._most = ground.size if most is None else min(most, ground.size)
-        self._ground, self._here, self._state = ground, here, state
+        self._lengths = prepared.lengths
+        self._priced = (prepared.rewards, prepared.service)
+        self._limits = (budgets, prepared.cumulants, tables)
+        self._max_visits = prepared.size if max_visits is None else min(max_visits, prepared.size)
+        self._prepared, self._here, self._state = prepared, here, state
         begin(
-            here, stops, ground.afterwards, self._after, self._before, self._sums, self._used,
-            self._ways, *self._priced, *self._limits, self._most,
+            here, stops, prepared.afterwards, self._after, self._before, self._sums, self._used,
+            self._lengths, *self._priced, *self._limits, self._max_visits,
         )  # fmt: skip
         self.feasible = bool(excess(self._sums, self._used, *self._limits) <= 0.0)
         if self.feasible:
             found = self._route()
             self._best[: len(found)] = found
             self._record[:] = (self._sums[3], self._sums[0], len(found))
-        worth = ground.rewards[free]
+        worth = prepared.rewards[free]
         self._typical = float(worth.mean()) if len(free) else 0.0
 
     @property
@@ -95,7 +95,7 @@ class Annealing:
         worth = _WORTH / max(float(self._limits[0].max()), 1e-300)
         anneal(
             self._here, self._free, self._after, self._before, self._sums, self._used,
-            self._ways, self._ground.near, *self._priced, *self._limits, self._most,
+            self._lengths, self._prepared.near, *self._priced, *self._limits, self._max_visits,
             worth, hot * (cold / hot) ** done, hot * (cold / hot) ** then, rounds, self._state,
             self._best, self._record,
         )  # fmt: skip
@@ -103,7 +103,7 @@ class Annealing:
     def _route(self) -> Ints:
         found: list[int] = []
         at = int(self._after[self._here])
-        while at != self._ground.size:
+        while at != self._prepared.size:
             found.append(at)
             at = int(self._after[at])
         return np.array(found, dtype=np.int64)

@@ -1,4 +1,4 @@
-"""A sparse drivable graph: junctions and the ways between them; vertices worth a visit are some of its nodes."""
+"""A sparse drivable graph: junctions and the edges between them; vertices worth a visit are some of its nodes."""
 
 from __future__ import annotations
 
@@ -30,26 +30,26 @@ class Network:
 
     Attributes:
         nodes: How many there are; numbered from 0.
-        ways: Pairs of nodes, shape (m, 2).
-        lengths: Of the ways, shape (m,).
+        edges: Pairs of nodes, shape (m, 2).
+        lengths: Of the edges, shape (m,).
 
     Raises:
         ProblemError: A node that does not exist; a length that is negative or not a number.
     """
 
     nodes: int
-    ways: NDArray[np.int64]
+    edges: NDArray[np.int64]
     lengths: Floats
 
     def __post_init__(self) -> None:
         if self.nodes < 2:
             raise ProblemError(f"{self.nodes} nodes are no network", advice="give a start and an end at least")
-        if self.ways.ndim != 2 or self.ways.shape[1] != 2 or self.lengths.shape != (len(self.ways),):
-            raise ProblemError(f"ways of shape {self.ways.shape} and {self.lengths.shape[0]} lengths do not fit")
-        wrong = ~((self.ways >= 0) & (self.ways < self.nodes)).all(axis=1)
+        if self.edges.ndim != 2 or self.edges.shape[1] != 2 or self.lengths.shape != (len(self.edges),):
+            raise ProblemError(f"edges of shape {self.edges.shape} and {self.lengths.shape[0]} lengths do not fit")
+        wrong = ~((self.edges >= 0) & (self.edges < self.nodes)).all(axis=1)
         if wrong.any():
             way = int(wrong.argmax())
-            raise ProblemError(f"it joins nodes {self.ways[way].tolist()}, not both there", where=f"way {way}")
+            raise ProblemError(f"it joins nodes {self.edges[way].tolist()}, not both there", where=f"way {way}")
         wrong = ~(np.isfinite(self.lengths) & (self.lengths >= 0.0))
         if wrong.any():
             way = int(wrong.argmax())
@@ -76,15 +76,15 @@ class Network:
 
     @cached_property
     def _graph(self) -> csr_array:
-        """The lengths of the ways, in both directions, as a sparse array."""
+        """The lengths of the edges, in both directions, as a sparse array."""
         from scipy.sparse import csr_array
 
-        tails, heads = (np.concatenate([self.ways[:, i], self.ways[:, 1 - i]]) for i in range(2))
+        tails, heads = (np.concatenate([self.edges[:, i], self.edges[:, 1 - i]]) for i in range(2))
         lengths = np.concatenate([self.lengths, self.lengths])
         order = np.lexsort((lengths, heads, tails))
         order = order[tails[order] != heads[order]]
         tails, heads = tails[order], heads[order]
-        # Of several ways between two nodes the shortest counts.
+        # Of several edges between two nodes the shortest counts.
         other = np.ones(len(order), dtype=bool)
         other[1:] = (np.diff(tails) != 0) | (np.diff(heads) != 0)
         starts = np.zeros(self.nodes + 1, dtype=np.int64)

@@ -15,14 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.errors import ProblemError
-from fieldhand.orienteering.problem import Limit, Problem, visits
-from fieldhand.orienteering.route import Route, Stop, solve
+from fieldhand.orienteering.problem import Limit, Problem, count_visits
+from fieldhand.orienteering.route import Route, StoppingCriterion, solve
 
 if TYPE_CHECKING:
-    from fieldhand.orienteering.adaptive import Depth, Foresight, Lookout, Order
-    from fieldhand.orienteering.ground import Ground
+    from fieldhand.orienteering.decision import DecisionSearch, SearchEffort, SuccessAfterLeg, VisitOrder
+    from fieldhand.orienteering.prepared_problem import PreparedProblem
 
-__all__ = ["Outlook", "Policy", "Route", "State", "Stop", "compile_ahead", "solve"]
+__all__ = ["Expectation", "Policy", "Route", "State", "StoppingCriterion", "compile_ahead", "solve"]
 
 #: The chance at which the first order is priced, of that which is accepted. A mission whose order is made anew after
 #: every leg fails more or less often than one whose order is only shortened: measured, by up to a third.
@@ -49,7 +49,7 @@ class State:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Outlook:
+class Expectation:
     """What a policy expects from a state on.
 
     Attributes:
@@ -69,17 +69,17 @@ class Policy:
     Args:
         problem: As it stands before the mission.
         seed: The same seed and the same leg costs give the same mission.
-        depth: How much to search at a decision.
-        daring: What part of the reward that is expected a mission may give up before safety gives way to reward, 0 to
-            1. At 0 the most is collected over all missions; near 1 the most over those that succeed, and the whole
-            failure probability is used up for it.
+        effort: How much to search at a decision.
+        risk_tolerance: Weight of reward against safety, 0 to 1: the price of a failure may fall to minus this share of
+            the expected reward. At 0 the policy collects the most over all missions, near 1 the most over successful
+            missions, for which it uses up the whole failure probability.
         price: What a failure costs beside the reward; None to find it at the first decision.
         collected: Reward that is safe already, where the problem is what is left of a mission.
         warm: Vertices that were planned, in their order, to begin the search with.
-        ground: Of the problem, where it is known.
+        prepared: Of the problem, where it is known.
 
     Raises:
-        ProblemError: ``daring`` is not a number from 0 to 1.
+        ProblemError: ``risk_tolerance`` is not a number from 0 to 1.
     """
 
     def __init__(
@@ -87,32 +87,32 @@ class Policy:
         problem: Problem,
         seed: int,
         *,
-        depth: Depth | None = None,
-        daring: float = 0.6,
+        effort: SearchEffort | None = None,
+        risk_tolerance: float = 0.6,
         price: float | None = None,
         collected: float = 0.0,
         warm: Sequence[int] = (),
-        ground: Ground | None = None,
+        prepared: PreparedProblem | None = None,
     ) -> None:
-        from fieldhand.orienteering.adaptive import Depth
-        from fieldhand.orienteering.ground import ground_of
+        from fieldhand.orienteering.decision import SearchEffort
+        from fieldhand.orienteering.prepared_problem import prepare_problem
 
-        if not 0.0 <= daring <= 1.0:
-            raise ProblemError(f"a policy's daring is {daring:g}", advice="give a number from 0 to 1")
-        self._problem, self._ground = problem, ground or ground_of(problem)
-        self._depth, self._daring = depth or Depth(), daring
+        if not 0.0 <= risk_tolerance <= 1.0:
+            raise ProblemError(f"a policy's risk tolerance is {risk_tolerance:g}", advice="give a number from 0 to 1")
+        self._problem, self._prepared = problem, prepared or prepare_problem(problem)
+        self._effort, self._risk_tolerance = effort or SearchEffort(), risk_tolerance
         self._state = np.array([seed], dtype=np.uint64)
         self._free = problem.rewards > 0.0
         self._free[[problem.start, problem.end]] = False
         self._price, self._least_price = price, 0.0
         self._collected, self._warm, self._first, self._begun = collected, tuple(warm), tuple(warm), False
-        self._last: tuple[Lookout, Order, float] | None = None
-        self._outlook = Outlook(vertices=(), reward=0.0, success=1.0)
+        self._last: tuple[DecisionSearch, VisitOrder, float] | None = None
+        self._expectation = Expectation(vertices=(), reward=0.0, success=1.0)
 
     @property
-    def outlook(self) -> Outlook:
+    def expectation(self) -> Expectation:
         """What was expected at the last decision."""
-        return self._outlook
+        return self._expectation
 
     @property
     def price(self) -> float | None:
@@ -120,12 +120,12 @@ class Policy:
         return self._price
 
     @property
-    def ground(self) -> Ground:
+    def prepared(self) -> PreparedProblem:
         """The problem as arrays."""
-        return self._ground
+        return self._prepared
 
     @property
-    def plan(self) -> tuple[Lookout, Order, float] | None:
+    def plan(self) -> tuple[DecisionSearch, VisitOrder, float] | None:
         """What the last decision was made by: from where, which order, what keeping to the limits counts.
 
         None where there is nothing to decide, and where the order is long and driven as planned.
@@ -134,62 +134,67 @@ class Policy:
 
     def lengths(self, vertex: int) -> NDArray[np.float64]:
         """Of the legs from a vertex to every vertex, shape (n,)."""
-        return self._ground.row(vertex)
+        return self._prepared.row(vertex)
 
     @property
     def least_price(self) -> float:
-        """The least that daring allows."""
+        """The least that the risk tolerance allows."""
         return self._least_price
 
     def again(
-        self, seed: int, price: float | None = None, warm: Sequence[int] = (), depth: Depth | None = None
+        self, seed: int, price: float | None = None, warm: Sequence[int] = (), effort: SearchEffort | None = None
     ) -> Policy:
         """The policy for another mission through the same problem, at a price of a failure."""
         return Policy(
-            self._problem, seed, depth=depth or self._depth, daring=self._daring, price=price, warm=warm or self._first,
-            ground=self._ground,
-        )  # fmt: skip
+            self._problem,
+            seed,
+            effort=effort or self._effort,
+            risk_tolerance=self._risk_tolerance,
+            price=price,
+            warm=warm or self._first,
+            prepared=self._prepared,
+        )
 
     def next(self, state: State, seconds: float | None = None) -> int:
         """The vertex to go to next; the problem's end when nothing more is worth it.
 
         Args:
             state: Where the mission stands.
-            seconds: How long to think; None for the counted depth, which alone gives the same answer on any machine.
+            seconds: How long to think; None for the counted effort, which alone gives the same answer on any machine.
 
         Raises:
             ProblemError: The state is none of this problem: a vertex that does not exist, an amount that is missing or
                 not a number.
         """
-        from fieldhand.orienteering.adaptive import LONG, Lookout, Order
         from fieldhand.orienteering.annealing import stops_of
+        from fieldhand.orienteering.decision import LONG, DecisionSearch, VisitOrder
 
         began = time.perf_counter()
         self._check(state)
         self._last = None
         free = self._free.copy()
         free[[*state.visited, *state.given_up]] = False
-        most = self._problem.most
-        if most is not None:
-            most = max(0, most - visits(self._problem, state.visited))
-            free &= most > 0
-        lookout = Lookout(self._ground, state.vertex, state.left, free, self._depth, self._state, most)
+        max_visits = self._problem.max_visits
+        if max_visits is not None:
+            max_visits = max(0, max_visits - count_visits(self._problem, state.visited))
+            free &= max_visits > 0
+        search = DecisionSearch(self._prepared, state.vertex, state.left, free, self._effort, self._state, max_visits)
         if min(state.left) <= 0.0:
             return self._settle(state, None)
-        if not len(lookout.free):
-            return self._settle(state, lookout.order(lookout.free, 0.0, 0))
-        certain = self._ground.cumulants[0] <= 0.0
+        if not len(search.free):
+            return self._settle(state, search.order(search.free, 0.0, 0))
+        certain = self._prepared.cumulants[0] <= 0.0
         accepted = min(limit.failure_probability for limit in self._problem.limits)
         safe: tuple[int, ...] = ()
-        if certain or len(lookout.free) > LONG:
+        if certain or len(search.free) > LONG:
             # As likely to fail as is accepted, not as likely as not: a long last leg takes its risk all at once, when
             # no stop is left that could be skipped.
-            route = lookout.route(accepted, self._warm, self._rounds(lookout))
+            route = search.route(accepted, self._warm, self._rounds(search))
             while seconds is not None and time.perf_counter() - began < seconds:
-                route = lookout.route(accepted, route.tolist(), 16 * self._depth.rounds)
+                route = search.route(accepted, route.tolist(), 16 * self._effort.rounds)
             # Of legs that are certain nothing is to be learnt on the way: the best route is the best policy.
             if certain or len(route) > LONG:
-                ahead = Order(stops=route, first=0, worth=self._reward(route.tolist()), success=1.0)
+                ahead = VisitOrder(stops=route, first=0, worth=self._reward(route.tolist()), success=1.0)
                 return self._settle(state, ahead)
             safe = tuple(route.tolist())
             if self._price is None:
@@ -199,24 +204,24 @@ class Policy:
         )
         new = False
         if self._price is None:
-            new, self._price = True, self._priced(lookout, collected, safe)
+            new, self._price = True, self._priced(search, collected, safe)
         elif not (self._begun or self._warm):
-            self._plan(lookout.planned(self._price + collected, (), self._rounds(lookout)))
+            self._plan(search.planned(self._price + collected, (), self._rounds(search)))
         self._begun = True
         bonus = self._price + collected
-        order = lookout.best(bonus, self._warm)
+        order = search.best(bonus, self._warm)
         if new and order.first == len(order.stops):
-            setting_out = self._safe_route(lookout, accepted, safe)
+            setting_out = self._safe_route(search, accepted, safe)
             if setting_out is not None:
                 # The price is found anew after that leg, for what is left of this route.
                 self._price, self._begun = None, False
                 return self._settle(state, setting_out)
         elif safe:
-            other = lookout.order(stops_of(safe, lookout.free), bonus, self._depth.insertions)
+            other = search.order(stops_of(safe, search.free), bonus, self._effort.insertions)
             order = max(order, other, key=lambda one: one.value(bonus))
         while seconds is not None and time.perf_counter() - began < seconds:
-            order = lookout.bettered(order, bonus)
-        self._last = (lookout, order, bonus)
+            order = search.bettered(order, bonus)
+        self._last = (search, order, bonus)
         return self._settle(state, order)
 
     def chances(self) -> dict[int, float]:
@@ -224,19 +229,19 @@ class Policy:
 
         Those that a policy plans anew for are not in it; where the order is long and driven as planned, all are 1.
         """
-        ahead = self._outlook.vertices[1:-1]
+        ahead = self._expectation.vertices[1:-1]
         if self._last is None or not ahead:
             return dict.fromkeys(ahead, 1.0)
-        lookout, order, bonus = self._last
-        found = lookout.chances(order.stops, bonus)[order.first :]
+        search, order, bonus = self._last
+        found = search.chances(order.stops, bonus)[order.first :]
         return {vertex: min(1.0, float(chance)) for vertex, chance in zip(ahead, found, strict=True)}
 
-    def foresight(self) -> Foresight | None:
+    def success_after_leg(self) -> SuccessAfterLeg | None:
         """What was foreseen of the leg to the vertex given last; None where no programme chose it."""
         if self._last is None:
             return None
-        lookout, order, bonus = self._last
-        return lookout.foresight(order, bonus)
+        search, order, bonus = self._last
+        return search.success_after_leg(order, bonus)
 
     def _check(self, state: State) -> None:
         size, limits = self._problem.size, len(self._problem.limits)
@@ -248,83 +253,85 @@ class Policy:
                 f"of the limits is left: {', '.join(f'{x:g}' for x in state.left)}", advice=f"give {limits} numbers"
             )
 
-    def _priced(self, lookout: Lookout, collected: float, safe: Sequence[int]) -> float:
+    def _priced(self, search: DecisionSearch, collected: float, safe: Sequence[int]) -> float:
         """The least price at which the best order fails no more often than the limit that binds accepts.
 
         Args:
-            lookout, collected: Where the mission stands; reward that is safe already.
+            search, collected: Where the mission stands; reward that is safe already.
             safe: Stops of a fixed route planned at the accepted chance, where there is one. It can be safer than any
                 part of the order worth most at no price: many short legs are less uncertain than one long leg home.
         """
         from fieldhand.orienteering.annealing import stops_of
 
         accepted = 1.0 - _AIM * min(limit.failure_probability for limit in self._problem.limits)
-        planned = lookout.planned(collected, self._warm, self._rounds(lookout))
-        price, order = self._at_least_price(lookout, planned, collected, accepted)
+        planned = search.planned(collected, self._warm, self._rounds(search))
+        price, order = self._at_least_price(search, planned, collected, accepted)
         if safe and order.success < accepted and order.first < len(order.stops):
-            begun = lookout.order(stops_of(safe, lookout.free), price + collected, 0)
-            safer = self._at_least_price(lookout, begun, collected, accepted)
+            begun = search.order(stops_of(safe, search.free), price + collected, 0)
+            safer = self._at_least_price(search, begun, collected, accepted)
             # An order that shrank to nothing has a price that means nothing.
             if safer[1].success > order.success and safer[1].first < len(safer[1].stops):
                 price, order = safer
         self._plan(order)
         return price
 
-    def _at_least_price(self, lookout: Lookout, order: Order, collected: float, accepted: float) -> tuple[float, Order]:
+    def _at_least_price(
+        self, search: DecisionSearch, order: VisitOrder, collected: float, accepted: float
+    ) -> tuple[float, VisitOrder]:
         """The least price at which an order succeeds as often as is accepted, and what the order becomes at it."""
         price = 0.0
         for _ in range(_PRICINGS):
             expected = order.worth / max(order.success, 1e-9) + collected
-            self._least_price = -self._daring * expected
+            self._least_price = -self._risk_tolerance * expected
             low, high = self._least_price, 50.0 * max(expected, 1e-9)
             for _ in range(_BISECTIONS):
                 middle = 0.5 * (low + high)
-                if lookout.order(order.stops, middle + collected, 0).success >= accepted:
+                if search.order(order.stops, middle + collected, 0).success >= accepted:
                     high = middle
                 else:
                     low = middle
             price = high
-            order = lookout.order(order.stops, price + collected, self._depth.insertions)
-            order = lookout.remade(order, price + collected)
+            order = search.order(order.stops, price + collected, self._effort.insertions)
+            order = search.remade(order, price + collected)
         return price, order
 
-    def _safe_route(self, lookout: Lookout, accepted: float, safe: Sequence[int]) -> Order | None:
+    def _safe_route(self, search: DecisionSearch, accepted: float, safe: Sequence[int]) -> VisitOrder | None:
         """Return the route to set out on where no price leads to a visit; None where no visit is safe enough.
 
         A long first leg and a long last one take most of the accepted chance before anything is collected. Then no
         price between staying and risking too much may be found; it is, once the first leg is driven.
 
         Args:
-            lookout, accepted: Where the mission stands; the chance of failing.
+            search, accepted: Where the mission stands; the chance of failing.
             safe: Stops of a route that was found already, if any; it is searched for where they are not safe enough.
         """
-        from fieldhand.orienteering.adaptive import Order
+        from fieldhand.orienteering.decision import VisitOrder
 
         route = np.array(safe, dtype=np.int64)
-        if not (len(route) and lookout.is_safe(route)):
-            route = lookout.route(accepted, (), 100 * self._depth.rounds)
-        if not len(route) or not lookout.is_safe(route):
+        if not (len(route) and search.is_safe(route)):
+            route = search.route(accepted, (), 100 * self._effort.rounds)
+        if not len(route) or not search.is_safe(route):
             return None
-        return Order(stops=route, first=0, worth=self._reward(route.tolist()), success=1.0)
+        return VisitOrder(stops=route, first=0, worth=self._reward(route.tolist()), success=1.0)
 
-    def _plan(self, order: Order) -> None:
+    def _plan(self, order: VisitOrder) -> None:
         """Keep the order that the mission begins with."""
         self._warm = self._first = tuple(order.stops.tolist())
 
-    def _settle(self, state: State, order: Order | None) -> int:
+    def _settle(self, state: State, order: VisitOrder | None) -> int:
         """Remember what is planned, and give its first vertex."""
         end = self._problem.end
         if order is None:
-            self._warm, self._outlook = (), Outlook(vertices=(state.vertex, end), reward=0.0, success=0.0)
+            self._warm, self._expectation = (), Expectation(vertices=(state.vertex, end), reward=0.0, success=0.0)
             return end
         self._warm = tuple(int(v) for v in order.stops[order.first + 1 :])
         ahead = tuple(int(v) for v in order.stops[order.first :])
-        self._outlook = Outlook(vertices=(state.vertex, *ahead, end), reward=order.worth, success=order.success)
+        self._expectation = Expectation(vertices=(state.vertex, *ahead, end), reward=order.worth, success=order.success)
         return ahead[0] if ahead else end
 
-    def _rounds(self, lookout: Lookout) -> int:
+    def _rounds(self, search: DecisionSearch) -> int:
         """More for the first plan of a mission: all others begin with what is left of the one before."""
-        return self._depth.rounds if self._warm or self._begun else 100 * self._depth.rounds + 20 * len(lookout.free)
+        return self._effort.rounds if self._warm or self._begun else 100 * self._effort.rounds + 20 * len(search.free)
 
     def _reward(self, vertices: Sequence[int]) -> float:
         return float(self._problem.rewards[list(vertices)].sum())
@@ -337,13 +344,13 @@ def compile_ahead() -> None:
     and orders of many visits.
     """
     from fieldhand.orienteering.network import Network
-    from fieldhand.orienteering.order import COMPILED_FROM, shortest_order
+    from fieldhand.orienteering.shortest_order import COMPILED_FROM, shortest_order
 
     ways = np.array([[i, i + 1] for i in range(11)], dtype=np.int64)
-    chain = Network(nodes=12, ways=ways, lengths=np.full(11, 0.1))
+    chain = Network(nodes=12, edges=ways, lengths=np.full(11, 0.1))
     problem, _ = chain.problem(np.ones(12), 0, 11, (Limit(budget=2.0),), precision="single")
-    problem = replace(problem, after=(0.1,))
-    solve(problem, 0, Stop(rounds=1))
+    problem = replace(problem, legs_after=(0.1,))
+    solve(problem, 0, StoppingCriterion(rounds=1))
     policy = Policy(problem, 0)
     for seconds in (None, 0.05):
         policy.next(State(vertex=0, left=(2.0,)), seconds)

@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.orienteering.adaptive import LONG, Depth
+from fieldhand.orienteering.decision import LONG, SearchEffort
 from fieldhand.orienteering.policy import Policy, State
 
 if TYPE_CHECKING:
-    from fieldhand.orienteering.adaptive import Lookout, Order
+    from fieldhand.orienteering.decision import DecisionSearch, VisitOrder
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -25,7 +25,7 @@ Ints = NDArray[np.int64]
 #: Stops of an order that a group drives to before it plans anew; of one with no more than a few others it drives all.
 _STRIDE, _FEW = 8, 4
 #: So much is searched for a group as the robot would at all of these stops.
-_DEPTH = Depth(rounds=20 * _STRIDE, insertions=8, remakes=8)
+_DEPTH = SearchEffort(rounds=20 * _STRIDE, insertions=8, remakes=8)
 #: A group is divided where the standard deviation of what its missions have left is more than this part of its mean,
 #: down to this part of all missions.
 _SPREAD, _SMALLEST = 0.05, 1 / 8
@@ -91,7 +91,7 @@ def preview(policy: Policy, state: State, rng: np.random.Generator, used: Floats
             given_up=state.given_up | partly,
         )
         group.policy.next(now)
-        ahead = np.array(group.policy.outlook.vertices[1:-1], dtype=np.int64)
+        ahead = np.array(group.policy.expectation.vertices[1:-1], dtype=np.int64)
         if group.policy.plan is not None:
             waiting += missions.skip(group, *group.policy.plan, fewest, rng)
         elif len(ahead) and missions.is_uncertain:
@@ -142,17 +142,17 @@ class _Missions:
     """Missions under way."""
 
     def __init__(self, policy: Policy, state: State, used: Floats) -> None:
-        self._ground, count = policy.ground, len(used)
+        self._prepared, count = policy.prepared, len(used)
         self._at = np.full(count, state.vertex, dtype=np.int64)
         self.left = np.asarray(state.left)[None, :] - used[:, None]
         self._legs = np.zeros(count)
-        self._visited = np.zeros((count, self._ground.size), dtype=bool)
+        self._visited = np.zeros((count, self._prepared.size), dtype=bool)
         self._ended: list[tuple[Ints, tuple[int, ...]]] = []
 
     @property
     def is_uncertain(self) -> bool:
         """Return True if the cost of legs is random."""
-        return bool(self._ground.cumulants[0] > 0.0)
+        return bool(self._prepared.cumulants[0] > 0.0)
 
     def visit(self, group: _Group, stops: Ints, rng: np.random.Generator) -> None:
         """Drive every mission of a group to every stop."""
@@ -162,7 +162,13 @@ class _Missions:
         group.stops = (*group.stops, *stops.tolist())
 
     def skip(
-        self, group: _Group, lookout: Lookout, order: Order, bonus: float, fewest: int, rng: np.random.Generator
+        self,
+        group: _Group,
+        search: DecisionSearch,
+        order: VisitOrder,
+        bonus: float,
+        fewest: int,
+        rng: np.random.Generator,
     ) -> list[_Group]:
         """Drive each mission of a group over the next stops of an order that it does not skip with what it has left.
 
@@ -171,13 +177,13 @@ class _Missions:
             been driven to the end.
         """
         members, last = group.members, len(order.stops) + 1
-        choice, step = lookout.choices(order.stops, bonus, float(self.left[members, lookout.binding].max()))
+        choice, step = search.choices(order.stops, bonus, float(self.left[members, search.binding].max()))
         position = np.zeros(len(members), dtype=np.int64)
 
         def drive(going: NDArray[np.bool_], until: int) -> None:
             for i in range(last):
                 here = np.flatnonzero(going & (position == i) & ((position < until) | (i == 0)))
-                left = self.left[members[here], lookout.binding]
+                left = self.left[members[here], search.binding]
                 entry = np.clip(np.round(left / step), 0, choice.shape[1] - 1).astype(np.int64)
                 goes = np.where(left <= 0.0, last, choice[i, entry])
                 position[here] = goes
@@ -216,8 +222,8 @@ class _Missions:
 
     def made(self, rng: np.random.Generator) -> Preview:
         """Return what has become of them, with the way to the end."""
-        ground = self._ground
-        last = self._lengths(ground.size, self._at) * ground.problem.model.draw(rng, len(self._at))
+        prepared = self._prepared
+        last = self._lengths(prepared.size, self._at) * prepared.problem.model.draw(rng, len(self._at))
         # The group in the middle comes first: its order is the one that is drawn.
         visits = self._visited.sum(axis=1)
         typical = np.median(visits)
@@ -237,16 +243,16 @@ class _Missions:
         )
 
     def _go(self, some: Ints, stop: int, rng: np.random.Generator) -> None:
-        ground = self._ground
-        cost = self._lengths(stop, self._at[some]) * ground.problem.model.draw(rng, len(some))
+        prepared = self._prepared
+        cost = self._lengths(stop, self._at[some]) * prepared.problem.model.draw(rng, len(some))
         self._legs[some] += cost
-        self.left[some] -= cost[:, None] + ground.service[:, stop]
+        self.left[some] -= cost[:, None] + prepared.service[:, stop]
         self._at[some] = stop
         self._visited[some, stop] = True
 
     def _lengths(self, to: int, vertices: Ints) -> Floats:
         """Return the lengths from some vertices to a node; the way back may be another where there is a table."""
-        ground = self._ground
-        if len(ground.ways.matrix):
-            return np.asarray(ground.ways.matrix[vertices, to])
-        return ground.row(ground.problem.end if to == ground.size else to)[vertices]
+        prepared = self._prepared
+        if len(prepared.lengths.matrix):
+            return np.asarray(prepared.lengths.matrix[vertices, to])
+        return prepared.row(prepared.problem.end if to == prepared.size else to)[vertices]

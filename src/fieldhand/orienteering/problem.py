@@ -41,17 +41,18 @@ class Problem:
     cost model says otherwise that is ``d * (alpha + X)``, X exponential with mean ``1 - alpha``.
 
     Attributes:
-        distances: Symmetric, shape (n, n), in any unit; ``inf`` where there is no way. Not where a plane or a table
-            gives them.
+        distances: Lengths of the legs, symmetric, shape (n, n), in any unit; ``inf`` where there is no leg. Empty if
+            coordinates or a table give them.
         rewards: What visiting each vertex is worth, shape (n,); the start's and the end's do not count.
         limits: At least one.
         alpha: The certain part of a leg's cost, 0 to 1; 1 is a deterministic problem.
         costs: Another cost model; ``alpha`` is not used then.
-        plane: Coordinates, shape (n, 2), in place of distances: the legs are straight, and thousands of vertices need
-            no table of distances.
+        coordinates: Coordinates of the vertices, shape (n, 2), in place of distances: legs are straight, and thousands
+            of vertices need no table of distances.
         table: Of a sparse network, in place of distances (:meth:`fieldhand.orienteering.network.Network.problem`).
-        most: Vertices with a reward that may be visited at most, start and end not counted; None for as many as fit.
-        after: Lengths of legs that will be driven from the end on, whatever the route is; they count for every limit.
+        max_visits: Largest number of vertices with a reward that may be visited, start and end not counted; None for
+            as many as fit.
+        legs_after: Lengths of the legs driven after the end, whatever the route; they count for every limit.
 
     Raises:
         ProblemError: Numbers that are negative, NaN or of the wrong shape; a vertex that does not exist; an end that
@@ -64,11 +65,11 @@ class Problem:
     limits: tuple[Limit, ...]
     distances: Floats = field(default_factory=lambda: np.zeros((0, 0)))
     alpha: float = 0.5
-    after: tuple[float, ...] = field(default=())
+    legs_after: tuple[float, ...] = field(default=())
     costs: CostModel | None = None
-    plane: Floats | None = None
+    coordinates: Floats | None = None
     table: Table | None = None
-    most: int | None = None
+    max_visits: int | None = None
 
     def __post_init__(self) -> None:
         _check_graph(self)
@@ -92,12 +93,12 @@ class Problem:
         """Of the leg between two vertices."""
         if self.table is not None:
             return float(self.table.distances[u, v])
-        if self.plane is not None:
-            return float(np.hypot(*(self.plane[u] - self.plane[v])))
+        if self.coordinates is not None:
+            return float(np.hypot(*(self.coordinates[u] - self.coordinates[v])))
         return float(self.distances[u, v])
 
 
-def under_way(
+def unchecked_problem(
     *,
     distances: Floats,
     rewards: Floats,
@@ -105,11 +106,11 @@ def under_way(
     end: int,
     limits: tuple[Limit, ...],
     alpha: float,
-    after: tuple[float, ...] = (),
+    legs_after: tuple[float, ...] = (),
     costs: CostModel | None = None,
-    plane: Floats | None = None,
+    coordinates: Floats | None = None,
     table: Table | None = None,
-    most: int | None = None,
+    max_visits: int | None = None,
 ) -> Problem:
     """A problem whose mission has begun: nothing is checked, since what is left may be too small for the way home."""
     problem = object.__new__(Problem)
@@ -120,39 +121,41 @@ def under_way(
         "end": end,
         "limits": limits,
         "alpha": alpha,
-        "after": after,
+        "legs_after": legs_after,
         "costs": costs,
-        "plane": plane,
+        "coordinates": coordinates,
         "table": table,
-        "most": most,
+        "max_visits": max_visits,
     }.items():
         object.__setattr__(problem, name, value)
     return problem
 
 
-def visits(problem: Problem, vertices: Iterable[int]) -> int:
-    """How many of these vertices count against :attr:`Problem.most`."""
+def count_visits(problem: Problem, vertices: Iterable[int]) -> int:
+    """How many of these vertices count against :attr:`Problem.max_visits`."""
     return sum(problem.rewards[v] > 0.0 for v in set(vertices) - {problem.start, problem.end})
 
 
-def left_of(problem: Problem, vertex: int, left: tuple[float, ...], collected: tuple[int, ...] = ()) -> Problem:
+def remaining_problem(
+    problem: Problem, vertex: int, left: tuple[float, ...], collected: tuple[int, ...] = ()
+) -> Problem:
     """The problem that is left at ``vertex`` with these budgets; what was collected is worth nothing any more."""
     rewards = problem.rewards.copy()
-    most = None if problem.most is None else max(0, problem.most - visits(problem, collected))
+    max_visits = None if problem.max_visits is None else max(0, problem.max_visits - count_visits(problem, collected))
     rewards[list(collected)] = 0.0
     limits = tuple(replace(limit, budget=budget) for limit, budget in zip(problem.limits, left, strict=True))
-    return under_way(
+    return unchecked_problem(
         distances=problem.distances,
         rewards=rewards,
         start=vertex,
         end=problem.end,
         limits=limits,
         alpha=problem.alpha,
-        after=problem.after,
+        legs_after=problem.legs_after,
         costs=problem.costs,
-        plane=problem.plane,
+        coordinates=problem.coordinates,
         table=problem.table,
-        most=most,
+        max_visits=max_visits,
     )
 
 
@@ -161,10 +164,10 @@ def _check_graph(problem: Problem) -> None:
     n = len(rewards)
     if n < 2:
         raise ProblemError(f"{n} vertices are no problem", advice="give a start and an end at least")
-    if (len(d) > 0) + (problem.plane is not None) + (problem.table is not None) > 1:
+    if (len(d) > 0) + (problem.coordinates is not None) + (problem.table is not None) > 1:
         raise ProblemError("lengths are given in more than one way", advice="give distances, coordinates or a table")
-    if problem.plane is not None:
-        _check_plane(problem.plane, n)
+    if problem.coordinates is not None:
+        _check_plane(problem.coordinates, n)
     elif problem.table is not None:
         if problem.table.size != n:
             raise ProblemError(f"a table of {problem.table.size} vertices does not fit {n} rewards")
@@ -189,20 +192,20 @@ def _check_graph(problem: Problem) -> None:
             raise ProblemError(f"the {name} is vertex {vertex}, which is none of 0 to {n - 1}")
     if not 0.0 <= problem.alpha <= 1.0:
         raise ProblemError(f"alpha is {problem.alpha:g}", advice="give a number from 0 to 1")
-    most = problem.most
-    if most is not None and not (most >= 0 and most % 1 == 0):
-        raise ProblemError(f"at most {most} visits are allowed", advice="give a whole number, 0 or more")
+    max_visits = problem.max_visits
+    if max_visits is not None and not (max_visits >= 0 and max_visits % 1 == 0):
+        raise ProblemError(f"at most {max_visits} visits are allowed", advice="give a whole number, 0 or more")
     if not problem.limits:
         raise ProblemError("there is no limit", advice="give a budget")
-    if not all(np.isfinite(leg) and leg >= 0 for leg in problem.after):
+    if not all(np.isfinite(leg) and leg >= 0 for leg in problem.legs_after):
         raise ProblemError("a leg after the end is negative or not a number")
 
 
-def _check_plane(plane: Floats, n: int) -> None:
-    if plane.shape != (n, 2):
-        raise ProblemError(f"coordinates of shape {plane.shape} do not fit {n} rewards", advice=f"give {n} pairs")
-    if not np.isfinite(plane).all():
-        vertex = int(np.argwhere(~np.isfinite(plane))[0, 0])
+def _check_plane(coordinates: Floats, n: int) -> None:
+    if coordinates.shape != (n, 2):
+        raise ProblemError(f"coordinates of shape {coordinates.shape} do not fit {n} rewards", advice=f"give {n} pairs")
+    if not np.isfinite(coordinates).all():
+        vertex = int(np.argwhere(~np.isfinite(coordinates))[0, 0])
         raise ProblemError("a coordinate is not a number", where=f"vertex {vertex}")
 
 
@@ -226,7 +229,7 @@ def _check_direct(problem: Problem) -> None:
     direct = problem.length(problem.start, problem.end)
     if problem.start != problem.end and not np.isfinite(direct):
         raise ProblemError("there is no way from the start to the end", where=f"vertex {problem.end}")
-    way = (0.0 if problem.start == problem.end else direct) + sum(problem.after)
+    way = (0.0 if problem.start == problem.end else direct) + sum(problem.legs_after)
     for limit in problem.limits:
         need = way + (0.0 if limit.service is None or problem.start == problem.end else limit.service[problem.end])
         if need > limit.budget * (1 + 1e-9):

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fieldhand.errors import ProblemError
+from fieldhand.orienteering.overrun import overrun_probability
 from fieldhand.orienteering.problem import Problem
-from fieldhand.orienteering.tail import exceeding
 
 if TYPE_CHECKING:
     from fieldhand.orienteering.annealing import Annealing
@@ -38,7 +38,7 @@ class Route:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Stop:
+class StoppingCriterion:
     """When a search ends: what comes first.
 
     Attributes:
@@ -54,13 +54,13 @@ class Stop:
             raise ProblemError("a search needs at least one round and some time")
 
 
-def solve(problem: Problem, seed: int, stop: Stop | None = None) -> Route:
+def solve(problem: Problem, seed: int, stop: StoppingCriterion | None = None) -> Route:
     """The best fixed route found.
 
     Args:
         problem: What to solve.
         seed: The same seed and the same rounds give the same route.
-        stop: When to end the search; without it, after :class:`Stop`'s rounds.
+        stop: When to end the search; without it, after :class:`StoppingCriterion`'s rounds.
 
     Returns:
         A route whose chances are within the limits' failure probabilities.
@@ -69,19 +69,19 @@ def solve(problem: Problem, seed: int, stop: Stop | None = None) -> Route:
         ProblemError: No route was found that is safe enough, not even one that only goes to the end.
     """
     from fieldhand.orienteering.annealing import Annealing
-    from fieldhand.orienteering.ground import ground_of
+    from fieldhand.orienteering.prepared_problem import prepare_problem
 
-    ground = ground_of(problem)
+    prepared = prepare_problem(problem)
     free = problem.rewards > 0.0
     free[[problem.start, problem.end]] = False
-    free &= np.isfinite(ground.row(problem.start)) & np.isfinite(ground.row(problem.end))
+    free &= np.isfinite(prepared.row(problem.start)) & np.isfinite(prepared.row(problem.end))
     budgets = np.array([limit.budget for limit in problem.limits])
     state = np.array([seed], dtype=np.uint64)
     nothing = np.zeros(0, dtype=np.int64)
     vertices = np.flatnonzero(free).astype(np.int64)
-    search = Annealing(ground, problem.start, vertices, budgets, ground.tables, nothing, state, problem.most)
-    _anneal(search, stop or Stop())
-    route = described(problem, search.best.tolist())
+    search = Annealing(prepared, problem.start, vertices, budgets, prepared.tables, nothing, state, problem.max_visits)
+    _anneal(search, stop or StoppingCriterion())
+    route = route_over(problem, search.best.tolist())
     if search.reward < 0.0:
         raise ProblemError(
             f"even the safest way to the end exceeds a budget with a chance of {max(route.chances):.0%}",
@@ -90,10 +90,10 @@ def solve(problem: Problem, seed: int, stop: Stop | None = None) -> Route:
     return route
 
 
-def described(problem: Problem, stops: Sequence[int]) -> Route:
+def route_over(problem: Problem, stops: Sequence[int]) -> Route:
     """The route over ``stops`` with its figures."""
     vertices = (problem.start, *(int(v) for v in stops), problem.end)
-    legs = np.array([*(problem.length(a, b) for a, b in itertools.pairwise(vertices)), *problem.after])
+    legs = np.array([*(problem.length(a, b) for a, b in itertools.pairwise(vertices)), *problem.legs_after])
     second, third = problem.model.cumulants()
     sums = (legs.sum(), second * (legs**2).sum(), third * (legs**3).sum())
     worked = list(vertices[1:] if problem.start != problem.end else vertices[1:-1])
@@ -102,11 +102,11 @@ def described(problem: Problem, stops: Sequence[int]) -> Route:
         vertices=vertices,
         reward=float(problem.rewards[list(vertices[1:-1])].sum()),
         length=float(legs.sum()),
-        chances=tuple(float(c) for c in exceeding(*sums, left)),
+        chances=tuple(float(c) for c in overrun_probability(*sums, left)),
     )
 
 
-def _anneal(search: Annealing, stop: Stop) -> None:
+def _anneal(search: Annealing, stop: StoppingCriterion) -> None:
     if stop.seconds is None:
         search.improve(stop.rounds)
         return

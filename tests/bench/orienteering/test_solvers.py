@@ -9,7 +9,7 @@ import pytest
 from fieldhand.errors import ProblemError
 from fieldhand.orienteering.costs import Deterministic
 from fieldhand.orienteering.problem import Limit, Problem
-from fieldhand.orienteering.trials import drive
+from fieldhand.orienteering.simulated_mission import simulate_mission
 from fieldhand_bench.orienteering.bound import with_perfect_information
 from fieldhand_bench.orienteering.certain import compare
 from fieldhand_bench.orienteering.milp import solve_milp
@@ -35,7 +35,7 @@ def test_a_mission_goes_from_start_to_end_visits_nothing_twice_and_is_the_same_a
     given = problem(9, 3, budget=2.0)
     prepared = prepare(name, given, QUICK)
     for seed in range(4):
-        made, again = (drive(given, prepared.mission(seed), np.random.default_rng(seed)) for _ in range(2))
+        made, again = (simulate_mission(given, prepared.mission(seed), np.random.default_rng(seed)) for _ in range(2))
         assert (made.path[0], made.path[-1]) == (0, 8)
         assert len(set(made.path)) == len(made.path)
         assert made == again
@@ -59,7 +59,7 @@ def test_who_knows_every_cost_collects_at_least_as_much_as_who_does_not():
     given = problem(10, 2, budget=1.8)
     known = np.mean([with_perfect_information(given, seed)[0] for seed in range(60)])
     prepared = prepare("online", given, QUICK)
-    driven = [drive(given, prepared.mission(s), np.random.default_rng(s)) for s in range(60)]
+    driven = [simulate_mission(given, prepared.mission(s), np.random.default_rng(s)) for s in range(60)]
     assert known > np.mean([m.reward if m.kept else 0.0 for m in driven])
 
 
@@ -80,7 +80,12 @@ def test_greedy_goes_where_the_reward_for_the_way_is_greatest():
         end=3,
         limits=(Limit(budget=90.0),),
     )
-    assert drive(given, prepare("greedy", given, QUICK).mission(0), np.random.default_rng(0)).path == (0, 2, 1, 3)
+    assert simulate_mission(given, prepare("greedy", given, QUICK).mission(0), np.random.default_rng(0)).path == (
+        0,
+        2,
+        1,
+        3,
+    )
 
 
 def test_without_chance_the_search_finds_what_pyvrp_finds():

@@ -13,7 +13,7 @@ import numpy as np
 from fieldhand.errors import ProblemError
 from fieldhand.orienteering.costs import Deterministic
 from fieldhand.orienteering.problem import Problem
-from fieldhand.orienteering.route import Stop, solve
+from fieldhand.orienteering.route import StoppingCriterion, solve
 
 
 def with_perfect_information(problem: Problem, seed: int, rounds: int = 2000) -> tuple[float, bool]:
@@ -22,7 +22,7 @@ def with_perfect_information(problem: Problem, seed: int, rounds: int = 2000) ->
     factors = np.triu(factors) + np.triu(factors, 1).T
     try:
         world = replace(problem, distances=problem.distances * factors, costs=Deterministic())
-        route = solve(world, seed, Stop(rounds=rounds))
+        route = solve(world, seed, StoppingCriterion(rounds=rounds))
     except ProblemError:
         return 0.0, False
     return route.reward + float(problem.rewards[problem.end]), True

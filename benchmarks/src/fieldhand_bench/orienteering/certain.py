@@ -11,7 +11,7 @@ import numpy as np
 from fieldhand.errors import ProblemError
 from fieldhand.orienteering.costs import Deterministic
 from fieldhand.orienteering.problem import Problem
-from fieldhand.orienteering.route import Stop, solve
+from fieldhand.orienteering.route import StoppingCriterion, solve
 
 #: PyVRP counts in whole numbers: a budget is so many units of length, all reward so many units of prize. One unit of
 #: length is worth next to nothing beside the prizes.
@@ -46,11 +46,16 @@ def compare(problem: Problem, seed: int, seconds: float) -> tuple[Certain, Certa
     Raises:
         ProblemError: PyVRP is not installed, or the problem is of another kind.
     """
-    if len(problem.limits) != 1 or not len(problem.distances) or problem.limits[0].service is not None or problem.after:
+    if (
+        len(problem.limits) != 1
+        or not len(problem.distances)
+        or problem.limits[0].service is not None
+        or problem.legs_after
+    ):
         raise ProblemError("the comparison takes problems with distances, one limit and no service only")
     certain = replace(problem, costs=Deterministic())
     began = time.perf_counter()
-    route = solve(certain, seed, Stop(rounds=10**9, seconds=seconds))
+    route = solve(certain, seed, StoppingCriterion(rounds=10**9, seconds=seconds))
     ours = Certain(
         solver="fieldhand", reward=route.reward, length=route.length, seconds=time.perf_counter() - began
     )  # fmt: skip

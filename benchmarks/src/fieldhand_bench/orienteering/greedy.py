@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from fieldhand.orienteering.overrun import overrun_probability
 from fieldhand.orienteering.policy import State
 from fieldhand.orienteering.problem import Problem
-from fieldhand.orienteering.tail import exceeding
 
 
 class Greedy:
@@ -20,14 +20,14 @@ class Greedy:
         problem, here, end = self._problem, state.vertex, self._problem.end
         there = np.array([problem.length(here, v) for v in range(problem.size)])
         home = np.array([problem.length(v, end) for v in range(problem.size)])
-        after = np.array(problem.after)
+        after = np.array(problem.legs_after)
         second, third = problem.model.cumulants()
         free = problem.rewards > 0.0
         free[[*state.visited, here, problem.start, end]] = False
         for limit, left in zip(problem.limits, state.left, strict=True):
             work = np.zeros(problem.size) if limit.service is None else limit.service + limit.service[end]
             sums = [there**k + home**k + (after**k).sum() for k in (1, 2, 3)]
-            chance = exceeding(sums[0], second * sums[1], third * sums[2], left - work)
+            chance = overrun_probability(sums[0], second * sums[1], third * sums[2], left - work)
             free &= chance <= limit.failure_probability
         if not free.any():
             return end

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from fieldhand.errors import ProblemError
 from fieldhand.orienteering.kernels.compiled import compiled
 from fieldhand.orienteering.kernels.legs import Floats, Ints, Seeds, uniform
+from fieldhand.orienteering.overrun import quantile_table
 from fieldhand.orienteering.policy import State
 from fieldhand.orienteering.problem import Problem
-from fieldhand.orienteering.tail import quantile_table
 
 
 class TreeSearch:
@@ -32,7 +32,7 @@ class TreeSearch:
     """
 
     def __init__(self, problem: Problem, seed: int, simulations: int = 2000) -> None:
-        if len(problem.limits) != 1 or not len(problem.distances) or problem.after:
+        if len(problem.limits) != 1 or not len(problem.distances) or problem.legs_after:
             raise ProblemError("the plain tree search takes problems with distances and one limit only")
         self._problem, self._simulations = problem, simulations
         self._state = np.array([seed], dtype=np.uint64)

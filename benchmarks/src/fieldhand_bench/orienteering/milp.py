@@ -57,7 +57,7 @@ def solve_milp(problem: Problem, seed: int, seconds: float, samples: int = 40) -
     """
     import highspy
 
-    if len(problem.limits) != 1 or not len(problem.distances) or problem.after or problem.start == problem.end:
+    if len(problem.limits) != 1 or not len(problem.distances) or problem.legs_after or problem.start == problem.end:
         raise ProblemError("the programme takes problems with distances, one limit and two ends only")
     n = problem.size
     ends = [(i, j) for i in range(n) for j in range(n) if i != j and i != problem.end and j != problem.start]

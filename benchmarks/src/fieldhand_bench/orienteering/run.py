@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fieldhand.orienteering.policy import State
 from fieldhand.orienteering.problem import Problem
-from fieldhand.orienteering.trials import drive
+from fieldhand.orienteering.simulated_mission import simulate_mission
 from fieldhand_bench.orienteering.bound import with_perfect_information
 from fieldhand_bench.orienteering.engine import spread
 from fieldhand_bench.orienteering.graphs import Graph
@@ -121,7 +121,7 @@ def _prepare(solver: str, problem: Problem, options: Options) -> tuple[Prepared,
     if solver in {"online", "fixed"}:
         # Compile first: that is waited for once in the life of an installation.
         prepare("fixed", problem, options)
-        drive(problem, prepare("online", problem, _once(options)).mission(0), np.random.default_rng(0))
+        simulate_mission(problem, prepare("online", problem, _once(options)).mission(0), np.random.default_rng(0))
     began = time.perf_counter()
     prepared = prepare(solver, problem, options)
     return prepared, time.perf_counter() - began
@@ -137,14 +137,16 @@ def _drive(piece: _Piece) -> _Driven:
     kept: list[bool] = []
     seconds: list[float] = []
     if piece.prepared is not None:
-        drive(piece.problem, piece.prepared.mission(0), np.random.default_rng(0))
+        simulate_mission(piece.problem, piece.prepared.mission(0), np.random.default_rng(0))
     for seed in piece.seeds:
         if piece.prepared is None:
             reward, reached = with_perfect_information(piece.problem, seed)
             rewards.append(reward)
             kept.append(reached)
             continue
-        mission = drive(piece.problem, _timed(piece.prepared.mission(seed), seconds), np.random.default_rng([7, seed]))
+        mission = simulate_mission(
+            piece.problem, _timed(piece.prepared.mission(seed), seconds), np.random.default_rng([7, seed])
+        )
         rewards.append(mission.reward)
         kept.append(mission.kept)
     return _Driven(

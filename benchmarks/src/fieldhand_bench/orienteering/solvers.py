@@ -9,7 +9,7 @@ from typing import Protocol
 from fieldhand.errors import ProblemError
 from fieldhand.orienteering.policy import Policy, State
 from fieldhand.orienteering.problem import Problem
-from fieldhand.orienteering.route import Stop, solve
+from fieldhand.orienteering.route import StoppingCriterion, solve
 
 Next = Callable[[State], int]
 
@@ -97,12 +97,12 @@ def prepare(name: str, problem: Problem, options: Options) -> Prepared:
     """
     match name:
         case "online":
-            from fieldhand.orienteering.trials import tried
+            from fieldhand.orienteering.price_tuning import tune_price
 
-            policy = Policy(problem, options.seed, daring=options.daring)
-            return _Online(tried(policy, problem, options.seed + 1, options.missions))
+            policy = Policy(problem, options.seed, risk_tolerance=options.daring)
+            return _Online(tune_price(policy, problem, options.seed + 1, options.missions))
         case "fixed":
-            return _Fixed(solve(problem, options.seed, Stop(rounds=20_000)).vertices)
+            return _Fixed(solve(problem, options.seed, StoppingCriterion(rounds=20_000)).vertices)
         case "greedy":
             return _Greedy(problem)
         case "mcts":

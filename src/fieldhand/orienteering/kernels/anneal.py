@@ -12,7 +12,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.orienteering.kernels.compiled import compiled, inner
-from fieldhand.orienteering.kernels.legs import Floats, Ints, Seeds, Ways, copy, length, needed, sort_by, uniform
+from fieldhand.orienteering.kernels.legs import (
+    Floats,
+    Ints,
+    LegLengths,
+    Seeds,
+    copy,
+    cost_quantile,
+    length,
+    sort_by,
+    uniform,
+)
 
 # Entries of ``sums``: of the legs' lengths, squares and cubes; the reward; the number of stops.
 
@@ -27,18 +37,19 @@ def excess(sums: Floats, used: Floats, budgets: Floats, cumulants: Floats, quant
     """By how much the limit that binds most is exceeded; not above 0 where all are kept."""
     worst = -np.inf
     for limit in range(len(budgets)):
-        over = needed(sums[0], sums[1], sums[2], cumulants, quantiles[limit]) + used[limit] - budgets[limit]
+        over = cost_quantile(sums[0], sums[1], sums[2], cumulants, quantiles[limit]) + used[limit] - budgets[limit]
         worst = max(worst, over)
     return worst
 
 
 @inner
 def link(
-    p: int, v: int, after: Ints, before: Ints, sums: Floats, used: Floats, ways: Ways, rewards: Floats, service: Floats,
+    p: int, v: int, after: Ints, before: Ints, sums: Floats, used: Floats, lengths: LegLengths, rewards: Floats,
+    service: Floats,
 ) -> None:  # fmt: skip
     """Put v into the route after p."""
     q = after[p]
-    a, b, c = length(ways, p, v), length(ways, v, q), length(ways, p, q)
+    a, b, c = length(lengths, p, v), length(lengths, v, q), length(lengths, p, q)
     sums[0] += a + b - c
     sums[1] += a * a + b * b - c * c
     sums[2] += a * a * a + b * b * b - c * c * c
@@ -54,11 +65,12 @@ def link(
 
 @inner
 def unlink(
-    v: int, after: Ints, before: Ints, sums: Floats, used: Floats, ways: Ways, rewards: Floats, service: Floats,
+    v: int, after: Ints, before: Ints, sums: Floats, used: Floats, lengths: LegLengths, rewards: Floats,
+    service: Floats,
 ) -> None:  # fmt: skip
     """Take v out of the route."""
     p, q = before[v], after[v]
-    a, b, c = length(ways, p, v), length(ways, v, q), length(ways, p, q)
+    a, b, c = length(lengths, p, v), length(lengths, v, q), length(lengths, p, q)
     sums[0] -= a + b - c
     sums[1] -= a * a + b * b - c * c
     sums[2] -= a * a * a + b * b * b - c * c * c
@@ -74,18 +86,19 @@ def unlink(
 
 @inner
 def begin(
-    here: int, stops: Ints, afterwards: Floats, after: Ints, before: Ints, sums: Floats, used: Floats, ways: Ways,
-    rewards: Floats, service: Floats, budgets: Floats, cumulants: Floats, quantiles: Floats, most: int,
+    here: int, stops: Ints, afterwards: Floats, after: Ints, before: Ints, sums: Floats, used: Floats,
+    lengths: LegLengths, rewards: Floats, service: Floats, budgets: Floats, cumulants: Floats, quantiles: Floats,
+    max_stops: int,
 ) -> None:  # fmt: skip
     """Lay the route from here over ``stops`` to the end; leave out those worth least while a limit is exceeded, or
-    while there are more than ``most``."""
+    while there are more than ``max_stops``."""
     end = len(rewards) - 1
     for v in range(end + 1):
         after[v] = -1
         before[v] = -1
     after[here] = end
     before[end] = here
-    c = length(ways, here, end)
+    c = length(lengths, here, end)
     sums[0] = c + afterwards[0]
     sums[1] = c * c + afterwards[1]
     sums[2] = c * c * c + afterwards[2]
@@ -95,29 +108,29 @@ def begin(
         used[limit] = service[limit, end]
     last = here
     for v in stops:
-        link(last, v, after, before, sums, used, ways, rewards, service)
+        link(last, v, after, before, sums, used, lengths, rewards, service)
         last = v
-    while sums[4] > most or (sums[4] > 0.0 and excess(sums, used, budgets, cumulants, quantiles) > 0.0):
+    while sums[4] > max_stops or (sums[4] > 0.0 and excess(sums, used, budgets, cumulants, quantiles) > 0.0):
         worst, least = -1, np.inf
         v = after[here]
         while v != end:
             p, q = before[v], after[v]
-            detour = length(ways, p, v) + length(ways, v, q) - length(ways, p, q)
+            detour = length(lengths, p, v) + length(lengths, v, q) - length(lengths, p, q)
             for limit in range(len(used)):
                 detour += service[limit, v]
             if detour > 0.0 and rewards[v] / detour < least:
                 worst, least = v, rewards[v] / detour
             v = q
-        if worst < 0 and sums[4] > most:
+        if worst < 0 and sums[4] > max_stops:
             worst = before[end]
         if worst < 0:
             break
-        unlink(worst, after, before, sums, used, ways, rewards, service)
+        unlink(worst, after, before, sums, used, lengths, rewards, service)
 
 
 @inner
 def _best_place(
-    v: int, here: int, end: int, after: Ints, before: Ints, near: Ints, ways: Ways, blink: float,
+    v: int, here: int, end: int, after: Ints, before: Ints, near: Ints, lengths: LegLengths, blink: float,
     state: Seeds,
 ) -> int:  # fmt: skip
     """The node after which v lengthens the route least, among those beside v's neighbours and the route's ends."""
@@ -126,7 +139,7 @@ def _best_place(
         u = here if i == -2 else (before[end] if i == -1 else near[v, i])
         if u != here and after[u] < 0:
             continue
-        there = length(ways, u, v)
+        there = length(lengths, u, v)
         for side in range(2):
             if side == 1 and u == here:
                 continue
@@ -134,9 +147,9 @@ def _best_place(
                 continue
             p = u if side == 0 else before[u]
             if side == 0:
-                more = there + length(ways, v, after[u]) - length(ways, u, after[u])
+                more = there + length(lengths, v, after[u]) - length(lengths, u, after[u])
             else:
-                more = length(ways, p, v) + there - length(ways, p, u)
+                more = length(lengths, p, v) + there - length(lengths, p, u)
             if more < best:
                 best, place = more, p
     return place
@@ -154,7 +167,7 @@ def _beside(v: int, after: Ints, near: Ints) -> bool:
 @inner
 def _take_out(
     seed: int, here: int, turn: int, allowed: NDArray[np.bool_], seen: Ints, moves: Ints, after: Ints, before: Ints,
-    sums: Floats, used: Floats, ways: Ways, near: Ints, rewards: Floats, service: Floats, state: Seeds,
+    sums: Floats, used: Floats, lengths: LegLengths, near: Ints, rewards: Floats, service: Floats, state: Seeds,
 ) -> int:  # fmt: skip
     """Take one or two strings of stops near ``seed`` out of the route; how many stops, which ``moves`` tells."""
     end = len(rewards) - 1
@@ -179,14 +192,14 @@ def _take_out(
             q = after[u]
             moves[steps, 0], moves[steps, 1], moves[steps, 2] = u, before[u], 0
             steps += 1
-            unlink(u, after, before, sums, used, ways, rewards, service)
+            unlink(u, after, before, sums, used, lengths, rewards, service)
             seen[u] = turn
             u = q
     return steps
 
 
 @inner
-def _rank(out: Ints, key: Floats, count: int, seed: int, ways: Ways, rewards: Floats, state: Seeds) -> None:
+def _rank(out: Ints, key: Floats, count: int, seed: int, lengths: LegLengths, rewards: Floats, state: Seeds) -> None:
     """Sort the stops that may be put in: at random, by reward, by reward with noise, or by nearness to ``seed``."""
     rule = int(uniform(state) * 4.0)
     for i in range(count):
@@ -198,7 +211,7 @@ def _rank(out: Ints, key: Floats, count: int, seed: int, ways: Ways, rewards: Fl
         elif rule == 2:
             key[i] = -rewards[v] * (0.3 + uniform(state))
         else:
-            key[i] = length(ways, v, seed)
+            key[i] = length(lengths, v, seed)
     sort_by(key, out, count)
 
 
@@ -230,8 +243,8 @@ def _undo(moves: Ints, steps: int, after: Ints, before: Ints) -> None:
 @compiled
 def anneal(
     here: int, free: Ints, after: Ints, before: Ints, sums: Floats, used: Floats,
-    ways: Ways, near: Ints, rewards: Floats, service: Floats, budgets: Floats, cumulants: Floats,
-    quantiles: Floats, most: int, worth: float, hot: float, cold: float, rounds: int, state: Seeds, best: Ints,
+    lengths: LegLengths, near: Ints, rewards: Floats, service: Floats, budgets: Floats, cumulants: Floats,
+    quantiles: Floats, max_stops: int, worth: float, hot: float, cold: float, rounds: int, state: Seeds, best: Ints,
     record: Floats,
 ) -> int:  # fmt: skip
     """Better the route in ``after`` and ``before`` by ``rounds`` rounds.
@@ -240,10 +253,10 @@ def anneal(
         here: Where the route begins.
         free: Vertices that may be visited; each of them not in the route has -1 in ``after``.
         after, before, sums, used: The route and its figures, changed in place.
-        ways, near: Lengths, and the nearest vertices of each, nearest first.
+        lengths, near: Lengths, and the nearest vertices of each, nearest first.
         rewards, service, budgets: ``service`` has limits along its first axis.
-        cumulants, quantiles: For :func:`needed`; ``quantiles`` has limits along its first axis.
-        most: Stops that the route may have.
+        cumulants, quantiles: For :func:`cost_quantile`; ``quantiles`` has limits along its first axis.
+        max_visits: Stops that the route may have.
         worth: What part of the best reward a unit of length counts for.
         hot, cold: Temperature of the first and of the last round, in reward.
         state: Of the random numbers.
@@ -274,7 +287,7 @@ def anneal(
         else:
             if sums[4] > 0.0:
                 steps = _take_out(
-                    seed, here, turn, allowed, seen, moves, after, before, sums, used, ways, near, rewards,
+                    seed, here, turn, allowed, seen, moves, after, before, sums, used, lengths, near, rewards,
                     service, state,
                 )  # fmt: skip
             for i in range(steps):
@@ -286,18 +299,18 @@ def anneal(
                     seen[u] = turn
                     out[count] = u
                     count += 1
-        _rank(out, key, count, seed, ways, rewards, state)
+        _rank(out, key, count, seed, lengths, rewards, state)
         over = excess(sums, used, budgets, cumulants, quantiles)
         for i in range(count):
-            if sums[4] >= most:
+            if sums[4] >= max_stops:
                 break
             v = out[i]
-            p = _best_place(v, here, end, after, before, near, ways, _BLINK, state)
+            p = _best_place(v, here, end, after, before, near, lengths, _BLINK, state)
             if p < 0:
                 continue
             copy(sums, one_sums)
             copy(used, one_used)
-            link(p, v, after, before, sums, used, ways, rewards, service)
+            link(p, v, after, before, sums, used, lengths, rewards, service)
             now = excess(sums, used, budgets, cumulants, quantiles)
             if now <= 0.0 or now < over:
                 moves[steps, 0], moves[steps, 1], moves[steps, 2] = v, p, 1

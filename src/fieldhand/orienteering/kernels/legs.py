@@ -15,7 +15,7 @@ Ints = NDArray[np.int64]
 Seeds = NDArray[np.uint64]
 
 
-class Ways(NamedTuple):
+class LegLengths(NamedTuple):
     """How long the leg between any two nodes is.
 
     Attributes:
@@ -48,19 +48,19 @@ def uniform(state: Seeds) -> float:
 
 
 @inner
-def length(ways: Ways, u: int, v: int) -> float:
+def length(lengths: LegLengths, u: int, v: int) -> float:
     """Return the length of the leg from u to v: an entry of the matrix or the table, or the straight line."""
-    if ways.matrix.shape[0] > 0:
-        return ways.matrix[u, v]  # type: ignore[no-any-return]
-    if ways.xy.shape[0] > 0:
-        x, y = ways.xy[u, 0] - ways.xy[v, 0], ways.xy[u, 1] - ways.xy[v, 1]
+    if lengths.matrix.shape[0] > 0:
+        return lengths.matrix[u, v]  # type: ignore[no-any-return]
+    if lengths.xy.shape[0] > 0:
+        x, y = lengths.xy[u, 0] - lengths.xy[v, 0], lengths.xy[u, 1] - lengths.xy[v, 1]
         return math.sqrt(x * x + y * y)
-    last = ways.table.shape[0]
-    return float(ways.table[ways.end if u == last else u, ways.end if v == last else v])
+    last = lengths.table.shape[0]
+    return float(lengths.table[lengths.end if u == last else u, lengths.end if v == last else v])
 
 
 @inner
-def needed(first: float, second: float, third: float, cumulants: Floats, quantiles: Floats) -> float:
+def cost_quantile(first: float, second: float, third: float, cumulants: Floats, quantiles: Floats) -> float:
     """What legs exceed with one certain chance: Pearson III through their first three cumulants.
 
     Args:

@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from fieldhand.orienteering.kernels.compiled import inner
-from fieldhand.orienteering.kernels.legs import Floats, Ints, Ways, copy, length
+from fieldhand.orienteering.kernels.legs import Floats, Ints, LegLengths, copy, length
 
 #: Rows that the programme works in.
 WORK = 7
@@ -177,7 +177,7 @@ def home(success: Floats, to_success: Floats, floor: float, step: float) -> None
 
 @inner
 def backward(
-    route: Ints, ways: Ways, rewards: Floats, service: Floats, ends: Floats, floors: Floats,
+    route: Ints, lengths: LegLengths, rewards: Floats, service: Floats, ends: Floats, floors: Floats,
     bonus: float, step: float, skip: int, points: Floats, weights: Floats,
     worth: Floats, success: Floats, ahead: Floats, choice: Ints, work: Floats,
 ) -> None:  # fmt: skip
@@ -185,7 +185,7 @@ def backward(
 
     Args:
         route: From here to the end, both included.
-        ways: For :func:`length`.
+        lengths: For :func:`length`.
         rewards: Of each vertex.
         service: What the work at each vertex takes of the first limit.
         ends: By what is left at the end, the chance that what must follow there is within the limit.
@@ -211,14 +211,14 @@ def backward(
     for i in range(1, last):
         collected += rewards[route[i]]
     for i in range(last - 1, -1, -1):
-        leg = length(ways, route[i], route[last])
+        leg = length(lengths, route[i], route[last])
         home(ends, arrived, floors[i], step)
         drive(worth[last], arrived, worth[i], success[i], leg, service[route[last]], step, points, weights)
         for k in range(size):
             choice[i, k] = last
         reward = rewards[route[i]] if i > 0 else 0.0
         for j in range(i + 1, min(i + skip, last - 1) + 1):
-            leg = length(ways, route[i], route[j])
+            leg = length(lengths, route[i], route[j])
             drive(ahead[j], success[j], to_worth, to_success, leg, service[route[j]], step, points, weights)
             for k in range(size):
                 if to_worth[k] + collected * to_success[k] > worth[i, k] + collected * success[i, k]:
@@ -232,7 +232,7 @@ def backward(
 
 @inner
 def forward(
-    route: Ints, ways: Ways, service: Floats, step: float, skip: int, points: Floats, weights: Floats,
+    route: Ints, lengths: LegLengths, service: Floats, step: float, skip: int, points: Floats, weights: Floats,
     choice: Ints, mass: Floats, work: Floats,
 ) -> None:  # fmt: skip
     """Fill ``mass``: how likely a mission comes to each position with each amount left. ``work`` is overwritten."""
@@ -250,18 +250,18 @@ def forward(
                 if choice[i, k] == j:
                     going += mass[i, k]
             if going > 1e-12:
-                leg = length(ways, route[i], route[j])
+                leg = length(lengths, route[i], route[j])
                 gather(mass[i], choice[i], j, mass[j], leg, service[route[j]], step, points, weights, work[0])
 
 
 @inner
-def _tried(v: int, route: Ints, ways: Ways, coming: Floats, detour: Floats) -> float:
+def _tried(v: int, route: Ints, lengths: LegLengths, coming: Floats, detour: Floats) -> float:
     """Fill ``detour``: what the way over v adds after each position; the longest detour that is tried."""
     last = len(route) - 1
-    came = length(ways, route[0], v)
+    came = length(lengths, route[0], v)
     for i in range(last):
-        goes = length(ways, v, route[i + 1])
-        detour[i] = came + goes - length(ways, route[i], route[i + 1]) if coming[i] >= _RARE else np.inf
+        goes = length(lengths, v, route[i + 1])
+        detour[i] = came + goes - length(lengths, route[i], route[i + 1]) if coming[i] >= _RARE else np.inf
         came = goes
     longest = -np.inf
     for _ in range(_PLACES):
@@ -277,22 +277,22 @@ def _tried(v: int, route: Ints, ways: Ways, coming: Floats, detour: Floats) -> f
 
 @inner
 def gains(
-    route: Ints, ways: Ways, rewards: Floats, service: Floats, ends: Floats, floors: Floats,
+    route: Ints, lengths: LegLengths, rewards: Floats, service: Floats, ends: Floats, floors: Floats,
     bonus: float, step: float, points: Floats, weights: Floats,
     worth: Floats, success: Floats, ahead: Floats, mass: Floats, candidates: Ints, gain: Floats, place: Ints,
-    work: Floats, ways_over: Floats,
+    work: Floats, detours: Floats,
 ) -> None:  # fmt: skip
     """For each candidate, what the order gains when it may be visited after the one position where it gains most.
 
     From there the robot drives on to the next position or to the end. Those positions are tried where the way over
     the candidate is the least detour. ``work`` is overwritten, shape (:data:`WORK`, points of the grid), and so is
-    ``ways_over``, shape (2, positions).
+    ``detours``, shape (2, positions).
     """
     last = len(route) - 1
     size = worth.shape[1]
     then_worth, then_success, to_worth, to_success = work[0], work[1], work[2], work[3]
     arrived, home_worth, home_success = work[4], work[5], work[6]
-    coming, detour = ways_over[0], ways_over[1]
+    coming, detour = detours[0], detours[1]
     for i in range(last):
         coming[i] = 0.0
         for k in range(size):
@@ -301,8 +301,8 @@ def gains(
         v = candidates[c]
         gain[c] = 0.0
         place[c] = 0
-        leg_home = length(ways, v, route[last])
-        longest = _tried(v, route, ways, coming, detour)
+        leg_home = length(lengths, v, route[last])
+        longest = _tried(v, route, lengths, coming, detour)
         floor = -1.0
         here = bonus
         for i in range(last):
@@ -318,7 +318,7 @@ def gains(
             copy(home_worth, then_worth)
             copy(home_success, then_success)
             if i + 1 < last:
-                leg = length(ways, v, route[i + 1])
+                leg = length(lengths, v, route[i + 1])
                 takes = service[route[i + 1]]
                 drive(ahead[i + 1], success[i + 1], to_worth, to_success, leg, takes, step, points, weights)
                 for k in range(size):
@@ -327,7 +327,7 @@ def gains(
                         then_success[k] = to_success[k]
             for k in range(size):
                 then_worth[k] += rewards[v] * then_success[k]
-            leg = length(ways, route[i], v)
+            leg = length(lengths, route[i], v)
             drive(then_worth, then_success, to_worth, to_success, leg, service[v], step, points, weights)
             found = 0.0
             for k in range(size):

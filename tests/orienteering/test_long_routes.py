@@ -11,7 +11,7 @@ import pytest
 from fieldhand.orienteering.policy import Policy, State
 from fieldhand.orienteering.preview import preview
 from fieldhand.orienteering.problem import Limit, Problem
-from fieldhand.orienteering.trials import drive
+from fieldhand.orienteering.simulated_mission import simulate_mission
 
 BUDGET = 300.0
 DRAWS = 2000
@@ -36,12 +36,15 @@ def block(away: float, bend: float, accepted: float) -> Problem:
 @cache
 def driven(away: float, bend: float, accepted: float):
     problem = block(away, bend, accepted)
-    return [drive(problem, Policy(problem, 0, daring=0.0).next, np.random.default_rng(seed)) for seed in range(4)]
+    return [
+        simulate_mission(problem, Policy(problem, 0, risk_tolerance=0.0).next, np.random.default_rng(seed))
+        for seed in range(4)
+    ]
 
 
 @cache
 def foreseen(away: float, bend: float, accepted: float):
-    policy = Policy(block(away, bend, accepted), 0, daring=0.0)
+    policy = Policy(block(away, bend, accepted), 0, risk_tolerance=0.0)
     return preview(policy, State(vertex=0, left=(BUDGET,)), np.random.default_rng(1), np.zeros(DRAWS))
 
 
@@ -96,21 +99,27 @@ def test_what_was_given_up_was_not_collected():
         distances=problem.distances, rewards=none, start=problem.start, end=problem.end, limits=problem.limits
     )
     state = State(vertex=90, left=(120.0,), visited=frozenset(range(60, 90)))
-    one, other = Policy(problem, 0, daring=0.0, price=0.0), Policy(without, 0, daring=0.0, price=0.0)
+    one, other = Policy(problem, 0, risk_tolerance=0.0, price=0.0), Policy(without, 0, risk_tolerance=0.0, price=0.0)
     chosen = one.next(State(vertex=90, left=(120.0,), visited=state.visited, given_up=gone))
     assert chosen == other.next(state)
-    assert one.outlook == other.outlook
-    assert not set(one.outlook.vertices) & gone
+    assert one.expectation == other.expectation
+    assert not set(one.expectation.vertices) & gone
 
 
 def test_a_mission_sets_out_where_one_visit_is_safe_enough_although_the_way_takes_most_of_the_chance():
     # 240 m of 410 m are two long legs: there and back alone exceeds the limit in 6 %, and 10 % are accepted.
     problem = block(120.0, 0.0, 0.1)
     problem = replace(problem, limits=(replace(problem.limits[0], budget=410.0),))
-    missions = [drive(problem, Policy(problem, 0, daring=0.0).next, np.random.default_rng(seed)) for seed in range(8)]
+    missions = [
+        simulate_mission(problem, Policy(problem, 0, risk_tolerance=0.0).next, np.random.default_rng(seed))
+        for seed in range(8)
+    ]
     assert all(len(mission.path) > 2 for mission in missions)
     found = preview(
-        Policy(problem, 0, daring=0.0), State(vertex=0, left=(410.0,)), np.random.default_rng(1), np.zeros(DRAWS)
+        Policy(problem, 0, risk_tolerance=0.0),
+        State(vertex=0, left=(410.0,)),
+        np.random.default_rng(1),
+        np.zeros(DRAWS),
     )
     assert found.visited[:, 0].all()
     assert (found.legs + found.last > 410.0).mean() <= 0.15
@@ -137,7 +146,7 @@ def rows_with_headlands(away: float, budget: float) -> Problem:
 @pytest.mark.parametrize("left", [360.0, 420.0])
 def test_a_price_is_found_for_the_safe_route_where_the_order_worth_most_cannot_be_safe(left):
     # Along the row and home takes many short legs; straight home is one long leg, which is less certain.
-    policy = Policy(rows_with_headlands(140.0, 800.0), 0, daring=0.0, warm=range(21, 121))
+    policy = Policy(rows_with_headlands(140.0, 800.0), 0, risk_tolerance=0.0, warm=range(21, 121))
     policy.next(State(vertex=20, left=(left,), visited=frozenset(range(1, 21))))
     assert policy.price is not None
-    assert 1.0 - policy.outlook.success <= 0.1 * 1.05
+    assert 1.0 - policy.expectation.success <= 0.1 * 1.05

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.orienteering.kernels.compiled import compiled, inner
-from fieldhand.orienteering.kernels.legs import Floats, Ints, Ways, length, sort_by
-from fieldhand.orienteering.kernels.value import WORK, backward, forward, gains
+from fieldhand.orienteering.kernels.legs import Floats, Ints, LegLengths, length, sort_by
+from fieldhand.orienteering.kernels.order_value import WORK, backward, forward, gains
 
 #: Vertices that are tried for the first insertion, and for those after it.
 CANDIDATES = 24
@@ -31,15 +31,21 @@ def floors_of(route: Ints, service: Floats, budgets: Floats, floors: Floats) -> 
 
 
 @inner
-def _detour(v: int, i: int, route: Ints, ways: Ways) -> float:
+def _detour(v: int, i: int, route: Ints, lengths: LegLengths) -> float:
     """Return what the way over v adds to the leg that leads to position i."""
     p, q = route[i - 1], route[i]
-    return length(ways, p, v) + length(ways, v, q) - length(ways, p, q)
+    return length(lengths, p, v) + length(lengths, v, q) - length(lengths, p, q)
 
 
 @compiled
 def _promising(
-    route: Ints, free: Ints, inside: NDArray[np.bool_], ways: Ways, near: Ints, rewards: Floats, service: Floats
+    route: Ints,
+    free: Ints,
+    inside: NDArray[np.bool_],
+    lengths: LegLengths,
+    near: Ints,
+    rewards: Floats,
+    service: Floats,
 ) -> Ints:
     """The free vertices outside the route with most reward for the way that they add."""
     count = 0
@@ -54,18 +60,18 @@ def _promising(
             continue
         least = np.inf
         if len(free) > _MANY:
-            least = min(_detour(v, 1, route, ways), _detour(v, len(route) - 1, route, ways))
+            least = min(_detour(v, 1, route, lengths), _detour(v, len(route) - 1, route, lengths))
             for k in range(near.shape[1]):
                 i = position[near[v, k]]
                 if i > 0:
-                    least = min(least, _detour(v, i, route, ways))
+                    least = min(least, _detour(v, i, route, lengths))
                 if 0 <= i < len(route) - 1:
-                    least = min(least, _detour(v, i + 1, route, ways))
+                    least = min(least, _detour(v, i + 1, route, lengths))
         else:
-            came = length(ways, route[0], v)
+            came = length(lengths, route[0], v)
             for i in range(1, len(route)):
-                goes = length(ways, route[i], v)
-                least = min(least, came + goes - length(ways, route[i - 1], route[i]))
+                goes = length(lengths, route[i], v)
+                least = min(least, came + goes - length(lengths, route[i - 1], route[i]))
                 came = goes
         outside[count] = v
         score[count] = -rewards[v] / (least + service[v] + 1e-300)
@@ -78,7 +84,7 @@ def _promising(
 
 @compiled
 def grow(
-    stops: Ints, here: int, free: Ints, longest: int, insertions: int, ways: Ways, near: Ints,
+    stops: Ints, here: int, free: Ints, longest: int, insertions: int, lengths: LegLengths, near: Ints,
     rewards: Floats, service: Floats, budgets: Floats, ends: Floats, bonus: float, skip: int, points: Floats,
     weights: Floats, order: Ints, figures: Floats,
 ) -> int:  # fmt: skip
@@ -91,7 +97,7 @@ def grow(
         longest: Stops that the order may have.
         insertions: How many may be inserted.
         near: Nearest vertices of each.
-        ways, rewards, service, budgets, ends, bonus, skip, points, weights: As for :func:`backward`; ``service``
+        lengths, rewards, service, budgets, ends, bonus, skip, points, weights: As for :func:`backward`; ``service``
             and ``budgets`` of every limit, the one with the least budget first.
         order: Overwritten: the order's stops.
         figures: Overwritten: reward still to come of missions that keep to the limits, chance that they do, and the
@@ -107,7 +113,7 @@ def grow(
     worth, success = np.empty((capacity, size)), np.empty((capacity, size))
     ahead, mass = np.empty((capacity, size)), np.empty((capacity, size))
     choice = np.empty((capacity, size), np.int64)
-    floors, work, ways_over = np.empty(capacity), np.empty((WORK, size)), np.empty((2, capacity))
+    floors, work, detours = np.empty(capacity), np.empty((WORK, size)), np.empty((2, capacity))
     route = np.empty(capacity, np.int64)
     inside = np.zeros(end + 1, np.bool_)
     count = len(stops)
@@ -117,23 +123,23 @@ def grow(
         inside[stops[i]] = True
     route[count + 1] = end
     outside = free if insertions > 0 else free[:0]
-    candidates = _promising(route[: count + 2], outside, inside, ways, near, rewards, service[0])
+    candidates = _promising(route[: count + 2], outside, inside, lengths, near, rewards, service[0])
     gain, place = np.empty(len(candidates)), np.empty(len(candidates), np.int64)
     left = len(candidates)
     for trial in range(insertions + 1):
         n = count + 2
         floors_of(route[:n], service, budgets, floors[:n])
         backward(
-            route[:n], ways, rewards, service[0], ends, floors[:n], bonus, step, skip, points, weights,
+            route[:n], lengths, rewards, service[0], ends, floors[:n], bonus, step, skip, points, weights,
             worth[:n], success[:n], ahead[:n], choice[:n], work,
         )  # fmt: skip
         if trial == insertions or n >= capacity or left == 0:
             break
-        forward(route[:n], ways, service[0], step, skip, points, weights, choice[:n], mass[:n], work)
+        forward(route[:n], lengths, service[0], step, skip, points, weights, choice[:n], mass[:n], work)
         gains(
-            route[:n], ways, rewards, service[0], ends, floors[:n], bonus, step, points, weights,
+            route[:n], lengths, rewards, service[0], ends, floors[:n], bonus, step, points, weights,
             worth[:n], success[:n], ahead[:n], mass[:n], candidates[:left], gain[:left], place[:left],
-            work, ways_over,
+            work, detours,
         )  # fmt: skip
         most = 0
         for i in range(left):

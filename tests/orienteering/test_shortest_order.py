@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.errors import ProblemError
-from fieldhand.orienteering import order as order_module
-from fieldhand.orienteering.ground import NOWHERE
-from fieldhand.orienteering.order import COMPILED_FROM, EXACT, shortest_order
+from fieldhand.orienteering import shortest_order as order_module
+from fieldhand.orienteering.prepared_problem import NO_LENGTHS
+from fieldhand.orienteering.shortest_order import COMPILED_FROM, EXACT, shortest_order
 from graphs import euclidean
 
 seeds = st.integers(0, 2**32 - 1)
@@ -139,9 +139,9 @@ def test_plain_and_compiled_code_give_the_same_order(monkeypatch):
 
 def test_coordinates_give_the_order_that_their_distances_give():
     xy = np.random.default_rng(8).random((COMPILED_FROM + 20, 2))
-    ways = NOWHERE._replace(xy=xy)
+    ways = NO_LENGTHS._replace(xy=xy)
     assert shortest_order(ways, 0) == shortest_order(np.sqrt(((xy[:, None] - xy) ** 2).sum(axis=2)), 0)
-    few = NOWHERE._replace(xy=xy[:9])
+    few = NO_LENGTHS._replace(xy=xy[:9])
     assert shortest_order(few, 0, 8) == shortest_order(between(xy[:9]), 0, 8)
 
 

@@ -6,24 +6,24 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from examples import examples
-from fieldhand.orienteering.adaptive import Depth, Lookout
 from fieldhand.orienteering.costs import Gamma, Lognormal
-from fieldhand.orienteering.ground import ground_of
+from fieldhand.orienteering.decision import DecisionSearch, SearchEffort
+from fieldhand.orienteering.prepared_problem import prepare_problem
 from fieldhand.orienteering.problem import Limit, Problem
 from graphs import euclidean, problem
 
 
-def lookout(given_, here, left, state=1):
+def search(given_, here, left, state=1):
     free = np.ones(given_.size, dtype=bool)
-    depth = Depth(points=256)
-    return Lookout(ground_of(given_), here, left, free, depth, np.array([state], dtype=np.uint64))
+    effort = SearchEffort(points=256)
+    return DecisionSearch(prepare_problem(given_), here, left, free, effort, np.array([state], dtype=np.uint64))
 
 
 def follow(given_, stops, bonus, rng):
     """A mission that only ever skips stops of one order: reward, and whether it kept to the budget."""
     here, left, got, ahead = given_.start, given_.limits[0].budget, 0.0, stops
     while True:
-        order = lookout(given_, here, (left,)).order(ahead, bonus + got, 0)
+        order = search(given_, here, (left,)).order(ahead, bonus + got, 0)
         last = order.first == len(ahead)
         vertex = given_.end if last else int(ahead[order.first])
         left -= given_.length(here, vertex) * float(given_.model.draw(rng, 1)[0])
@@ -41,8 +41,8 @@ def test_missions_that_follow_the_programme_meet_what_it_predicts(costs):
     given_ = Problem(
         distances=drawn.distances, rewards=drawn.rewards, start=0, end=11, limits=drawn.limits, costs=costs
     )
-    found = lookout(given_, 0, (1.6,)).best(1.0, ())
-    predicted = lookout(given_, 0, (1.6,)).order(found.stops, 1.0, 0)
+    found = search(given_, 0, (1.6,)).best(1.0, ())
+    predicted = search(given_, 0, (1.6,)).order(found.stops, 1.0, 0)
     rng, missions = np.random.default_rng(5), examples(150, thorough=400)
     driven = [follow(given_, found.stops, 1.0, rng) for _ in range(missions)]
     kept = np.mean([ok for _, ok in driven])
@@ -56,7 +56,7 @@ def test_missions_that_follow_the_programme_meet_what_it_predicts(costs):
 @settings(max_examples=15, deadline=None)
 def test_an_order_is_never_worth_less_for_stops_that_it_gains(seed, bonus):
     given_ = problem(20, seed, budget=2.0)
-    view = lookout(given_, 0, (2.0,))
+    view = search(given_, 0, (2.0,))
     if not len(view.free):
         return
     before = view.order(view.free[:3], bonus, 0)
@@ -68,7 +68,7 @@ def test_an_order_is_never_worth_less_for_stops_that_it_gains(seed, bonus):
 @given(seed=st.integers(0, 10_000))
 @settings(max_examples=10, deadline=None)
 def test_an_order_made_again_is_worth_no_less_and_visits_nothing_twice(seed):
-    view = lookout(problem(20, seed, budget=2.0), 0, (2.0,))
+    view = search(problem(20, seed, budget=2.0), 0, (2.0,))
     if not len(view.free):
         return
     before = view.best(1.0, ())
@@ -79,7 +79,7 @@ def test_an_order_made_again_is_worth_no_less_and_visits_nothing_twice(seed):
 
 def test_success_costs_reward():
     given_ = problem(30, 1, budget=2.0)
-    bold, careful = (lookout(given_, 0, (2.0,)).best(bonus, ()) for bonus in (0.0, 50.0))
+    bold, careful = (search(given_, 0, (2.0,)).best(bonus, ()) for bonus in (0.0, 50.0))
     assert careful.success > bold.success
     assert careful.worth < bold.worth
 
@@ -91,9 +91,9 @@ def test_of_two_limits_the_one_that_binds_decides_whichever_comes_first():
     found = []
     for limits in ((wide, tight), (tight, wide)):
         given_ = Problem(distances=d, rewards=rewards, start=0, end=19, limits=limits)
-        found.append(lookout(given_, 0, tuple(x.budget for x in limits)).best(3.0, ()))
+        found.append(search(given_, 0, tuple(x.budget for x in limits)).best(3.0, ()))
     alone = Problem(distances=d, rewards=rewards, start=0, end=19, limits=(wide,))
-    loose = lookout(alone, 0, (2.5,)).best(3.0, ())
+    loose = search(alone, 0, (2.5,)).best(3.0, ())
     assert found[0].worth == pytest.approx(found[1].worth, rel=0.1)
     assert found[0].worth < loose.worth
 
@@ -101,6 +101,6 @@ def test_of_two_limits_the_one_that_binds_decides_whichever_comes_first():
 def test_legs_after_the_end_leave_less_for_the_stops():
     given_ = problem(25, 2, budget=2.5)
     followed = Problem(
-        distances=given_.distances, rewards=given_.rewards, start=0, end=24, limits=given_.limits, after=(0.5,)
+        distances=given_.distances, rewards=given_.rewards, start=0, end=24, limits=given_.limits, legs_after=(0.5,)
     )
-    assert lookout(followed, 0, (2.5,)).best(3.0, ()).worth < lookout(given_, 0, (2.5,)).best(3.0, ()).worth
+    assert search(followed, 0, (2.5,)).best(3.0, ()).worth < search(given_, 0, (2.5,)).best(3.0, ()).worth

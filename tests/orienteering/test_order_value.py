@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fieldhand.orienteering.kernels.value import drive, gather
+from fieldhand.orienteering.kernels.order_value import drive, gather
 
 SIZE, STEP = 17, 0.25
 NONE = np.zeros(0)

@@ -8,17 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.orienteering.costs import slices
-from fieldhand.orienteering.kernels.legs import Ways
+from fieldhand.orienteering.kernels.legs import LegLengths
+from fieldhand.orienteering.overrun import quantile_table
 from fieldhand.orienteering.problem import Problem
 from fieldhand.orienteering.table import NEAREST
-from fieldhand.orienteering.tail import quantile_table
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _ALL = 400
 
-NOWHERE = Ways(
+NO_LENGTHS = LegLengths(
     matrix=np.zeros((0, 0)),
     xy=np.zeros((0, 2)),
     table=np.zeros((0, 0), dtype=np.float32),
@@ -27,22 +27,22 @@ NOWHERE = Ways(
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Ground:
+class PreparedProblem:
     """Data of a problem that never change in a mission.
 
     Attributes:
-        ways: Lengths of the legs between nodes: the vertices and the end.
+        lengths: Lengths of the legs between nodes: the vertices and the end.
         near: Nearest vertices of each node, nearest first, shape (n + 1, k).
         rewards: Of vertices and end, shape (n + 1,); 0 for the end.
         service: For each limit what work takes at each node, shape (limits, n + 1).
         afterwards: First three sums of the legs after the end.
         cumulants: Second and third of the cost of a leg of length 1.
-        points, weights: That cost, for :func:`fieldhand.orienteering.kernels.value.drive`.
+        points, weights: That cost, for :func:`fieldhand.orienteering.kernels.order_value.drive`.
         tables: For each limit the quantiles at its failure probability.
     """
 
     problem: Problem
-    ways: Ways
+    lengths: LegLengths
     near: Ints
     rewards: Floats
     service: Floats
@@ -59,30 +59,30 @@ class Ground:
 
     def row(self, u: int) -> Floats:
         """Lengths from a node to every vertex."""
-        ways = self.ways
-        if len(ways.matrix):
-            return np.asarray(ways.matrix[u, :-1])
-        if len(ways.xy):
-            return np.asarray(np.hypot(*(ways.xy[:-1] - ways.xy[u]).T))
-        return np.asarray(ways.table[ways.end if u == self.size else u], dtype=np.float64)
+        lengths = self.lengths
+        if len(lengths.matrix):
+            return np.asarray(lengths.matrix[u, :-1])
+        if len(lengths.xy):
+            return np.asarray(np.hypot(*(lengths.xy[:-1] - lengths.xy[u]).T))
+        return np.asarray(lengths.table[lengths.end if u == self.size else u], dtype=np.float64)
 
 
-def ground_of(problem: Problem) -> Ground:
+def prepare_problem(problem: Problem) -> PreparedProblem:
     """Return the arrays of a problem."""
     n, end = problem.size, problem.end
-    ways = _ways(problem)
+    lengths = _lengths(problem)
     service = np.zeros((len(problem.limits), n + 1))
     for row, limit in zip(service, problem.limits, strict=True):
         if limit.service is not None:
             row[:n] = limit.service
             row[n] = limit.service[end] if end != problem.start else 0.0
-    after = np.array(problem.after, dtype=np.float64)
+    after = np.array(problem.legs_after, dtype=np.float64)
     points, weights = slices(problem.model)
     rewards = np.append(problem.rewards, 0.0).astype(np.float64)
-    return Ground(
+    return PreparedProblem(
         problem=problem,
-        ways=ways,
-        near=_nearest(ways, problem),
+        lengths=lengths,
+        near=_nearest(lengths, problem),
         rewards=rewards,
         service=service,
         afterwards=np.array([after.sum(), (after**2).sum(), (after**3).sum()]),
@@ -93,21 +93,21 @@ def ground_of(problem: Problem) -> Ground:
     )
 
 
-def _ways(problem: Problem) -> Ways:
+def _lengths(problem: Problem) -> LegLengths:
     nodes = np.append(np.arange(problem.size), problem.end)
     if problem.table is not None:
-        return NOWHERE._replace(table=problem.table.distances, end=problem.end)
-    if problem.plane is not None:
-        return NOWHERE._replace(xy=np.ascontiguousarray(problem.plane[nodes], dtype=np.float64))
-    return NOWHERE._replace(matrix=np.ascontiguousarray(problem.distances[np.ix_(nodes, nodes)], dtype=np.float64))
+        return NO_LENGTHS._replace(table=problem.table.distances, end=problem.end)
+    if problem.coordinates is not None:
+        return NO_LENGTHS._replace(xy=np.ascontiguousarray(problem.coordinates[nodes], dtype=np.float64))
+    return NO_LENGTHS._replace(matrix=np.ascontiguousarray(problem.distances[np.ix_(nodes, nodes)], dtype=np.float64))
 
 
-def _nearest(ways: Ways, problem: Problem) -> Ints:
+def _nearest(lengths: LegLengths, problem: Problem) -> Ints:
     """Return the nearest vertices of each node; the end's node is nobody's neighbour, nor is a vertex its own."""
     if problem.table is not None:
         near = problem.table.near
         return np.vstack([near, near[problem.end]])
-    matrix, xy = ways.matrix, ways.xy
+    matrix, xy = lengths.matrix, lengths.xy
     size = max(len(matrix), len(xy))
     count = min(NEAREST, size - 2)
     if count < 1:

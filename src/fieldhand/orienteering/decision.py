@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.orienteering.annealing import HOT, WARM, Annealing, stops_of
-from fieldhand.orienteering.ground import Ground
-from fieldhand.orienteering.kernels.grow import floors_of, grow
+from fieldhand.orienteering.kernels.insertion import floors_of, grow
 from fieldhand.orienteering.kernels.legs import uniform
-from fieldhand.orienteering.kernels.value import WORK, backward, drive, forward
-from fieldhand.orienteering.tail import exceeding, quantile_table
+from fieldhand.orienteering.kernels.order_value import WORK, backward, drive, forward
+from fieldhand.orienteering.overrun import overrun_probability, quantile_table
+from fieldhand.orienteering.prepared_problem import PreparedProblem
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -36,7 +36,7 @@ _LUCK = 1.15
 
 
 @dataclass(frozen=True, kw_only=True)
-class Depth:
+class SearchEffort:
     """How much to search at a decision, counted, so that the same problem gives the same mission on any machine.
 
     Attributes:
@@ -57,7 +57,7 @@ class Depth:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Foresight:
+class SuccessAfterLeg:
     """The chance to keep to the limits after a leg, as the programme has it before the leg is driven.
 
     Attributes:
@@ -77,7 +77,7 @@ class Foresight:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Order:
+class VisitOrder:
     """Stops in their order, some of which may be skipped on the way.
 
     Attributes:
@@ -97,79 +97,85 @@ class Order:
         return self.worth + bonus * self.success
 
 
-class Lookout:
+class DecisionSearch:
     """What is to be done from one vertex, with what is left and what is free.
 
     Args:
-        ground: The problem.
+        prepared: The problem.
         here: The vertex.
         left: Of each limit.
         free: Whether each vertex may still be visited, shape (n,).
-        depth: How much to search.
+        effort: How much to search.
         state: Of the random numbers.
-        most: Stops that may still be visited; None for any number.
+        max_visits: Stops that may still be visited; None for any number.
     """
 
     def __init__(
         self,
-        ground: Ground,
+        prepared: PreparedProblem,
         here: int,
         left: Sequence[float],
         free: NDArray[np.bool_],
-        depth: Depth,
+        effort: SearchEffort,
         state: NDArray[np.uint64],
-        most: int | None = None,
+        max_visits: int | None = None,
     ) -> None:
-        self._most = ground.size if most is None else most
-        self._ground, self._here, self._depth, self._state = ground, here, depth, state
+        self._max_visits = prepared.size if max_visits is None else max_visits
+        self._prepared, self._here, self._effort, self._state = prepared, here, effort, state
         self._left = np.array(left, dtype=np.float64)
         # The programme runs over what is left of the limit with least; the others come in by what they ask of it.
         by_budget = np.argsort(self._left, kind="stable")
         self._binding, self._budgets = int(by_budget[0]), self._left[by_budget]
-        self._step = max(float(self._budgets[0]), 1e-300) / depth.points
-        self._service = np.ascontiguousarray(ground.service[by_budget])
+        self._step = max(float(self._budgets[0]), 1e-300) / effort.points
+        self._service = np.ascontiguousarray(prepared.service[by_budget])
         self.free = self._reachable(free)
         self._ends: Floats | None = None
 
     def route(self, level: float, warm: Sequence[int], rounds: int) -> Ints:
         """Stops of a fixed route that exceeds no limit more often than ``level``, found from ``warm``."""
-        tables = np.tile(table_of(level), (len(self._budgets), 1))
+        tables = np.tile(cached_quantiles(level), (len(self._budgets), 1))
         stops = stops_of(warm, self.free)
-        found = Annealing(self._ground, self._here, self.free, self._left, tables, stops, self._state, self._most)
+        found = Annealing(
+            self._prepared, self._here, self.free, self._left, tables, stops, self._state, self._max_visits
+        )
         found.improve(rounds, WARM if len(stops) else HOT)
         return found.best
 
     def is_safe(self, stops: Ints) -> bool:
         """Return True if a fixed route keeps each limit with the chance that it accepts."""
-        ground, problem = self._ground, self._ground.problem
+        prepared, problem = self._prepared, self._prepared.problem
         route = [self._here, *stops.tolist(), problem.end]
         legs = np.array([problem.length(a, b) for a, b in itertools.pairwise(route)])
-        first, squares, cubes = (float((legs**k).sum() + ground.afterwards[k - 1]) for k in (1, 2, 3))
-        second, third = ground.cumulants
-        left = self._left - ground.service[:, [*route[1:-1], ground.size]].sum(axis=1)
+        first, squares, cubes = (float((legs**k).sum() + prepared.afterwards[k - 1]) for k in (1, 2, 3))
+        second, third = prepared.cumulants
+        left = self._left - prepared.service[:, [*route[1:-1], prepared.size]].sum(axis=1)
         accepted = [limit.failure_probability for limit in problem.limits]
-        return bool((exceeding(first, second * squares, third * cubes, left) <= np.array(accepted) * 1.01).all())
+        return bool(
+            (overrun_probability(first, second * squares, third * cubes, left) <= np.array(accepted) * 1.01).all()
+        )
 
-    def order(self, stops: Ints, bonus: float, insertions: int) -> Order:
+    def order(self, stops: Ints, bonus: float, insertions: int) -> VisitOrder:
         """An order after it has gained up to ``insertions`` stops."""
-        ground, depth = self._ground, self._depth
-        longest = min(max(len(stops), LONG), self._most)
+        prepared, effort = self._prepared, self._effort
+        longest = min(max(len(stops), LONG), self._max_visits)
         grown, figures = np.empty(longest + 2, np.int64), np.empty(3)
         count = grow(
-            stops, self._here, self.free, longest, insertions, ground.ways, ground.near, ground.rewards,
-            self._service, self._budgets, self.ends(), bonus, depth.skip, ground.points, ground.weights,
+            stops, self._here, self.free, longest, insertions, prepared.lengths, prepared.near, prepared.rewards,
+            self._service, self._budgets, self.ends(), bonus, effort.skip, prepared.points, prepared.weights,
             grown, figures,
         )  # fmt: skip
-        return Order(stops=grown[:count], first=int(figures[2]), worth=float(figures[0]), success=float(figures[1]))
+        return VisitOrder(
+            stops=grown[:count], first=int(figures[2]), worth=float(figures[0]), success=float(figures[1])
+        )
 
     def chances(self, stops: Ints, bonus: float) -> Floats:
         """For each stop of an order, how likely a mission that only skips some of them comes to it."""
-        ground, step = self._ground, self._step
+        prepared, step = self._prepared, self._step
         route, choice, _ = self._programme(stops, bonus)
         mass = np.empty(choice.shape)
         forward(
-            route, ground.ways, self._service[0], step, self._depth.skip, ground.points, ground.weights, choice, mass,
-            np.empty((WORK, choice.shape[1])),
+            route, prepared.lengths, self._service[0], step, self._effort.skip, prepared.points, prepared.weights,
+            choice, mass, np.empty((WORK, choice.shape[1])),
         )  # fmt: skip
         return np.asarray(mass[1:-1].sum(axis=1))
 
@@ -189,74 +195,74 @@ class Lookout:
             For each position (0 for here) and amount left the position that it drives to, ``len(stops) + 1`` for the
             end; and the step from an amount to the next, the first being 0.
         """
-        size = max(self._depth.points, int(np.ceil(most_left / self._step))) + 1
-        return self._programme(stops, bonus, min(size, _WIDEST * self._depth.points))[1], self._step
+        size = max(self._effort.points, int(np.ceil(most_left / self._step))) + 1
+        return self._programme(stops, bonus, min(size, _WIDEST * self._effort.points))[1], self._step
 
-    def foresight(self, order: Order, bonus: float) -> Foresight:
+    def success_after_leg(self, order: VisitOrder, bonus: float) -> SuccessAfterLeg:
         """What the programme of an order says of the leg that is driven now."""
         success = self._programme(order.stops, bonus)[2]
-        return Foresight(limit=self._binding, step=self._step, success=success[order.first + 1])
+        return SuccessAfterLeg(limit=self._binding, step=self._step, success=success[order.first + 1])
 
-    def planned(self, bonus: float, warm: Sequence[int], rounds: int) -> Order:
+    def planned(self, bonus: float, warm: Sequence[int], rounds: int) -> VisitOrder:
         """The order that a mission begins with: of several levels, each taken apart and grown again."""
-        orders = [self.order(self.route(level, warm, rounds), bonus, self._depth.insertions) for level in _FIRST]
+        orders = [self.order(self.route(level, warm, rounds), bonus, self._effort.insertions) for level in _FIRST]
         if warm:
-            orders.append(self.order(stops_of(warm, self.free)[: self._most], bonus, self._depth.insertions))
+            orders.append(self.order(stops_of(warm, self.free)[: self._max_visits], bonus, self._effort.insertions))
         return max((self.remade(order, bonus) for order in orders), key=lambda order: order.value(bonus))
 
-    def remade(self, order: Order, bonus: float) -> Order:
+    def remade(self, order: VisitOrder, bonus: float) -> VisitOrder:
         """The order, or a better one: a few stops are taken out, and those that gain most put in."""
         # Programmes of long orders take long; they are made anew under way.
-        for _ in range(self._depth.remakes * _SHORT // max(_SHORT, len(order.stops))):
+        for _ in range(self._effort.remakes * _SHORT // max(_SHORT, len(order.stops))):
             kept = self._thinned(order.stops)
             other = self.order(kept, bonus, len(order.stops) - len(kept) + 1)
             if other.value(bonus) > order.value(bonus):
                 order = other
         return order
 
-    def best(self, bonus: float, warm: Sequence[int]) -> Order:
+    def best(self, bonus: float, warm: Sequence[int]) -> VisitOrder:
         """The order worth most of those that are made of ``warm`` and of fixed routes of several levels."""
-        options = [stops_of(warm, self.free)[: self._most]]
-        for level in self._depth.levels:
-            stops = self.route(level, options[0].tolist(), self._depth.rounds)
+        options = [stops_of(warm, self.free)[: self._max_visits]]
+        for level in self._effort.levels:
+            stops = self.route(level, options[0].tolist(), self._effort.rounds)
             if not any(np.array_equal(stops, option) for option in options):
                 options.append(stops)
-        orders = [self.order(stops, bonus, self._depth.insertions) for stops in options]
+        orders = [self.order(stops, bonus, self._effort.insertions) for stops in options]
         return max(orders, key=lambda order: order.value(bonus))
 
-    def bettered(self, order: Order, bonus: float) -> Order:
+    def bettered(self, order: VisitOrder, bonus: float) -> VisitOrder:
         """The order, or a better one after a longer search from it at a level of chance."""
         level = 0.05 + 0.6 * uniform(self._state)
-        stops = self.route(level, order.stops.tolist(), 16 * self._depth.rounds)
-        other = self.order(stops, bonus, 2 * self._depth.insertions)
+        stops = self.route(level, order.stops.tolist(), 16 * self._effort.rounds)
+        other = self.order(stops, bonus, 2 * self._effort.insertions)
         return other if other.value(bonus) > order.value(bonus) else order
 
     def ends(self) -> Floats:
         """By what is left at the end, the chance that the legs after it are within the limit."""
         if self._ends is None:
-            self._ends = self._ends_up_to(self._depth.points + 1)
+            self._ends = self._ends_up_to(self._effort.points + 1)
         return self._ends
 
     def _ends_up_to(self, size: int) -> Floats:
-        ground = self._ground
+        prepared = self._prepared
         now, then, nothing, unused = np.ones(size), np.empty(size), np.zeros(size), np.empty(size)
-        for leg in reversed(ground.problem.after):
-            drive(nothing, now, unused, then, leg, 0.0, self._step, ground.points, ground.weights)
+        for leg in reversed(prepared.problem.legs_after):
+            drive(nothing, now, unused, then, leg, 0.0, self._step, prepared.points, prepared.weights)
             now, then = then, now
         return now
 
     def _programme(self, stops: Ints, bonus: float, size: int | None = None) -> tuple[Ints, Ints, Floats]:
         """The route over stops; for each position on it and each amount left, what is driven to, and the success."""
-        ground, depth = self._ground, self._depth
+        prepared, effort = self._prepared, self._effort
         ends = self.ends() if size is None else self._ends_up_to(size)
         size = len(ends)
-        route = np.array([self._here, *stops, ground.size], dtype=np.int64)
+        route = np.array([self._here, *stops, prepared.size], dtype=np.int64)
         worth, success, ahead = (np.empty((len(route), size)) for _ in range(3))
         choice, floors = np.empty((len(route), size), np.int64), np.empty(len(route))
         floors_of(route, self._service, self._budgets, floors)
         backward(
-            route, ground.ways, ground.rewards, self._service[0], ends, floors, bonus, self._step,
-            depth.skip, ground.points, ground.weights, worth, success, ahead, choice,
+            route, prepared.lengths, prepared.rewards, self._service[0], ends, floors, bonus, self._step,
+            effort.skip, prepared.points, prepared.weights, worth, success, ahead, choice,
             np.empty((WORK, size)),
         )  # fmt: skip
         return route, choice, success
@@ -268,25 +274,25 @@ class Lookout:
             first = int(uniform(self._state) * len(stops))
             return np.delete(stops, np.arange(first, min(first + gone, len(stops))))
         around = int(self.free[int(uniform(self._state) * len(self.free))])
-        near = [around, *self._ground.near[around].tolist()]
+        near = [around, *self._prepared.near[around].tolist()]
         inside = set(stops.tolist())
         out = [v for v in near if v in inside][:gone]
         return stops[~np.isin(stops, out)]
 
     def _reachable(self, free: NDArray[np.bool_]) -> Ints:
-        ground = self._ground
-        there = ground.row(self._here) + ground.row(ground.problem.end) + ground.afterwards[0]
+        prepared = self._prepared
+        there = prepared.row(self._here) + prepared.row(prepared.problem.end) + prepared.afterwards[0]
         there = there + self._service[0, :-1]
-        inside = free & (there <= _LUCK * max(float(self._budgets[0]), 0.0)) & (ground.rewards[:-1] > 0.0)
+        inside = free & (there <= _LUCK * max(float(self._budgets[0]), 0.0)) & (prepared.rewards[:-1] > 0.0)
         inside[self._here] = False
-        inside[ground.problem.end] = False
+        inside[prepared.problem.end] = False
         return np.flatnonzero(inside).astype(np.int64)
 
 
 _TABLES: dict[float, Floats] = {}
 
 
-def table_of(level: float) -> Floats:
+def cached_quantiles(level: float) -> Floats:
     """The quantiles of one chance; made once."""
     if level not in _TABLES:
         _TABLES[level] = quantile_table(level)

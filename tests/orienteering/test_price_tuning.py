@@ -7,8 +7,9 @@ import pytest
 
 from fieldhand.orienteering.costs import Gamma
 from fieldhand.orienteering.policy import Policy, State
+from fieldhand.orienteering.price_tuning import tune_price
 from fieldhand.orienteering.problem import Limit, Problem
-from fieldhand.orienteering.trials import drive, tried
+from fieldhand.orienteering.simulated_mission import simulate_mission
 from graphs import problem
 
 
@@ -17,8 +18,8 @@ def driven(given_, policy, seeds, *, foreseen):
     found = []
     for seed in seeds:
         again = policy.again(seed, policy.price)
-        foresight = again.foresight if foreseen else None
-        found.append(drive(given_, again.next, np.random.default_rng([seed, 3]), foresight))
+        success_after_leg = again.success_after_leg if foreseen else None
+        found.append(simulate_mission(given_, again.next, np.random.default_rng([seed, 3]), success_after_leg))
     return found
 
 
@@ -45,15 +46,15 @@ def test_what_is_foreseen_does_not_change_the_missions():
 @pytest.mark.parametrize(("graph", "accepted"), [(4, 0.1), (9, 0.05)])
 def test_fresh_missions_fail_no_more_often_than_accepted(graph, accepted):
     given_ = problem(15, graph, budget=2.0, pf=accepted)
-    policy = tried(Policy(given_, 0, daring=0.9), given_, 1, 160)
+    policy = tune_price(Policy(given_, 0, risk_tolerance=0.9), given_, 1, 160)
     chances = np.array([m.chance for m in driven(given_, policy, range(60), foreseen=True)])
     assert 0.75 * accepted < chances.mean() < accepted + 2.0 * chances.std() / np.sqrt(60)
 
 
 def test_where_no_programme_is_made_nothing_is_foreseen():
     xy = np.random.default_rng(3).random((150, 2))
-    given_ = Problem(plane=xy, rewards=np.ones(150), start=0, end=0, limits=(Limit(budget=12.0),))
+    given_ = Problem(coordinates=xy, rewards=np.ones(150), start=0, end=0, limits=(Limit(budget=12.0),))
     policy = Policy(given_, 5)
-    assert policy.foresight() is None
+    assert policy.success_after_leg() is None
     policy.next(State(vertex=0, left=(12.0,)))
-    assert policy.foresight() is None
+    assert policy.success_after_leg() is None

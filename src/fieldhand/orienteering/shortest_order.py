@@ -1,6 +1,6 @@
 """The shortest way to visit every vertex: exact for a few, iterated local search for as many as there are.
 
-Sources: Held and Karp 1962 (dynamic programme over subsets); for the local search see :mod:`kernels.tour`.
+Sources: Held and Karp 1962 (dynamic programme over subsets); for the local search see :mod:`kernels.local_search`.
 """
 
 from __future__ import annotations
@@ -11,14 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.errors import ProblemError
-from fieldhand.orienteering.kernels import tour
+from fieldhand.orienteering.kernels import local_search
 
 if TYPE_CHECKING:
-    from fieldhand.orienteering.kernels.legs import Ways
+    from fieldhand.orienteering.kernels.legs import LegLengths
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
-Lengths: TypeAlias = "Floats | Ways"
+Lengths: TypeAlias = "Floats | LegLengths"
 
 #: Up to so many vertices between the ends the order is exact.
 EXACT = 10
@@ -53,7 +53,7 @@ def shortest_order(distances: Lengths, start: int, end: int | None = None) -> tu
     n = _vertices(distances)
     if not 0 <= start < n or (end is not None and not 0 <= end < n):
         raise ProblemError(f"start {start} and end {end} must be vertices from 0 to {n - 1}")
-    last = tour.ANYWHERE if end is None or end == start else end
+    last = local_search.ANYWHERE if end is None or end == start else end
     inner = [v for v in range(n) if v not in (start, last)]
     if len(inner) <= EXACT:
         path = _exact(_table(distances, n), start, last, inner)
@@ -90,7 +90,7 @@ def _table(distances: Lengths, n: int) -> Floats:
 def _searched(table: Floats, n: int, path: list[int]) -> list[int]:
     """The path after local search in plain Python."""
     size = min(_NEAREST, n - 1)
-    held = tour.Tour(
+    held = local_search.SearchState(
         path=path,
         place=[0] * (n + 1),
         near=[0] * (n * size),
@@ -102,21 +102,21 @@ def _searched(table: Floats, n: int, path: list[int]) -> list[int]:
         count=[0] * 3,
     )
     ways, (patience, reach) = table.tolist(), _EFFORT
-    tour.neighbours(ways, held, n)
-    tour.begin(ways, held)
-    tour.shorten(ways, held, _KICKS * n, 30 + int(patience * n), reach)
+    local_search.neighbours(ways, held, n)
+    local_search.begin(ways, held)
+    local_search.shorten(ways, held, _KICKS * n, 30 + int(patience * n), reach)
     return path
 
 
 def _searched_compiled(distances: Lengths, n: int, path: list[int]) -> list[int]:
     """The path after local search in compiled code."""
-    from fieldhand.orienteering.ground import NOWHERE
+    from fieldhand.orienteering.prepared_problem import NO_LENGTHS
 
     ways = distances
     if isinstance(ways, np.ndarray):
-        ways = NOWHERE._replace(matrix=np.ascontiguousarray(ways, dtype=np.float64))
+        ways = NO_LENGTHS._replace(matrix=np.ascontiguousarray(ways, dtype=np.float64))
     size = min(_NEAREST, n - 1)
-    held = tour.Tour(
+    held = local_search.SearchState(
         path=np.array(path, np.int64),
         place=np.zeros(n + 1, np.int64),
         near=np.zeros(n * size, np.int64),
@@ -127,7 +127,7 @@ def _searched_compiled(distances: Lengths, n: int, path: list[int]) -> list[int]
         flips=np.zeros(2 * _FLIPS, np.int64),
         count=np.zeros(3, np.int64),
     )
-    neighbours, begin, shorten = tour.for_long_paths()
+    neighbours, begin, shorten = local_search.for_long_paths()
     patience, reach = _EFFORT_COMPILED
     neighbours(ways, held, n)
     begin(ways, held)

@@ -26,7 +26,7 @@ _LEAST = 1e-12
 _LONGEST_MOVED = 3
 
 
-class Tour(NamedTuple):
+class SearchState(NamedTuple):
     """A path that is being changed. The last entries of ``place`` and ``waiting`` are those of ``ANYWHERE``.
 
     Attributes:
@@ -52,24 +52,24 @@ class Tour(NamedTuple):
     count: Numbers
 
 
-def leg(ways: Lengths, u: int, v: int) -> float:
+def leg(lengths: Lengths, u: int, v: int) -> float:
     """Length of the leg between two vertices; the last row and column of a table are those of an open end."""
-    return ways[u][v]  # type: ignore[no-any-return]
+    return lengths[u][v]  # type: ignore[no-any-return]
 
 
-def neighbours(ways: Lengths, tour: Tour, vertices: int) -> None:
+def neighbours(lengths: Lengths, state: SearchState, vertices: int) -> None:
     """Fill in the nearest of each vertex; the last place is for one beyond, so that no cluster is closed in itself.
 
     That one is the nearest of all that none of the others is nearer to; where there is none, its distance is infinite.
     """
-    near, away = tour.near, tour.away
+    near, away = state.near, state.away
     for v in range(vertices):
-        first = last = v * tour.size
-        beyond = first + tour.size - 1
+        first = last = v * state.size
+        beyond = first + state.size - 1
         for u in range(vertices):
             if u == v:
                 continue
-            far = leg(ways, v, u)
+            far = leg(lengths, v, u)
             if last == beyond:
                 if far >= away[last - 1]:
                     continue
@@ -82,31 +82,31 @@ def neighbours(ways: Lengths, tour: Tour, vertices: int) -> None:
             last += 1
         near[beyond], away[beyond] = v, math.inf
         for u in range(vertices):
-            far = leg(ways, v, u)
+            far = leg(lengths, v, u)
             if not away[beyond - 1] < far < away[beyond]:
                 continue
             for k in range(first, beyond):
-                if leg(ways, near[k], u) < far:
+                if leg(lengths, near[k], u) < far:
                     break
             else:
                 near[beyond], away[beyond] = u, far
 
 
-def begin(ways: Lengths, tour: Tour) -> None:
+def begin(lengths: Lengths, state: SearchState) -> None:
     """Lay the path from its first vertex to the nearest, from there to the nearest again; its ends are given."""
-    path, place = tour.path, tour.place
+    path, place = state.path, state.place
     # What is left stands in the path behind the vertex that is being looked from.
     for i in range(len(path)):
         place[path[i]] = i
     for i in range(len(path) - 2):
         at, best, least = path[i], -1, 0.0
-        for k in range(at * tour.size, (at + 1) * tour.size):
-            if i < place[tour.near[k]] < len(path) - 1:
-                best = place[tour.near[k]]
+        for k in range(at * state.size, (at + 1) * state.size):
+            if i < place[state.near[k]] < len(path) - 1:
+                best = place[state.near[k]]
                 break
         if best < 0:
             for j in range(i + 1, len(path) - 1):
-                metres = leg(ways, at, path[j])
+                metres = leg(lengths, at, path[j])
                 if best < 0 or metres < least:
                     best, least = j, metres
         u, v = path[i + 1], path[best]
@@ -114,21 +114,21 @@ def begin(ways: Lengths, tour: Tour) -> None:
         place[v], place[u] = i + 1, best
 
 
-def shorten(ways: Lengths, tour: Tour, kicks: int, patience: int, reach: int) -> None:
+def shorten(lengths: Lengths, state: SearchState, kicks: int, patience: int, reach: int) -> None:
     """Shorten the path until no look helps, then kick it again and again; its ends stay.
 
     Args:
-        ways: Lengths of legs.
-        tour: The path; its queue is empty.
+        lengths: Lengths of legs.
+        state: The path; its queue is empty.
         kicks: How many at most.
         patience: How many without gain before it is left at that.
         reach: Most vertices of each of the two segments that a kick swaps.
     """
-    path = tour.path
+    path = state.path
     least = 0.0
     for i in range(len(path) - 1):
-        least += _LEAST * leg(ways, path[i], path[i + 1])
-    _settle_all(ways, tour, least)
+        least += _LEAST * leg(lengths, path[i], path[i + 1])
+    _settle_all(lengths, state, least)
     # Between the ends there must be two segments to swap.
     inner = len(path) - 2
     reach = min(reach, inner // 2)
@@ -143,59 +143,59 @@ def shorten(ways: Lengths, tour: Tour, kicks: int, patience: int, reach: int) ->
         random = random * 48271 % 2147483647
         # On along the path, so that what is looked at was looked at just before.
         first = (first + random % reach) % (inner + 1 - one - two)
-        tour.count[2] = 0
-        gain = _kick(ways, tour, first, one, two) + _settle(ways, tour, least, False)
+        state.count[2] = 0
+        gain = _kick(lengths, state, first, one, two) + _settle(lengths, state, least, False)
         fruitless += 1
         if gain > least:
             fruitless = 0
         elif gain < -least:
-            _take_back(tour)
+            _take_back(state)
         if fruitless > patience:
             break
-    _settle_all(ways, tour, least)
+    _settle_all(lengths, state, least)
 
 
-def _look(tour: Tour, v: int) -> None:
+def _look(state: SearchState, v: int) -> None:
     """Have a vertex looked at, after those that wait already."""
-    if v >= 0 and tour.waiting[v] == 0:
-        tour.waiting[v] = 1
-        tour.queue[(tour.count[0] + tour.count[1]) % len(tour.queue)] = v
-        tour.count[1] += 1
+    if v >= 0 and state.waiting[v] == 0:
+        state.waiting[v] = 1
+        state.queue[(state.count[0] + state.count[1]) % len(state.queue)] = v
+        state.count[1] += 1
 
 
-def _next(tour: Tour) -> int:
+def _next(state: SearchState) -> int:
     """Whose turn it is to be looked at; it waits no more."""
-    v = tour.queue[tour.count[0]]
-    tour.count[0] = (tour.count[0] + 1) % len(tour.queue)
-    tour.count[1] -= 1
-    tour.waiting[v] = 0
+    v = state.queue[state.count[0]]
+    state.count[0] = (state.count[0] + 1) % len(state.queue)
+    state.count[1] -= 1
+    state.waiting[v] = 0
     return v  # type: ignore[no-any-return]
 
 
-def _settle_all(ways: Lengths, tour: Tour, least: float) -> None:
+def _settle_all(lengths: Lengths, state: SearchState, least: float) -> None:
     """Change the path until no change of any vertex shortens it."""
-    for v in tour.path:
-        _look(tour, v)
-    while tour.count[1] > 0:
-        tour.count[2] = 0
-        _settle(ways, tour, least, True)
+    for v in state.path:
+        _look(state, v)
+    while state.count[1] > 0:
+        state.count[2] = 0
+        _settle(lengths, state, least, True)
 
 
-def _settle(ways: Lengths, tour: Tour, least: float, every: bool) -> float:
+def _settle(lengths: Lengths, state: SearchState, least: float, every: bool) -> float:
     """Change the path while a change shortens it and can be noted; by how much it did."""
     total = 0.0
-    while tour.count[1] > 0 and 2 * tour.count[2] + 6 <= len(tour.flips):
-        v = _next(tour)
-        gain = _turn(ways, tour, v, least, every)
+    while state.count[1] > 0 and 2 * state.count[2] + 6 <= len(state.flips):
+        v = _next(state)
+        gain = _turn(lengths, state, v, least, every)
         if gain == 0.0:
-            gain = _shift(ways, tour, v, least, every)
+            gain = _shift(lengths, state, v, least, every)
         total += gain
     return total
 
 
-def _turn(ways: Lengths, tour: Tour, a: int, least: float, every: bool) -> float:
+def _turn(lengths: Lengths, state: SearchState, a: int, least: float, every: bool) -> float:
     """The first 2-opt move found that puts a vertex beside a near one: what it gains, 0 where there is none."""
-    path, place, near, away, size = tour.path, tour.place, tour.near, tour.away, tour.size
+    path, place, near, away, size = state.path, state.place, state.near, state.away, state.size
     # Where all that are near have been tried and a leg is longer still, every vertex may be.
     many = size + (len(near) // size if every else 0)
     i = place[a]
@@ -203,10 +203,10 @@ def _turn(ways: Lengths, tour: Tour, a: int, least: float, every: bool) -> float
         if not 0 <= i + step < len(path):
             continue
         b = path[i + step]
-        ab = leg(ways, a, b)
+        ab = leg(lengths, a, b)
         for k in range(many):
             c = near[a * size + k] if k < size else k - size
-            saved = ab - (away[a * size + k] if k < size else leg(ways, a, c))
+            saved = ab - (away[a * size + k] if k < size else leg(lengths, a, c))
             if saved <= least or c == a:
                 if k < size - 1:
                     break
@@ -216,22 +216,22 @@ def _turn(ways: Lengths, tour: Tour, a: int, least: float, every: bool) -> float
                 continue
             d = path[j + step]
             # Legs a-b and c-d become a-c and b-d.
-            gain = saved + leg(ways, c, d) - leg(ways, b, d)
+            gain = saved + leg(lengths, c, d) - leg(lengths, b, d)
             if gain > least:
                 low, high = min(i, j), max(i, j)
                 if step > 0:
-                    _flip(tour, low + 1, high)
+                    _flip(state, low + 1, high)
                 else:
-                    _flip(tour, low, high - 1)
+                    _flip(state, low, high - 1)
                 for v in (a, b, c, d):
-                    _look(tour, v)
+                    _look(state, v)
                 return gain
     return 0.0
 
 
-def _shift(ways: Lengths, tour: Tour, a: int, least: float, every: bool) -> float:
+def _shift(lengths: Lengths, state: SearchState, a: int, least: float, every: bool) -> float:
     """The first or-opt move found that takes a short segment, of which ``a`` is an end, to a vertex near ``a``."""
-    path, place, near, away, size = tour.path, tour.place, tour.near, tour.away, tour.size
+    path, place, near, away, size = state.path, state.place, state.near, state.away, state.size
     many = size + (len(near) // size if every else 0)
     i = place[a]
     for extent in range(1 - _LONGEST_MOVED, _LONGEST_MOVED):
@@ -243,10 +243,10 @@ def _shift(ways: Lengths, tour: Tour, a: int, least: float, every: bool) -> floa
         p, q = path[low - 1], path[high + 1]
         if extent < 0:
             p, q = q, p
-        out = leg(ways, p, a) + leg(ways, z, q) - leg(ways, p, q)
+        out = leg(lengths, p, a) + leg(lengths, z, q) - leg(lengths, p, q)
         for k in range(many):
             c = near[a * size + k] if k < size else k - size
-            saved = out - (away[a * size + k] if k < size else leg(ways, a, c))
+            saved = out - (away[a * size + k] if k < size else leg(lengths, a, c))
             if saved <= least:
                 if k < size - 1:
                     break
@@ -258,50 +258,50 @@ def _shift(ways: Lengths, tour: Tour, a: int, least: float, every: bool) -> floa
                 if not 0 <= j + step < len(path) or low <= j + step <= high:
                     continue
                 d = path[j + step]
-                gain = saved + leg(ways, c, d) - leg(ways, z, d)
+                gain = saved + leg(lengths, c, d) - leg(lengths, z, d)
                 if gain > least:
                     # Where a comes before z now and behind it then, or the other way round, the segment turns.
-                    _move(tour, low, high, min(j, j + step), (extent < 0) == (step > 0))
+                    _move(state, low, high, min(j, j + step), (extent < 0) == (step > 0))
                     for v in (a, z, p, q, c, d):
-                        _look(tour, v)
+                        _look(state, v)
                     return gain
     return 0.0
 
 
-def _move(tour: Tour, low: int, high: int, behind: int, turned: bool) -> None:
+def _move(state: SearchState, low: int, high: int, behind: int, turned: bool) -> None:
     """Take what stands from ``low`` to ``high`` to behind another place, the other way round where ``turned``."""
     size = high - low + 1
     if behind > high:
-        _flip(tour, low, behind)
-        _flip(tour, low, behind - size)
+        _flip(state, low, behind)
+        _flip(state, low, behind - size)
         low = behind - size + 1
     else:
-        _flip(tour, behind + 1, high)
-        _flip(tour, behind + 1 + size, high)
+        _flip(state, behind + 1, high)
+        _flip(state, behind + 1 + size, high)
         low = behind + 1
     if not turned:
-        _flip(tour, low, low + size - 1)
+        _flip(state, low, low + size - 1)
 
 
-def _kick(ways: Lengths, tour: Tour, before: int, one: int, two: int) -> float:
+def _kick(lengths: Lengths, state: SearchState, before: int, one: int, two: int) -> float:
     """Swap two segments of so many vertices that stand one behind the other; what that gains, mostly less than 0."""
-    path = tour.path
+    path = state.path
     last = before + one
     a, b, c, d = path[before], path[before + 1], path[last], path[last + 1]
     e, f = path[last + two], path[last + two + 1]
-    _move(tour, before + 1, last, last + two, False)
+    _move(state, before + 1, last, last + two, False)
     for v in (a, b, c, d, e, f):
-        _look(tour, v)
-    lost = leg(ways, a, d) + leg(ways, e, b) + leg(ways, c, f)
-    return leg(ways, a, b) + leg(ways, c, d) + leg(ways, e, f) - lost
+        _look(state, v)
+    lost = leg(lengths, a, d) + leg(lengths, e, b) + leg(lengths, c, f)
+    return leg(lengths, a, b) + leg(lengths, c, d) + leg(lengths, e, f) - lost
 
 
-def _flip(tour: Tour, i: int, j: int) -> None:
+def _flip(state: SearchState, i: int, j: int) -> None:
     """Turn what stands from i to j round, and note it."""
-    k = tour.count[2]
-    tour.flips[2 * k], tour.flips[2 * k + 1] = i, j
-    tour.count[2] = k + 1
-    _turn_round(tour.path, tour.place, i, j)
+    k = state.count[2]
+    state.flips[2 * k], state.flips[2 * k + 1] = i, j
+    state.count[2] = k + 1
+    _turn_round(state.path, state.place, i, j)
 
 
 def _turn_round(path: Numbers, place: Numbers, i: int, j: int) -> None:
@@ -312,22 +312,22 @@ def _turn_round(path: Numbers, place: Numbers, i: int, j: int) -> None:
         i, j = i + 1, j - 1
 
 
-def _take_back(tour: Tour) -> None:
+def _take_back(state: SearchState) -> None:
     """Undo every flip that was noted, and look at nothing any more."""
-    for k in range(tour.count[2] - 1, -1, -1):
-        _turn_round(tour.path, tour.place, tour.flips[2 * k], tour.flips[2 * k + 1])
-    while tour.count[1] > 0:
-        _next(tour)
+    for k in range(state.count[2] - 1, -1, -1):
+        _turn_round(state.path, state.place, state.flips[2 * k], state.flips[2 * k + 1])
+    while state.count[1] > 0:
+        _next(state)
 
 
 @cache
 def for_long_paths() -> tuple[Callable[..., None], Callable[..., None], Callable[..., None]]:
-    """:func:`neighbours`, :func:`begin` and :func:`shorten` compiled, for arrays and for :class:`legs.Ways`."""
+    """:func:`neighbours`, :func:`begin` and :func:`shorten` compiled, for arrays and for :class:`legs.LegLengths`."""
     from fieldhand.orienteering.kernels import legs
     from fieldhand.orienteering.kernels.compiled import inner
 
-    def length(ways: legs.Ways, u: int, v: int) -> float:
-        return 0.0 if u < 0 or v < 0 else legs.length(ways, u, v)
+    def length(lengths: legs.LegLengths, u: int, v: int) -> float:
+        return 0.0 if u < 0 or v < 0 else legs.length(lengths, u, v)
 
     # The same code, but each name in it means what is compiled.
     names: dict[str, Any] = {**globals(), "leg": inner(length)}

@@ -15,7 +15,7 @@ Floats = NDArray[np.float64]
 _SYMMETRIC = 1e-3
 
 
-def exceeding(mean: ArrayLike, variance: ArrayLike, third: ArrayLike, left: ArrayLike) -> Floats:
+def overrun_probability(mean: ArrayLike, variance: ArrayLike, third: ArrayLike, left: ArrayLike) -> Floats:
     """P(cost > ``left``) of a sum whose first three cumulants are known, elementwise: the Pearson III through them.
 
     Exact for equal exponential or gamma legs, and for certain ones. docs/orienteering.md has its error for others.
@@ -49,7 +49,7 @@ def quantile_table(chance: float) -> Floats:
     return np.where(skewed, (at - shape) * safe / 2.0, -ndtri(chance))
 
 
-def standardised(table: Floats, variance: float, third: float) -> float:
+def standardised_quantile(table: Floats, variance: float, third: float) -> float:
     """The entry of a :func:`quantile_table` for a sum with this variance and third central moment; 0 for a certain one.
 
     Times the standard deviation it is by how much the sum exceeds its mean with the table's chance.
