@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from fieldhand.errors import DriveFault
 from fieldhand.evaluation.means import Means
-from fieldhand.evaluation.reasons import Errand, left_out, no_way
+from fieldhand.evaluation.reasons import Errand, left_out, no_way, too_many
+from fieldhand.forecast.candidates import cheapest
 from fieldhand.forecast.legs import TABLE, legs_between
 from fieldhand.forecast.optional import GONE, left_before, policy_for, visits_problem
 from fieldhand.forecast.rest import Rest, optional_runs
@@ -40,6 +41,7 @@ class _Run:
         start: Where it began.
         rest: What follows.
         accepted: Chance of running short of the whole mission that the run was planned with.
+        beyond: Places of candidates that it is not chosen from, because they are too many.
         new: Whether nothing has been decided in it.
         done: Vertices that were visited.
     """
@@ -50,6 +52,7 @@ class _Run:
     start: Key
     rest: Rest
     accepted: float
+    beyond: frozenset[Key]
     new: bool
     done: set[int] = field(default_factory=set)
     known: dict[int, tuple[Place, int | None]] = field(default_factory=dict)
@@ -61,10 +64,18 @@ class _Run:
             found = self.known[id(place)] = (place, self.vertex.get(_key(place)))
         return found[1]
 
+    def choosable(self, candidates: Sequence[Visit]) -> list[int]:
+        """Return the positions of the candidates that the run chooses from."""
+        if not self.beyond:
+            return list(range(len(candidates)))
+        return [
+            i for i, v in enumerate(candidates) if self.number(v.place) is not None or _key(v.place) not in self.beyond
+        ]
+
     def begins(self, candidates: Sequence[Visit]) -> bool:
         """Return True if these are what is left of the run's candidates."""
-        numbers = [self.number(v.place) for v in candidates]
-        return None not in numbers and self.done.isdisjoint(numbers)
+        numbers = [self.number(candidates[i].place) for i in self.choosable(candidates)]
+        return bool(numbers) and None not in numbers and self.done.isdisjoint(numbers)
 
     def here(self, place: Place) -> int | None:
         """The vertex at which the robot stands; None for a place that the run does not know."""
@@ -99,15 +110,22 @@ class Choosing:
             return Choice(index=None)
         run = self._runs.get(state.node)
         if run is not None and not run.begins(candidates):
+            if not run.choosable(candidates):  # all of them were visited: on with those left out, at the same chance
+                self._begun[state.node] = run.accepted
             run = None
         rest = self._rest(state, run, candidates, to_come)
-        open_, cut_off = list(range(len(candidates))), list[int]()
+        cut_off = list[int]()
         if run is None or rest is not run.rest:
             open_, cut_off = self._reachable(state.context.here, candidates, rest.first)
             if not open_:
                 return Choice(index=None, shed=tuple(cut_off), reason=no_way(candidates, cut_off), chance_short=1.0)
+            within = cheapest(state.context.here, [candidates[i] for i in open_], rest, self._means.drives)
+            open_ = [open_[k] for k in within]
+        else:
+            open_ = run.choosable(candidates)
+        beyond = sorted(set(range(len(candidates))).difference(open_, cut_off))
         visits = [candidates[i] for i in open_]
-        run = self._run(state, visits, rest, run, at_most)
+        run = self._run(state, visits, rest, run, at_most, frozenset(_key(candidates[i].place) for i in beyond))
         here, left = run.here(state.context.here) or 0, self._left(state, rest)
         known = [number for v in visits if (number := run.number(v.place)) is not None]
         chances = dict(zip(open_, self._chances(run, here, visits, known, left).tolist(), strict=True))
@@ -129,12 +147,21 @@ class Choosing:
             safest = min(gone, key=lambda i: chances[i])
             reasons.append(self._skipped(state, candidates, gone, rest, candidates[safest]))
             chance = chances[safest]
+        if index is None and beyond:
+            gone = [*gone, *beyond]
+            reasons.append(too_many(candidates, beyond, len(run.vertex)))
         return Choice(index=index, shed=(*cut_off, *gone), reason=joined("; ", reasons), chance_short=chance)
 
     # --- a run -------------------------------------------------------------------------------------------------------
 
     def _run(
-        self, state: MissionState, visits: Sequence[Visit], rest: Rest, run: _Run | None, at_most: int | None
+        self,
+        state: MissionState,
+        visits: Sequence[Visit],
+        rest: Rest,
+        run: _Run | None,
+        at_most: int | None,
+        beyond: frozenset[Key],
     ) -> _Run:
         """The run that goes on; made anew where it does not know a place, or what follows has changed."""
         here = state.context.here
@@ -167,6 +194,7 @@ class Choosing:
             start=_key(here),
             rest=rest,
             accepted=accepted,
+            beyond=beyond,
             new=begun is None,
         )
         self._runs[state.node] = made

@@ -97,6 +97,17 @@ def no_way(visits: Sequence[Visit], indices: Sequence[int]) -> str:
     return message("there is no way to {places}", context="log", places=named(visits, indices))
 
 
+def too_many(visits: Sequence[Visit], indices: Sequence[int], chosen_from: int) -> str:
+    """Return why visits were not even chosen from: "left out trees 3 and 4: 19,998 others cost less to reach"."""
+    others = Number(f"{chosen_from:,}")
+    return message(
+        "left out {places}: {count} others cost less to reach",
+        context="log",
+        places=named(visits, indices),
+        count=others,
+    )
+
+
 def names_places(reason: str) -> bool:
     """Whether a reason says itself what was left out, so that who tells it need not name that again."""
     return reason.startswith((f"{SKIPPED} ", f"{_NO_WAY} "))

@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.forecast.allowance import Allowance
+from fieldhand.forecast.candidates import cheapest
 from fieldhand.forecast.drawn import DRAWS
 from fieldhand.forecast.legs import legs_between
 from fieldhand.forecast.limits import resources_of
 from fieldhand.forecast.optional import GONE, left_before, policy_for, visits_problem
 from fieldhand.forecast.rest import Rest, everything, optional_runs, rest_after
-from fieldhand.forecast.state import Spent, Visit
+from fieldhand.forecast.state import Spent, Visit, Work
 from fieldhand.forecast.steps import Outlook
 from fieldhand.forecast.ways import Way, chances_short, cost_model, way_of
 from fieldhand.places.context import Context
@@ -35,10 +36,11 @@ class Expected:
 
     Attributes:
         places: As many as missions make on average, the likeliest, in the order in which they are driven to.
-        shed: All others, the likeliest first.
+        shed: All others, the likeliest first; last those that are not chosen from, because they are too many.
         outlook: How likely each is.
         preview: Missions that make them.
-        ids: Of the places that can be reached, by the numbers of the preview less one.
+        ids: Of the places that are chosen from, by the numbers of the preview less one.
+        works: What is done at each of these places.
         allowance: What later optional visits may still add to the chance of running short.
     """
 
@@ -47,6 +49,7 @@ class Expected:
     outlook: Outlook
     preview: Preview
     ids: tuple[str, ...]
+    works: tuple[Work, ...]
     allowance: Allowance
 
 
@@ -68,14 +71,14 @@ def expected_visits(
     """
 
     rest = _rest(walker, node, visits)
+    visits, beyond = _candidates(walker, visits, rest)
     without, share, allowance = _share(walker, rest)
     drawn = walker.drawn
     used = np.zeros(DRAWS) if drawn is None else drawn.metres - walker.spent.metres
     if len(visits) == 1:
         found = _one(walker, visits[0], rest, share, used, rng)
     else:
-        ids = [] if before is None else list(before.outlook.chances)
-        ahead = [] if before is None else [ids[v - 1] for v in before.preview.orders[0].tolist()]
+        ahead = [] if before is None else [before.ids[v - 1] for v in before.preview.orders[0].tolist()]
         number = {v.place.id: k for k, v in enumerate(visits, start=1)}
         warm = [number[i] for i in ahead if i in number]
         found = _several(walker, node, visits, rest, without + share, used, rng, warm)
@@ -88,15 +91,29 @@ def expected_visits(
     chosen = set(likely[: round(mean)])
     return Expected(
         places=tuple(visits[v - 1].place for v in found.vertices.tolist() if v - 1 in chosen),
-        shed=tuple(visits[k].place for k in sorted(likely[round(mean) :], key=lambda k: -chances[k])),
+        shed=(
+            *(visits[k].place for k in sorted(likely[round(mean) :], key=lambda k: -chances[k])),
+            *(v.place for v in beyond),
+        ),
         outlook=Outlook(
             visits=mean,
-            chances={v.place.id: float(chance) for v, chance in zip(visits, chances, strict=True)},
+            chances={v.place.id: float(chance) for v, chance in zip(visits, chances, strict=True)}
+            | {v.place.id: 0.0 for v in beyond},
         ),
         preview=found,
         ids=tuple(v.place.id for v in visits),
+        works=tuple(v.work for v in visits),
         allowance=allowance,
     )
+
+
+def _candidates(walker: Walker, visits: Sequence[Visit], rest: Rest) -> tuple[Sequence[Visit], Sequence[Visit]]:
+    """Return the visits that are chosen from, and those beyond the most that one choice is made from."""
+    kept = cheapest(walker.context.here, visits, rest, walker.drives)
+    if len(kept) == len(visits):
+        return visits, ()
+    chosen = set(kept)
+    return [visits[k] for k in kept], [v for k, v in enumerate(visits) if k not in chosen]
 
 
 def _several(

@@ -68,7 +68,7 @@ class LikelyWork:
         step = Step(node=node, kind="visit-list", context=walker.context, shed=(*found.shed, *closed))
         walker.note(replace(step, places=found.places, outlook=found.outlook))
         if drawn is not None:
-            drawn.visit(found.preview, [v.work for v in visits])
+            drawn.visit(found.preview, found.works)
         return found.places
 
 

@@ -124,6 +124,10 @@ class Drives:
             raise self._no_way(places[i], (places if to is None else to)[j])
         return lengths
 
+    def are_straight(self, places: Sequence[Place]) -> bool:
+        """Return True if every drive between the places, each with its stand, is a straight line."""
+        return not self.layout.open or self.layout.is_one_view(self.layout.spots([p.stand or p.xy for p in places]))
+
     def roads(self, places: Sequence[Place]) -> Roads:
         """The ways between the places as a sparse graph, for many places: its size grows with their number.
 
