@@ -168,7 +168,8 @@ def shape_of(cls: type) -> Shape:
     children: list[Child] = []
     for field in fields(cls):
         name = _NAMES.get((cls, field.name), field.name.replace("_", "-"))
-        hint, default = hints[field.name], field.default
+        # A plan that is built in Python may leave its ids empty: make_task assigns them. A document states them.
+        hint, default = hints[field.name], MISSING if field.name == "id" else field.default
         if field.name in in_head:
             continue
         if (cls, field.name) in _TEXTS:

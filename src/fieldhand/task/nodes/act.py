@@ -32,7 +32,7 @@ class Act(PlanNode):
         reading: Binds what the action measures, of several captures the last.
     """
 
-    id: str
+    id: str = ""
     action: str
     at: Selector | None = None
     at_said: tuple[Span, ...] = ()

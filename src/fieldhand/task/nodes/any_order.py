@@ -23,7 +23,7 @@ class AnyOrder(PlanNode):
     The order is decided once, when the node is reached. It fails as soon as a step does.
     """
 
-    id: str
+    id: str = ""
     steps: tuple[Node, ...]
     said: tuple[Span, ...] = ()
 

@@ -22,7 +22,7 @@ class If(PlanNode):
     What cannot be known (a reading that was not taken) does not hold.
     """
 
-    id: str
+    id: str = ""
     condition: Condition
     then: Node
     otherwise: Node | None = None

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 class Try(PlanNode):
     """``body``, and if that fails ``otherwise``, from wherever the failure left the robot."""
 
-    id: str
+    id: str = ""
     body: Node
     otherwise: Node
     said: tuple[Span, ...] = ()

@@ -34,7 +34,7 @@ class ForEach(PlanNode):
         until: Stop once this holds after a visit.
     """
 
-    id: str
+    id: str = ""
     select: Selector
     body: Node
     label: str = ""

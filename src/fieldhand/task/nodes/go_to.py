@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class GoTo(PlanNode):
     """Drive to a place; the selector must give one. ``label`` binds it for later nodes."""
 
-    id: str
+    id: str = ""
     place: Selector
     label: str = ""
     said: tuple[Span, ...] = ()

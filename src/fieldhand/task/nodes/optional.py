@@ -24,7 +24,7 @@ class Optional(PlanNode):
         reward: What it is worth.
     """
 
-    id: str
+    id: str = ""
     body: Node
     reward: float = 1.0
     said: tuple[Span, ...] = ()

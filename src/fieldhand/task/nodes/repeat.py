@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 class Repeat(PlanNode):
     """``body`` a number of times, or until a condition holds after a round, whichever comes first."""
 
-    id: str
+    id: str = ""
     times: int
     body: Node
     until: Condition | None = None

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class Sequence(PlanNode):
     """Steps in their order; it fails as soon as one does."""
 
-    id: str
+    id: str = ""
     steps: tuple[Node, ...]
     said: tuple[Span, ...] = ()
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 class Stop(PlanNode):
     """End the mission here and take an exit. Nothing around it goes on, no ``Try`` either."""
 
-    id: str
+    id: str = ""
     exit: Literal["nominal", "faulted"] = "nominal"
     said: tuple[Span, ...] = ()
 

@@ -114,7 +114,8 @@ class Parts:
                 if depth == 0 and one.default is not MISSING and _holds_parts(hints[one.name]):
                     continue
                 strategy = self.of_hint(one.name, hints[one.name], depth)
-                drawn[one.name] = strategy if one.default is MISSING else st.one_of(st.just(one.default), strategy)
+                given = one.default is MISSING or one.name == "id"
+                drawn[one.name] = strategy if given else st.one_of(st.just(one.default), strategy)
             made = st.builds(cls, **(drawn | {k: st.just("") for k in drawn if k in ("quantity", "unit", "level")}))
             self._made[cls, depth] = self.fitted(cls, made)
         return self._made[cls, depth]
