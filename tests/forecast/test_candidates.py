@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from orchards import husky, orchard, task_for
 
 from fieldhand.errors import ProblemError
 from fieldhand.evaluation import choosing
@@ -25,6 +24,7 @@ from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import parse_site
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach
+from fieldhand.testing.small_orchard import husky, orchard, task_for
 from fieldhand_bench.site.orchard import benchmark_orchard
 from paper import Paper
 
