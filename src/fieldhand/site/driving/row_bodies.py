@@ -21,7 +21,7 @@ _GIVE = 0.2
 _FAR = 4.0
 
 #: Trees of a row whose distance from other rows is looked at together.
-_PIECE = 16
+_PIECE = 6
 
 #: No body is narrower, whatever the robot's width: half of it.
 _THIN_M = 0.01
@@ -96,16 +96,17 @@ def _ordered(xy: Points, frame: Frame) -> LineString:
 
 def _room_beside(lines: Sequence[LineString], most_m: float) -> Points:
     """Return the metres from each line to the next one, or ``most_m`` where that is less."""
-    pieces, row = [], []
-    for k, line in enumerate(lines):
-        xy = shapely.get_coordinates(line)
-        found = [LineString(xy[i : i + _PIECE + 1]) for i in range(0, len(xy) - 1, _PIECE)]
-        pieces += found
-        row += [k] * len(found)
-    tree, of = shapely.STRtree(pieces), np.array(row)
-    one, two = tree.query(pieces, predicate="dwithin", distance=most_m)
+    xy = [shapely.get_coordinates(line) for line in lines]
+    pieces = [(k, at[i : i + _PIECE + 1]) for k, at in enumerate(xy) for i in range(0, len(at) - 1, _PIECE)]
+    of = np.array([k for k, _ in pieces])
+    numbers = np.repeat(np.arange(len(pieces)), [len(at) for _, at in pieces])
+    shapes = np.array(shapely.linestrings(np.concatenate([at for _, at in pieces]), indices=numbers))
+    west, south, east, north = shapely.bounds(shapes).T
+    # Measuring what is near by its box is faster than asking the tree what is within the distance.
+    near = shapely.box(west - most_m, south - most_m, east + most_m, north + most_m)
+    one, two = shapely.STRtree(shapes).query(near)
     one, two = one[of[one] < of[two]], two[of[one] < of[two]]
-    metres = shapely.distance(tree.geometries[one], tree.geometries[two])
+    metres = shapely.distance(shapes[one], shapes[two])
     room = np.full(len(lines), most_m)
     np.minimum.at(room, of[one], metres)
     np.minimum.at(room, of[two], metres)
