@@ -112,10 +112,13 @@ class Area:
 
         Those that begin on it and do not meet its edge: a good deal faster than whether the ground covers them.
         """
-        lines = shapely.linestrings(np.stack([one, two], axis=1))
-        clear: NDArray[np.bool_] = ~np.asarray(shapely.intersects(self._edge, lines))
+        clear = self.clear(one, two)
         clear[clear] = self.holds(one[clear])
         return clear
+
+    def clear(self, one: Points, two: Points) -> NDArray[np.bool_]:
+        """Which straight lines, from points (n, 2) to points (n, 2), do not meet the edge of the ground."""
+        return ~np.asarray(shapely.intersects(self._edge, shapely.linestrings(np.stack([one, two], axis=1))))
 
 
 def free_ground(site: Site, clearance_m: float) -> Free:

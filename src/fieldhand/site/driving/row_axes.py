@@ -1,0 +1,110 @@
+"""The lines along rows that no way crosses, and which pairs of points they part."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.site.driving.graph import Indices, Points
+
+#: Of either end of a line this much is left out: ways along the end of an obstacle only touch the end of its line.
+_ENDS_M = 1e-3
+
+#: Of each point so many of the nearest rows are looked at.
+_NEAREST = 8
+
+#: Pairs of points that are worked on together: bounds the memory.
+_BATCH = 100_000
+
+#: Points as complex numbers: one product turns a point into the frame of a line.
+Complex = NDArray[np.complex128]
+
+#: Returns which pairs count, from their positions, of shapes (n, 1) and (m,): shape (n, m).
+Among = Callable[[Indices, Indices], NDArray[np.bool_]]
+
+
+@dataclass(frozen=True, eq=False)
+class Located:
+    """Points, shape (n,), and the rows nearest to each, the nearest first, shape (n, k)."""
+
+    at: Complex
+    near: Indices
+
+
+class RowAxes:
+    """Lines through obstacles, from end to end, that no way crosses.
+
+    Among rows most pairs of points are parted by one of the nearest, which is many times cheaper to see than whether a
+    line lies on the ground.
+
+    Args:
+        ends: Of each line, shape (m, 2, 2).
+    """
+
+    def __init__(self, ends: Points) -> None:
+        start, end = _complex(ends[:, 0]), _complex(ends[:, 1])
+        length = np.abs(end - start)
+        along = (end - start) / length
+        self._start = start + _ENDS_M * along
+        self._turn = along.conj()
+        self._length = length - 2.0 * _ENDS_M
+
+    def located(self, at: Points) -> Located:
+        """Return these points with the rows nearest to each."""
+        count = min(_NEAREST, len(self._length))
+        places = _complex(at)
+        nearest = np.empty((len(at), count), dtype=np.intp)
+        if not count:
+            return Located(places, nearest)
+        step = max(_BATCH // len(self._length), 1)
+        for first in range(0, len(at), step):
+            some = slice(first, first + step)
+            seen = (places[some, None] - self._start) * self._turn
+            away = np.hypot(seen.imag, seen.real - np.clip(seen.real, 0.0, self._length))
+            near = np.argpartition(away, count - 1, axis=1)[:, :count]
+            order = np.argsort(np.take_along_axis(away, near, axis=1), axis=1, kind="stable")
+            nearest[some] = np.take_along_axis(near, order, axis=1)
+        return Located(places, nearest)
+
+    def unparted(
+        self, one: Located, two: Located | None = None, among: Among | None = None
+    ) -> Iterator[tuple[Indices, Indices]]:
+        """Yield, in batches and in order, the positions of all pairs of a point of ``one`` and one of ``two`` that none
+        of the rows nearest to either parts. Without ``two`` pairs within ``one``, each once.
+        """
+        to = one if two is None else two
+        step = max(_BATCH // max(len(to.at), 1), 1)
+        for first in range(0, len(one.at), step):
+            some = np.arange(first, min(first + step, len(one.at)))
+            there = np.arange(first if two is None else 0, len(to.at))
+            kept = some[:, None] < there if two is None else np.ones((len(some), len(there)), dtype=bool)
+            if among is not None:
+                kept &= among(some[:, None], there)
+            else:  # most pairs are parted by the rows on either side of ``one``
+                for axes in one.near[some].T[:2]:
+                    kept &= ~self._part(axes[:, None], one.at[some, None], to.at[there])
+            i, j = np.nonzero(kept)
+            i, j = some[i], there[j]
+            for rank in range(one.near.shape[1]):
+                clear = ~self._part(one.near[i, rank], one.at[i], to.at[j])
+                i, j = i[clear], j[clear]
+                clear = ~self._part(to.near[j, rank], one.at[i], to.at[j])
+                i, j = i[clear], j[clear]
+            yield i, j
+
+    def _part(self, axes: Indices, one: Complex, two: Complex) -> NDArray[np.bool_]:
+        """Return whether each of these rows parts a point of ``one`` from one of ``two``; they broadcast."""
+        start, turn = self._start[axes], self._turn[axes]
+        one, two = (one - start) * turn, (two - start) * turn
+        far_one, far_two = np.abs(one.imag), np.abs(two.imag)
+        # Where the line between the two crosses that of the row, times the sum of their distances from it.
+        crossing = one.real * far_two + two.real * far_one
+        between = (crossing > 0.0) & (crossing < self._length[axes] * (far_one + far_two))
+        return np.asarray(between & ((one.imag > 0.0) != (two.imag > 0.0)))
+
+
+def _complex(at: Points) -> Complex:
+    return np.asarray(at[..., 0] + 1j * at[..., 1])
