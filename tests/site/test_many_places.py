@@ -72,6 +72,19 @@ def test_stands_and_lengths_do_not_depend_on_what_was_asked_before(site, seed):
             assert asked.between(standing[i], standing[j]).length_m == pytest.approx(lengths[i, j], abs=1e-6)
 
 
+def test_a_straight_way_past_the_end_of_a_row_is_in_the_table_in_both_directions():
+    """One of the two stands in the band beside its row, and from its foot there the end of the row parts them."""
+    drives = Drives(generated(51), CLEARANCE, 1.0)
+    trees = [tree.place for tree in drives.site.trees if not drives.problem(tree.place)]
+    standing = drives.stands(trees)
+    pair = standing[46], standing[98]
+    metres = drives.between(*pair).length_m
+    assert len(drives.between(*pair).points) == 2
+    for one, two in (pair, pair[::-1]):
+        assert drives.lengths([one], [two]) == pytest.approx(metres)
+        assert drives.lengths([one, two])[0, 1] == pytest.approx(metres)
+
+
 @settings(max_examples=15, deadline=None)
 @given(any_site)
 def test_a_table_that_grows_place_by_place_is_the_whole_one(site):

@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 import shapely
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 from shapely.geometry import Point
 from shapely.ops import unary_union
 
@@ -232,11 +233,14 @@ class Layout:
         return self._remembered[spot.xy]
 
     def _may_see(self, one: _Feet, two: _Feet | None) -> Iterator[tuple[Indices, Indices]]:
-        """Yield the positions of spots that may see each other."""
-        rows = np.flatnonzero(one.there)
-        columns = rows if two is None else np.flatnonzero(two.there)
+        """Yield the positions of spots that may see each other from their feet, or beside a row from where they are."""
+        to = one if two is None else two
+        rows, columns = np.flatnonzero(one.part >= 0), np.flatnonzero(to.part >= 0)
         for i, j in self.visibility.pairs(one.foot[rows], None if two is None else two.foot[columns]):
             yield rows[i], columns[j]
+        yield _beside(one, to)
+        if two is not None:
+            yield _beside(two, one)[::-1]
 
     def _straight(
         self, one: _Feet, two: _Feet, i: Indices, j: Indices, below: Points | None = None
@@ -272,18 +276,30 @@ class Layout:
 
 @dataclass(frozen=True, eq=False)
 class _Feet:
-    """Spots as arrays: where they are, their feet (nan without one), their spurs, and which have a foot."""
+    """Spots as arrays: where they are, their feet (nan without one), their spurs, and the parts of the ground."""
 
     at: Points
     foot: Points
     spur: Points
-    there: NDArray[np.bool_]
+    part: Indices
 
     @staticmethod
     def of(spots: Sequence[Spot]) -> _Feet:
         foot = np.array([(math.nan, math.nan) if s.foot is None else s.foot for s in spots]).reshape(-1, 2)
         at = np.array([s.xy for s in spots]).reshape(-1, 2)
-        return _Feet(at, foot, np.array([s.spur for s in spots]), ~np.isnan(foot[:, 0]))
+        part = np.array([s.part for s in spots], dtype=np.intp)
+        return _Feet(at, foot, np.array([s.spur for s in spots]), part)
+
+
+def _beside(one: _Feet, two: _Feet) -> tuple[Indices, Indices]:
+    """Return the positions of spots of ``one`` off the ground, and of spots of ``two`` that may be driven to straight
+    beside a row."""
+    off = np.flatnonzero(one.spur > 0.0)
+    near = cKDTree(one.at[off]).query_ball_tree(cKDTree(two.at), _BESIDE_M)
+    found = [(i, j) for i, some in zip(off.tolist(), near, strict=True) for j in some]
+    i, j = np.array(found, dtype=np.intp).reshape(-1, 2).T
+    on_one_part = one.part[i] == two.part[j]
+    return i[on_one_part], j[on_one_part]
 
 
 def _points(way: Sequence[XY]) -> tuple[XY, ...]:
