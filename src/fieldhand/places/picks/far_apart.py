@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -44,13 +46,14 @@ def far_apart(spots: Spots, count: int, tell: Tell) -> Spots:
 
 def _from(xy: Floats, first: int, count: int) -> tuple[list[int], float]:
     """The places taken, beginning with one, and the least distance between any two of them."""
+    x, y = np.ascontiguousarray(xy.T)
     taken, least = [first], np.inf
-    nearest = np.hypot(*(xy - xy[first]).T)
+    nearest = (x - x[first]) ** 2 + (y - y[first]) ** 2  # squares: far faster than the metres
     nearest[first] = -1.0
     while len(taken) < count:
         farthest = int(nearest.argmax())
         least = min(least, float(nearest[farthest]))
         taken.append(farthest)
-        np.minimum(nearest, np.hypot(*(xy - xy[farthest]).T), out=nearest)
+        np.minimum(nearest, (x - x[farthest]) ** 2 + (y - y[farthest]) ** 2, out=nearest)
         nearest[farthest] = -1.0
-    return taken, least
+    return taken, math.sqrt(least)

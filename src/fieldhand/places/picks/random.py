@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import hashlib
+import heapq
 from dataclasses import dataclass
+from hashlib import sha256
 from typing import TYPE_CHECKING
 
 from fieldhand.language import message
@@ -64,6 +65,7 @@ def _drawn(spots: Spots, count: int, seed: int) -> Spots:
     Each place gets a number from the SHA-256 of the seed and its id, and the lowest are drawn (bottom-k sampling, Cohen
     and Kelley 2007). So the draw depends on no program's generator and not on the order of the file.
     """
-    lots = [hashlib.sha256(f"{seed}\n{place.id}".encode()).digest() for place in spots.places]
-    taken = sorted(range(len(lots)), key=lambda k: lots[k])[:count]
+    prefix = f"{seed}\n".encode()
+    lots = [sha256(prefix + place.id.encode()).digest() for place in spots.places]
+    taken = heapq.nsmallest(count, range(len(lots)), key=lots.__getitem__)
     return spots.keep(sorted(taken, key=lambda k: int(spots.file_order[k])))
