@@ -75,7 +75,7 @@ class Mission:
 
     def play(self, node: p.Node) -> None:
         match node:
-            case p.Sequence(steps=steps):
+            case p.InOrder(steps=steps):
                 for step in steps:
                     self.play(step)
             case p.AnyOrder(steps=steps):
@@ -106,7 +106,7 @@ class Mission:
                     self.play(node.body)
                 except Failed:
                     self.play(node.otherwise)
-            case p.Optional():
+            case p.OptionalStep():
                 if self.answer:
                     self.play(node.body)
             case p.GoTo():
@@ -117,7 +117,7 @@ class Mission:
                 self.say(node.action)
                 if self.fails:
                     raise Failed
-            case p.Stop():
+            case p.StopMission():
                 raise Stopped(node.exit)
 
     def truth(self, condition: Condition) -> bool | None:

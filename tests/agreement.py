@@ -45,15 +45,15 @@ from fieldhand.task.plan import (
     GoTo,
     If,
     Node,
-    Optional,
+    OptionalStep,
     Repeat,
-    Stop,
+    StopMission,
     Try,
     acts,
     walk,
 )
 from fieldhand.task.plan import (
-    Sequence as Steps,
+    InOrder as Steps,
 )
 from fieldhand.task.results import Acted, Arrived, Decided, Ended, Event, Exited, Visiting
 from rig import approved, husky, orchard, task_for
@@ -140,7 +140,7 @@ class Drawn:
                 until = self._condition() if self._chance(0.4) else None
                 return Repeat(id="", times=int(self._rng.integers(1, 4)), body=inner(), until=until)
             case 6:
-                stop = Stop(id="", exit="nominal" if self._chance(0.5) else "faulted")
+                stop = StopMission(id="", exit="nominal" if self._chance(0.5) else "faulted")
                 then = stop if self._chance(0.15) else inner()
                 otherwise = inner() if self._chance(0.5) else None
                 first = replace(self._act(tried=tried, label=label), reading="a")
@@ -149,7 +149,7 @@ class Drawn:
             case 7:
                 return Try(id="", body=inner(also_tried=True), otherwise=inner())
             case _:
-                return inner() if optional else Optional(id="", body=inner(also_optional=True))
+                return inner() if optional else OptionalStep(id="", body=inner(also_optional=True))
 
     def _loop(self, inner: Any, *, optional: bool, named: str) -> ForEach:
         names = self._rng.permutation(self._trees)[: int(self._rng.integers(1, 5))].tolist()
@@ -299,7 +299,7 @@ class AsChosen:
         """The visits of a for-each that is reached once more."""
         return tuple(self._chosen[node].popleft())
 
-    def takes(self, walker: Walker, node: Optional) -> bool:
+    def takes(self, walker: Walker, node: OptionalStep) -> bool:
         return self._taken[node.id].popleft()
 
 
@@ -473,7 +473,7 @@ class Interpreter:
         loop = ForEach(
             id=node,
             select=_selectors(element.get("select"))[0],
-            body=Stop(id=""),
+            body=StopMission(id=""),
             order=element.get("order", "best"),
             at_most=int(element.get("at_most")) if "at_most" in element.attrib else None,
         )

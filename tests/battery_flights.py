@@ -25,7 +25,7 @@ from fieldhand.site.geojson import open_site
 from fieldhand.task.build import make_task
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Budget, Constraints
-from fieldhand.task.plan import Act, ForEach, Node, Sequence
+from fieldhand.task.plan import Act, ForEach, InOrder, Node
 from fieldhand.task.results import Event
 from rig import approved
 
@@ -41,7 +41,7 @@ def draw_plan(rng: np.random.Generator, ids: list[str]) -> Node:
         case 0:
             return every
         case 1:
-            return Sequence(id="", steps=(far, every))
+            return InOrder(id="", steps=(far, every))
         case 2:
             return ForEach(id="", select=Trees(), body=Act(id="", action="read_co2"), order="best")
         case _:

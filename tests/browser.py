@@ -24,7 +24,7 @@ from fieldhand.task.build import make_task
 from fieldhand.task.codec import encode
 from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import Budget, Constraints, Resource, Task
-from fieldhand.task.plan import Act, ForEach, If, Node, Sequence
+from fieldhand.task.plan import Act, ForEach, If, InOrder, Node
 
 LOCAL = frozenset({"localhost", "127.0.0.1", "::1"})
 
@@ -74,13 +74,11 @@ def corner_task(request: str, site: Site, robot: RobotProfile) -> Task:
     corners = ForEach(
         id="",
         select=Corners(),
-        body=Sequence(
-            id="", steps=(Act(id="", action=action.name, reading="r"), If(id="", condition=hot, then=around))
-        ),
+        body=InOrder(id="", steps=(Act(id="", action=action.name, reading="r"), If(id="", condition=hot, then=around))),
     )
     nonpareil = Where(attribute="variety", test="eq", value="Nonpareil", of=Quarter(quarter="nw"))
     rest = ForEach(id="", select=nonpareil, optional=True, body=Act(id="", action=action.name))
-    return task_of(Sequence(id="", steps=(corners, rest)), request, site, robot)
+    return task_of(InOrder(id="", steps=(corners, rest)), request, site, robot)
 
 
 def task_of(plan: Node, request: str, site: Site, robot: RobotProfile) -> Task:

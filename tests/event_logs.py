@@ -14,7 +14,7 @@ from fieldhand.places.selectors import Farthest, Half, Here, TreeIs
 from fieldhand.task.build import make_task
 from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Optional, Repeat, Sequence, Stop, Try
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Node, OptionalStep, Repeat, StopMission, Try
 from fieldhand.task.results import Acted, Arrived, Decided, Ended, Event, Exited, Faulted, Shed, Started, Visiting
 
 HOT = Compare(reading="r", quantity="canopy_temperature", test="lt", value=33, unit="degC")
@@ -46,11 +46,11 @@ def random_plan(rng: Random, depth: int = 3) -> Node:
         case 4:
             return Try(id="", body=inner[0], otherwise=random_plan(rng, depth - 1))
         case 5:
-            return Sequence(id="", steps=(GoTo(id="", place=TreeIs(tree="3")), *inner))
+            return InOrder(id="", steps=(GoTo(id="", place=TreeIs(tree="3")), *inner))
         case 6:
-            return Optional(id="", body=inner[0])
+            return OptionalStep(id="", body=inner[0])
         case _:
-            return Sequence(id="", steps=tuple(inner))
+            return InOrder(id="", steps=tuple(inner))
 
 
 def task_of(plan: Node, request: str = "made on paper") -> Task:
@@ -103,7 +103,7 @@ class Paper:
 
     def _do(self, node: Node) -> None:
         match node:
-            case Sequence(steps=steps):
+            case InOrder(steps=steps):
                 for step in steps:
                     self._do(step)
             case AnyOrder(steps=steps):
@@ -125,7 +125,7 @@ class Paper:
                     self._do(node.body)
                 except _Failed:
                     self._do(node.otherwise)
-            case Optional():
+            case OptionalStep():
                 if self.rng.random() < 0.4:
                     shed = Shed(t=self._t, node=node.id, places=("4",), optional=True, reason="no budget left for it")
                     self.events.append(shed)
@@ -135,7 +135,7 @@ class Paper:
                 self._arrive(node.id)
             case Act():
                 self._act(node)
-            case Stop():
+            case StopMission():
                 raise _Stopped
 
     def _loop(self, node: ForEach) -> None:

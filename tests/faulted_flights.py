@@ -40,7 +40,7 @@ from fieldhand.site.model import Site
 from fieldhand.task.build import FAULTED_EXITS, make_task
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import FaultedExit, Task
-from fieldhand.task.plan import Act, ForEach, GoTo, Node, Optional, Repeat, Sequence, Try, walk
+from fieldhand.task.plan import Act, ForEach, GoTo, InOrder, Node, OptionalStep, Repeat, Try, walk
 from fieldhand.task.results import Event
 from rig import approved
 
@@ -121,17 +121,17 @@ def random_plan(rng: np.random.Generator, ids: list[str]) -> Node:
             case 1:
                 return ForEach(id="", select=Trees(), body=act(), optional=True, at_most=int(rng.integers(1, 9)))
             case 2:
-                return Optional(id="", body=act(some(1)[0]))
+                return OptionalStep(id="", body=act(some(1)[0]))
             case 3:
                 return Try(id="", body=act(some(1)[0]), otherwise=act(some(1)[0]))
             case 4:
                 return Repeat(id="", times=2, body=act(some(1)[0]))
             case 5:
-                return Sequence(id="", steps=(GoTo(id="", place=TreeIs(tree=some(1)[0])), act()))
+                return InOrder(id="", steps=(GoTo(id="", place=TreeIs(tree=some(1)[0])), act()))
             case _:
                 return act(some(1)[0])
 
-    return Sequence(id="", steps=tuple(step() for _ in range(int(rng.integers(1, 5)))))
+    return InOrder(id="", steps=tuple(step() for _ in range(int(rng.integers(1, 5)))))
 
 
 def random_faults(rng: np.random.Generator, ids: list[str], wanted: list[str]) -> tuple[WorldFault, ...]:

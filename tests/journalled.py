@@ -18,11 +18,11 @@ from fieldhand.execution.world import World
 from fieldhand.places.selectors import Half, Take, TreeIs
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.conditions import Compare
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Sequence, Try
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Node, Repeat, Try
 from rig import authorized, husky, orchard, task_for
 
 PICTURE = "take_thermal_picture"
-PLAN = Sequence(
+PLAN = InOrder(
     id="",
     steps=(
         Act(id="", action=PICTURE, at=TreeIs(tree="r0c0"), count=2, reading="r"),

@@ -45,11 +45,11 @@ def node(n: p.Node) -> str:
             return f"{n.times} times{until}: [{node(n.body)}]"
         case p.Try():
             return f"try [{node(n.body)}] or [{node(n.otherwise)}]"
-        case p.Optional():
+        case p.OptionalStep():
             return f"maybe [{node(n.body)}]"
-        case p.Sequence():
+        case p.InOrder():
             return "; ".join(node(step) for step in n.steps)
-        case p.Stop():
+        case p.StopMission():
             return "stop"
         case _:
             raise AssertionError(n)

@@ -17,11 +17,11 @@ from fieldhand.places.context import Context
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.drives import Drives
 from fieldhand.site.model import Place, Site
-from fieldhand.task import requests as ask
+from fieldhand.task import instructions as ask
 from fieldhand.task.frames import Task
 from fieldhand.task.nodes.base import Stopped
 from fieldhand.task.plan import ForEach, Node
-from fieldhand.task.run import Frame, Run, carry_out
+from fieldhand.task.run import Run, StackFrame, carry_out
 
 
 class Paper:
@@ -95,7 +95,7 @@ class _Reached(Exception):
     pass
 
 
-def frames_at(plan: Node, node_id: str, time: int = 1) -> tuple[Frame, ...]:
+def frames_at(plan: Node, node_id: str, time: int = 1) -> tuple[StackFrame, ...]:
     """The nodes in hand when a node is reached.
 
     Args:
@@ -103,7 +103,7 @@ def frames_at(plan: Node, node_id: str, time: int = 1) -> tuple[Frame, ...]:
         node_id: The node.
         time: How often it has been reached then, this time included.
     """
-    run, found = Run(plan), list[tuple[Frame, ...]]()
+    run, found = Run(plan), list[tuple[StackFrame, ...]]()
 
     def entered(node: Node) -> None:
         if node.id == node_id:
@@ -111,17 +111,17 @@ def frames_at(plan: Node, node_id: str, time: int = 1) -> tuple[Frame, ...]:
         if len(found) == time:
             raise _Reached
 
-    def answer(request: ask.Request) -> Any:
+    def answer(request: ask.Instruction) -> Any:
         match request:
-            case ask.Arrange(node=node):
+            case ask.ArrangeSteps(node=node):
                 return tuple(range(len(node.steps)))
-            case ask.Begin():
+            case ask.BeginVisits():
                 return iter("abc")
-            case ask.Next(tour=tour):
+            case ask.NextVisit(tour=tour):
                 return next(tour, None)
             case ask.Decide(node=node):
                 return node.is_choice
-            case ask.Offer():
+            case ask.OfferStep():
                 return True
         return None
 

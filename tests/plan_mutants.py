@@ -108,7 +108,7 @@ def _changes(site: Site, robot: RobotProfile) -> dict[str, Change]:
             yield replace(x, name="end")
 
     def no_step(x: Any) -> Iterator[Any]:
-        if isinstance(x, p.Sequence) and len(x.steps) > 1:
+        if isinstance(x, p.InOrder) and len(x.steps) > 1:
             yield from (replace(x, steps=x.steps[:k] + x.steps[k + 1 :]) for k in range(len(x.steps)))
 
     def not_optional(x: Any) -> Iterator[Any]:

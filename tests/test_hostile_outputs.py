@@ -40,7 +40,7 @@ from fieldhand.site.geojson import site_of
 from fieldhand.task.build import make_task
 from fieldhand.task.codec import encode
 from fieldhand.task.frames import Resource
-from fieldhand.task.plan import Act, ForEach, Sequence
+from fieldhand.task.plan import Act, ForEach, InOrder
 from hostile import (
     FORMULA,
     SEEN,
@@ -154,7 +154,7 @@ def scene(tmp_path_factory: pytest.TempPathFactory) -> Scene:
     resources = tuple(
         Resource(kind=kind, name=one.name, sha256=one.sha256) for kind, one in (("robot", robot), ("site", site))
     )
-    plan, request = Sequence(id="", steps=steps), f"Read {SEEN}\n{FORMULA}"
+    plan, request = InOrder(id="", steps=steps), f"Read {SEEN}\n{FORMULA}"
     plain = make_task(request=request, plan=plan, measures=measures_of(robot), resources=resources)
     task = replace(plain, command=replace(plain.command, assumptions=(SEEN,), warnings=(SEEN, FORMULA)))
     approved = approve(

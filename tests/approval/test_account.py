@@ -12,9 +12,9 @@ from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
-from fieldhand.task.account import Piece, account
 from fieldhand.task.frames import Budget, Command, Composition, Constraints, Task
-from fieldhand.task.plan import Act, If, Node, Optional, Sequence, Stop, walk
+from fieldhand.task.plan import Act, If, InOrder, Node, OptionalStep, StopMission, walk
+from fieldhand.task.request_coverage import Piece, request_pieces
 
 SITE, HUSKY = open_site("demo"), load_robot("husky")
 REQUEST = (
@@ -32,7 +32,7 @@ def planned(request: str) -> Task:
 def bare(node: Node) -> Node:
     """A plan of which nothing says from which words it came."""
     match node:
-        case Sequence():
+        case InOrder():
             return replace(node, said=(), steps=tuple(bare(step) for step in node.steps))
         case If():
             return replace(node, said=(), then=bare(node.then))
@@ -43,7 +43,7 @@ def bare(node: Node) -> Node:
 
 
 def test_each_word_has_what_it_became_and_the_pieces_are_the_request() -> None:
-    pieces = account(planned(REQUEST))
+    pieces = request_pieces(planned(REQUEST))
     assert "".join(piece.text for piece in pieces) == REQUEST
     assert [(p.role, p.text) for p in pieces if p.role != "between"] == [
         ("no_part", "Please"),
@@ -59,7 +59,7 @@ def test_each_word_has_what_it_became_and_the_pieces_are_the_request() -> None:
 
 def test_a_step_that_is_gone_from_the_plan_leaves_a_warning_that_quotes_its_words() -> None:
     task = planned("Take a picture of tree 4. If it is below 33 °C, measure CO2 at tree 5.")
-    (sequence,) = [node for node in walk(task.composition.plan) if isinstance(node, Sequence)]
+    (sequence,) = [node for node in walk(task.composition.plan) if isinstance(node, InOrder)]
     cut = replace(task, composition=replace(task.composition, plan=replace(sequence, steps=sequence.steps[:1])))
     (problem,) = unaccounted(cut)
     assert problem.severity == "warning"
@@ -79,9 +79,9 @@ def test_no_word_that_turns_a_meaning_round_passes_as_one_that_says_nothing(word
     task = Task(
         id="t",
         command=Command(request=f"stop {word}"),
-        composition=Composition(plan=Stop(id="n1", said=((0, 4),))),
+        composition=Composition(plan=StopMission(id="n1", said=((0, 4),))),
     )
-    assert account(task)[-1] == Piece(text=word, role="nothing")
+    assert request_pieces(task)[-1] == Piece(text=word, role="nothing")
 
 
 def test_a_task_that_carries_no_ranges_is_said_to_carry_none_and_one_without_a_request_is_not() -> None:
@@ -97,10 +97,10 @@ def test_ranges_that_lead_out_of_the_request_are_no_failure(span: tuple[int, int
     task = Task(
         id="t",
         command=Command(request="stop now", no_part=(span,)),
-        composition=Composition(plan=Optional(id="n1", body=Stop(id="n2", said=(span,)))),
+        composition=Composition(plan=OptionalStep(id="n1", body=StopMission(id="n2", said=(span,)))),
         constraints=Constraints(budgets=(Budget(kind="distance_m", limit=5, said=(span,)),)),
     )
-    assert "".join(piece.text for piece in account(task)) == "stop now"
+    assert "".join(piece.text for piece in request_pieces(task)) == "stop now"
 
 
 def test_the_checks_warn_of_lost_words_and_still_find_everything_else() -> None:

@@ -18,7 +18,7 @@ from fieldhand.site.model import Zone
 from fieldhand.task.codec import encode
 from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import Budget, Constraints, Resource
-from fieldhand.task.plan import Act, ForEach, GoTo, If, Sequence
+from fieldhand.task.plan import Act, ForEach, GoTo, If, InOrder
 from fieldhand.testing.small_orchard import block, husky, orchard, task_for
 
 SITE, ROBOT = orchard(), husky()
@@ -59,7 +59,7 @@ def test_the_given_document_is_checked_and_not_the_one_that_would_be_written():
 
 def test_a_reading_that_is_tested_before_it_is_taken_is_an_error_at_its_node():
     low = Compare(reading="r", quantity="co2", test="lt", value=400.0, unit="ppm")
-    (error,) = errors(Sequence(id="", steps=(at(TreeIs(tree="1")), If(id="", condition=low, then=PICTURE))))
+    (error,) = errors(InOrder(id="", steps=(at(TreeIs(tree="1")), If(id="", condition=low, then=PICTURE))))
     assert error.node == "n3"
     assert "'r'" in error.what
 
@@ -86,7 +86,7 @@ def test_a_task_that_names_no_resources_is_a_warning():
 
 
 def test_every_empty_selection_is_named_at_once():
-    plan = Sequence(
+    plan = InOrder(
         id="",
         steps=(
             at(TreeIs(tree="99")),
@@ -109,7 +109,7 @@ def test_several_trees_where_one_is_needed_are_an_error():
 def test_a_relative_place_that_finds_nothing_on_one_branch_is_an_error():
     site = orchard(rows=1, columns=2)
     steps = (at(TreeIs(tree="1")), at(TreeIs(tree="2")))
-    (error,) = errors(Sequence(id="", steps=(*steps, at(Take(count=1, of=Other())))), site)
+    (error,) = errors(InOrder(id="", steps=(*steps, at(Take(count=1, of=Other())))), site)
     assert "n4" in str(error)
 
 
@@ -121,7 +121,7 @@ def test_a_tree_inside_a_keep_out_is_an_error():
 
 
 def test_a_drive_that_crosses_a_zone_or_a_tree_line_is_found_from_the_site_alone():
-    plan = Sequence(id="", steps=(GoTo(id="", place=TreeIs(tree="1")), GoTo(id="", place=TreeIs(tree="20"))))
+    plan = InOrder(id="", steps=(GoTo(id="", place=TreeIs(tree="1")), GoTo(id="", place=TreeIs(tree="20"))))
     driven = walk_through(task_for(SITE, plan), SITE, ROBOT, holds=lambda node: True)
     assert driven_through(driven.steps, SITE) == ()
     (leg,) = (s.drive for s in driven.steps if s.node.id == "n3")
@@ -140,7 +140,7 @@ def test_a_drive_that_crosses_a_zone_or_a_tree_line_is_found_from_the_site_alone
 
 
 def test_a_mission_around_a_keep_out_is_sound():
-    plan = Sequence(id="", steps=(GoTo(id="", place=TreeIs(tree="1")), GoTo(id="", place=TreeIs(tree="20"))))
+    plan = InOrder(id="", steps=(GoTo(id="", place=TreeIs(tree="1")), GoTo(id="", place=TreeIs(tree="20"))))
     around = orchard(zones=[block("keep_out", "pond", (1.3, 1.3), (1.7, 1.7))])
     assert check(task_for(around, plan), around, ROBOT) == ()
 

@@ -10,7 +10,7 @@ from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import AlongRow, Top, TreeIs
 from fieldhand.site.geojson import load_demo
 from fieldhand.site.model import Site
-from fieldhand.task.plan import Act, ForEach, Sequence
+from fieldhand.task.plan import Act, ForEach, InOrder
 from fieldhand.testing.small_orchard import husky, orchard, task_for
 
 SITE = orchard(rows=8, columns=4)
@@ -19,7 +19,7 @@ PICTURE = Act(id="", action="take_thermal_picture")
 
 def notes_of(*selectors: Selector, site: Site = SITE) -> tuple[str, ...]:
     steps = tuple(ForEach(id="", select=s, body=PICTURE) for s in selectors)
-    task = task_for(site, Sequence(id="", steps=(replace(PICTURE, at=TreeIs(tree="1")), *steps)))
+    task = task_for(site, InOrder(id="", steps=(replace(PICTURE, at=TreeIs(tree="1")), *steps)))
     estimate = examine(task, site, husky()).estimate
     assert estimate is not None
     return read_back(task, site, husky(), estimate).notes

@@ -12,14 +12,14 @@ from fieldhand.forecast.estimate import estimate
 from fieldhand.places.selectors import Corners, TreeIs, Trees
 from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import Budget, Constraints
-from fieldhand.task.plan import Act, ForEach, If, Optional, Sequence
+from fieldhand.task.plan import Act, ForEach, If, InOrder, OptionalStep
 from fieldhand.testing.small_orchard import block, husky, orchard, task_for
 
 SITE, ROBOT = orchard(), husky()
 PICTURE = Act(id="", action="take_thermal_picture")
 COLD = Compare(reading="r", quantity="canopy_temperature", test="lt", value=33.0, unit="degC")
 CORNERS = ForEach(id="", select=Corners(), body=PICTURE)
-BRANCHING = Sequence(
+BRANCHING = InOrder(
     id="",
     steps=(
         Act(id="", action="take_thermal_picture", at=TreeIs(tree="1"), reading="r"),
@@ -67,10 +67,10 @@ def test_optional_visits_are_drawn_as_the_budget_allows():
 
 
 def test_a_stop_of_an_optional_step_is_drawn_as_the_budget_allows_and_the_others_as_certain():
-    step = Optional(id="", body=Act(id="", action="read_co2", at=TreeIs(tree="20")))
+    step = OptionalStep(id="", body=Act(id="", action="read_co2", at=TreeIs(tree="20")))
     corner = Act(id="", action="take_thermal_picture", at=TreeIs(tree="1"))
     last = Act(id="", action="take_thermal_picture", at=TreeIs(tree="5"))
-    _, plan, _ = drawn(Sequence(id="", steps=(corner, step, last)))
+    _, plan, _ = drawn(InOrder(id="", steps=(corner, step, last)))
     shown = {stop.place.id: (stop.certainty, stop.labels) for stop in plan.stops}
     assert shown == {"1": ("certain", ["1"]), "20": ("budget", ["2"]), "5": ("certain", ["3"])}
     assert [leg.certainty for leg in plan.legs] == ["certain", "budget", "budget", "certain"]

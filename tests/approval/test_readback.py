@@ -25,7 +25,7 @@ from fieldhand.places.selectors import (
 )
 from fieldhand.task.conditions import Compare, Level
 from fieldhand.task.frames import Budget, Constraints, FaultedExit
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Optional, Repeat, Sequence, Stop, Try, walk
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, OptionalStep, Repeat, StopMission, Try, walk
 from fieldhand.testing.small_orchard import husky, orchard, task_for
 
 PICTURE, CO2 = "take_thermal_picture", "read_co2"
@@ -50,7 +50,7 @@ def steps(plan, **more):
 
 
 def test_a_step_names_the_tree_and_what_it_was_called():
-    words = read(Sequence(id="", steps=(act(at=TreeIs(tree="7")), act(at=Corners(which=("nw",)), count=2))))
+    words = read(InOrder(id="", steps=(act(at=TreeIs(tree="7")), act(at=Corners(which=("nw",)), count=2))))
     assert [(line.number, line.text) for line in words.lines] == [
         (1, "At tree 7: take a thermal picture."),
         (2, "At tree 16 (north-west corner): take 2 thermal pictures."),
@@ -59,11 +59,11 @@ def test_a_step_names_the_tree_and_what_it_was_called():
 
 
 def test_conditions_are_indented_and_name_the_place_of_their_reading():
-    plan = Sequence(
+    plan = InOrder(
         id="",
         steps=(
             act(at=TreeIs(tree="1"), reading="r"),
-            If(id="", condition=below("r"), then=act(CO2), otherwise=Stop(id="")),
+            If(id="", condition=below("r"), then=act(CO2), otherwise=StopMission(id="")),
             act(at=TreeIs(tree="2")),
             If(id="", condition=Level(reading="r", quantity="canopy_temperature", level="low"), then=act(CO2)),
         ),
@@ -94,14 +94,14 @@ def test_few_places_are_named_and_many_are_counted():
 
 
 def test_a_loop_with_more_than_one_action_keeps_them_on_lines_of_their_own():
-    body = Sequence(id="", steps=(act(reading="r"), If(id="", condition=below("r"), then=act(CO2))))
+    body = InOrder(id="", steps=(act(reading="r"), If(id="", condition=below("r"), then=act(CO2))))
     lines = read(ForEach(id="", select=Corners(), body=body)).lines
     assert [(line.number, line.indent) for line in lines] == [(1, 0), (2, 1), (None, 1), (3, 2), (4, 0)]
     assert lines[2].text == "If the canopy temperature there is below 33 °C:"
 
 
 def test_a_place_that_a_reading_decides_is_said_to_be_decided_on_the_way():
-    plan = Sequence(
+    plan = InOrder(
         id="",
         steps=(
             act(at=TreeIs(tree="1"), reading="r"),
@@ -113,7 +113,7 @@ def test_a_place_that_a_reading_decides_is_said_to_be_decided_on_the_way():
 
 
 def test_a_relative_place_that_can_be_known_is_named():
-    plan = Sequence(id="", steps=(act(at=TreeIs(tree="1"), label="a"), act(CO2, at=Farthest(origin=Bound(label="a")))))
+    plan = InOrder(id="", steps=(act(at=TreeIs(tree="1"), label="a"), act(CO2, at=Farthest(origin=Bound(label="a")))))
     assert steps(plan)[1] == "At tree 20 (the tree farthest from tree 1): read CO₂."
 
 
@@ -128,7 +128,7 @@ def test_the_visits_that_go_first_are_named_where_they_are_few():
 
 
 def test_a_relative_place_after_optional_visits_is_never_promised():
-    plan = Sequence(
+    plan = InOrder(
         id="",
         steps=(
             ForEach(id="", select=Trees(), body=act(), optional=True),
@@ -149,7 +149,7 @@ def test_a_relative_place_after_optional_visits_is_never_promised():
     ("metres", "expected"), [(500.0, "by the estimate it does"), (40.0, "by the estimate it does not")]
 )
 def test_an_optional_step_is_said_to_hang_on_the_budget_and_whether_it_fits_by_the_estimate(metres, expected):
-    plan = Sequence(id="", steps=(act(at=TreeIs(tree="1")), Optional(id="", body=act(CO2, at=TreeIs(tree="20")))))
+    plan = InOrder(id="", steps=(act(at=TreeIs(tree="1")), OptionalStep(id="", body=act(CO2, at=TreeIs(tree="20")))))
     words = read(plan, constraints=Constraints(budgets=(Budget(kind="distance_m", limit=metres),)))
     assert [(line.number, line.indent, line.text) for line in words.lines] == [
         (1, 0, "At tree 1: take a thermal picture."),
@@ -161,7 +161,7 @@ def test_an_optional_step_is_said_to_hang_on_the_budget_and_whether_it_fits_by_t
 
 def test_an_optional_step_at_each_place_says_how_often_it_fits():
     loop = ForEach(
-        id="", select=Corners(), body=Sequence(id="", steps=(act(), Optional(id="", body=act(CO2, count=9))))
+        id="", select=Corners(), body=InOrder(id="", steps=(act(), OptionalStep(id="", body=act(CO2, count=9))))
     )
     time = estimate(task_for(SITE, ForEach(id="", select=Corners(), body=act())), SITE, husky()).worst.seconds.p90
     more = 2.5 * 9 * husky().action[CO2].duration_s
@@ -171,11 +171,11 @@ def test_an_optional_step_at_each_place_says_how_often_it_fits():
 
 
 def test_after_an_optional_step_it_is_not_promised_where_the_robot_is_nor_where_readings_were_taken():
-    plan = Sequence(
+    plan = InOrder(
         id="",
         steps=(
             act(at=TreeIs(tree="1"), reading="r"),
-            Optional(id="", body=act(CO2, at=TreeIs(tree="20")), reward=2.0),
+            OptionalStep(id="", body=act(CO2, at=TreeIs(tree="20")), reward=2.0),
             If(id="", condition=below("r"), then=act(at=Nearest(to=Here(), fresh=True))),
         ),
     )
@@ -196,7 +196,7 @@ def test_after_an_optional_step_it_is_not_promised_where_the_robot_is_nor_where_
         ),
         (Try(id="", body=act(at=TreeIs(tree="1")), otherwise=act(CO2)), "If that fails:"),
         (GoTo(id="", place=Extreme(side="north")), "Drive to tree 16 (the northernmost tree)."),
-        (Stop(id="", exit="faulted"), "End the mission here, which counts as failed."),
+        (StopMission(id="", exit="faulted"), "End the mission here, which counts as failed."),
         (act(), "At the start: take a thermal picture."),
         (
             ForEach(id="", select=Extreme(side="east", count=2), body=act(), order="given"),
@@ -254,7 +254,7 @@ def test_a_site_without_an_end_marker_is_said_to_have_none():
     )
 )
 def test_every_action_and_drive_of_a_plan_has_exactly_one_number(order):
-    task = task_for(SITE, Sequence(id="", steps=tuple(act(at=selector) for selector in order)))
+    task = task_for(SITE, InOrder(id="", steps=tuple(act(at=selector) for selector in order)))
     words = read_back(task, SITE, husky(), estimate(task, SITE, husky()))
     nodes = [line.node for line in words.lines if line.number is not None]
     assert [line.number for line in words.lines if line.number] == list(range(1, len(nodes) + 1))

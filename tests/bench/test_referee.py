@@ -12,7 +12,7 @@ from examples import examples
 from fieldhand.execution.world import ActionFails, Spot, World
 from fieldhand.places.selectors import TreeIs, Trees, Union
 from fieldhand.task.frames import Budget, Constraints, Task
-from fieldhand.task.plan import Act, AnyOrder, ForEach, Node, Repeat, Sequence, Try, walk
+from fieldhand.task.plan import Act, AnyOrder, ForEach, InOrder, Node, Repeat, Try, walk
 from fieldhand.task.results import Acted, Arrived, Decided, Ended, Event, Exited, Shed, Visiting
 from fieldhand_bench.draw import Draft
 from fieldhand_bench.fly import fly
@@ -49,7 +49,7 @@ def limited(kind: str, limit: float) -> Constraints:
 
 
 def test_a_mission_that_did_all_it_had_to_is_sound() -> None:
-    ruling = ruled(*flown(Sequence(id="", steps=(ALL_THREE, MANY))))
+    ruling = ruled(*flown(InOrder(id="", steps=(ALL_THREE, MANY))))
     assert sound(ruling)
     assert (ruling.done, ruling.visits, ruling.status) == (3, 20, "completed")
     assert ruling.reward == 4 * (0 + 1 + 2 + 3 + 4)
@@ -57,7 +57,7 @@ def test_a_mission_that_did_all_it_had_to_is_sound() -> None:
 
 
 def test_work_that_was_given_up_with_a_reason_is_sound_and_told() -> None:
-    ruling = ruled(*flown(Sequence(id="", steps=(ALL_THREE, MANY)), visits=3))
+    ruling = ruled(*flown(InOrder(id="", steps=(ALL_THREE, MANY)), visits=3))
     assert sound(ruling)
     assert ruling.status == "returned"
     assert ruling.done + len(ruling.given_up) == 3
@@ -85,7 +85,7 @@ def test_a_place_that_is_missing_without_a_word_is_silence() -> None:
 
 
 def test_a_place_that_the_shed_event_does_not_name_is_silence() -> None:
-    task, events = flown(Sequence(id="", steps=(MANY, ALL_THREE)), visits=21)
+    task, events = flown(InOrder(id="", steps=(MANY, ALL_THREE)), visits=21)
     shed = next(e for e in of_type(events, Shed) if not e.optional)
     assert sound(ruled(task, events))
     left = changed(events, shed, places=shed.places[1:])
@@ -93,7 +93,7 @@ def test_a_place_that_the_shed_event_does_not_name_is_silence() -> None:
 
 
 def test_work_after_the_end_that_is_not_named_is_silence() -> None:
-    after = Sequence(
+    after = InOrder(
         id="", steps=(ALL_THREE, replace(PICTURE, at=TreeIs(tree="r1c1")), Repeat(id="", times=2, body=MANY))
     )
     task, events = flown(after, visits=1)

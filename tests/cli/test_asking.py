@@ -20,10 +20,10 @@ from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
 from fieldhand.site.model import Site
 from fieldhand.task.build import make_task
-from fieldhand.task.plan import Stop
+from fieldhand.task.plan import StopMission
 
 GROUND = Ground(site=open_site("demo"), robot=load_robot("husky"))
-PLANNED = Planned(task=make_task(request="go", plan=Stop(id=""), measures={}), planner="asks")
+PLANNED = Planned(task=make_task(request="go", plan=StopMission(id=""), measures={}), planner="asks")
 
 
 @dataclass

@@ -20,7 +20,7 @@ from fieldhand.orienteering.overrun import overrun_probability
 from fieldhand.places.selectors import TreeIs, Trees
 from fieldhand.site.geojson import load_site
 from fieldhand.task.frames import Budget, Constraints
-from fieldhand.task.plan import Act, ForEach, Repeat, Sequence
+from fieldhand.task.plan import Act, ForEach, InOrder, Repeat
 from fieldhand.task.results import Shed
 from fieldhand.testing.small_orchard import block, husky, orchard, task_for
 from paper import Paper
@@ -142,7 +142,7 @@ def test_every_optional_visit_that_is_not_made_is_given_up_once_and_with_a_reaso
 
 def test_what_must_follow_is_set_aside_before_optional_visits_are_made():
     last = Act(id="", action="take_thermal_picture", at=TreeIs(tree="16"))
-    plan = Sequence(id="", steps=(MANY, last))
+    plan = InOrder(id="", steps=(MANY, last))
     limit, kept, failed = 75.0, 0, 0
     for seed in range(25):
         paper = Paper(task_for(SITE, plan, constraints=limited(limit)), SITE, ROBOT, seed)
@@ -204,7 +204,7 @@ LASTS = lasts([SITE.start, *ROUND, SITE.markers["end"]], 0.06)
 
 def rounds(limit, missions, before=None):
     """Missions that must visit every tree, after optional ones: how many of them do, and how many exceed the limit."""
-    plan = ALL if before is None else Sequence(id="", steps=(before, ALL))
+    plan = ALL if before is None else InOrder(id="", steps=(before, ALL))
     task = task_for(SITE, plan, constraints=limited(limit))
     drives = drives_for(SITE, ROBOT)
     loop = "n1" if before is None else "n4"
@@ -249,7 +249,7 @@ def test_mandatory_visits_after_optional_ones_are_carried_out_as_often_as_the_bu
 
 def test_work_allowed_with_a_visit_is_not_asked_for_again_but_what_follows_the_loop_at_that_place_is():
     loop = ForEach(id="", select=TreeIs(tree="1"), body=PICTURE)
-    plan = Sequence(id="", steps=(loop, Repeat(id="", times=40, body=PICTURE)))
+    plan = InOrder(id="", steps=(loop, Repeat(id="", times=40, body=PICTURE)))
     paper = Paper(task_for(SITE, plan, constraints=limited(200.0, "duration_s")), SITE, ROBOT, 0)
     tree = SITE.by_id["1"].place
     assert paper.mandatory(replace(loop, id="n2"), tree).go

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from event_logs import HOT, Paper, random_plan, task_of
 from fieldhand.evaluation.outcome import judge
 from fieldhand.places.selectors import Corners, Half, TreeIs, Trees
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Repeat, Sequence, Stop, Try
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Repeat, StopMission, Try
 from fieldhand.task.results import Acted, Arrived, Decided, Ended, Exited, Faulted, Shed, Visiting
 
 seeds = st.integers(0, 2**32)
@@ -195,7 +195,7 @@ def test_at_most_counts_what_was_shed_beyond_it_only_once():
 
 
 def test_a_branch_that_was_not_taken_is_met_with_none_wanted_and_says_why():
-    task = task_of(Sequence(id="", steps=(PICTURE, If(id="", condition=HOT, then=CO2))))
+    task = task_of(InOrder(id="", steps=(PICTURE, If(id="", condition=HOT, then=CO2))))
     decided = Decided(t=2, node="n3", holds=False, why="canopy temperature 35 °C is not below 33 °C")
     outcome = judge(task, [acted("n2"), decided, ended()])[1]
     assert (outcome.outcome, outcome.wanted) == ("success", 0)
@@ -203,7 +203,7 @@ def test_a_branch_that_was_not_taken_is_met_with_none_wanted_and_says_why():
 
 
 def test_what_stands_behind_a_stop_is_not_wanted():
-    plan = Sequence(id="", steps=(PICTURE, If(id="", condition=HOT, then=Stop(id="")), CO2))
+    plan = InOrder(id="", steps=(PICTURE, If(id="", condition=HOT, then=StopMission(id="")), CO2))
     task = task_of(plan)
     decided = Decided(t=2, node="n3", holds=True, why="it is low")
     outcome = judge(task, [acted("n2"), decided, Exited(t=3, exit="nominal", then="stay"), ended()])[1]
@@ -212,7 +212,7 @@ def test_what_stands_behind_a_stop_is_not_wanted():
 
 
 def test_what_stands_behind_a_stop_that_only_the_exit_tells_of_is_not_wanted():
-    plan = Sequence(id="", steps=(Try(id="", body=PICTURE, otherwise=Stop(id="")), CO2))
+    plan = InOrder(id="", steps=(Try(id="", body=PICTURE, otherwise=StopMission(id="")), CO2))
     failed = [
         acted("n3", "failed"),
         Faulted(t=2, node="n3", fault="action_failed", what="no picture", handled=True),
@@ -230,12 +230,12 @@ def test_what_stands_behind_a_stop_that_only_the_exit_tells_of_is_not_wanted():
     [([], "indeterminate"), ([ended("aborted")], "indeterminate"), ([ended("returned", "low battery")], "failure")],
 )
 def test_what_was_never_reached_is_failed_only_where_the_mission_is_known_to_be_over(end, expected):
-    task = task_of(Sequence(id="", steps=(PICTURE, Act(id="", action="read_co2", at=TreeIs(tree="9")))))
+    task = task_of(InOrder(id="", steps=(PICTURE, Act(id="", action="read_co2", at=TreeIs(tree="9")))))
     assert judge(task, [acted("n2"), *end])[1].outcome == expected
 
 
 def test_a_condition_that_was_never_tested_leaves_its_goal_indeterminate():
-    task = task_of(Sequence(id="", steps=(PICTURE, If(id="", condition=HOT, then=CO2))))
+    task = task_of(InOrder(id="", steps=(PICTURE, If(id="", condition=HOT, then=CO2))))
     fault = Faulted(t=1, node="n2", fault="action_failed", what="no power")
     picture, co2 = judge(task, [acted("n2", "failed"), fault, ended("faulted", "no power")])
     assert picture.outcome == "failure"
@@ -266,7 +266,7 @@ def test_a_repeat_wants_its_count_again_and_again():
 
 
 def test_a_for_each_that_was_never_reached_wants_an_unknown_number():
-    task = task_of(Sequence(id="", steps=(PICTURE, ForEach(id="", select=Half(side="north"), body=CO2))))
+    task = task_of(InOrder(id="", steps=(PICTURE, ForEach(id="", select=Half(side="north"), body=CO2))))
     outcome = judge(task, [acted("n2"), ended("returned", "the battery is low")])[1]
     assert (outcome.outcome, outcome.wanted) == ("failure", None)
     assert "never reached" in outcome.why
@@ -298,7 +298,7 @@ def test_what_is_shed_on_the_way_home_is_found_at_every_step_that_it_names():
     loop = ForEach(id="", select=Corners(), body=PICTURE)
     twice = Repeat(id="", times=2, body=CO2)
     perhaps = If(id="", condition=HOT, then=CO2)
-    task = task_of(Sequence(id="", steps=(twice, CO2, loop, perhaps)))
+    task = task_of(InOrder(id="", steps=(twice, CO2, loop, perhaps)))
     reason = "the way home would not fit"
     sheds = [("n2", ()), ("n4", ()), ("n5", ("1", "2", "3", "4")), ("n7", ())]
     events = [
@@ -317,7 +317,7 @@ def test_what_is_shed_on_the_way_home_is_found_at_every_step_that_it_names():
 
 
 def test_an_optional_visit_that_was_given_up_half_way_is_left_out_and_not_failed():
-    body = Sequence(id="", steps=(PICTURE, Act(id="", action="read_co2", at=TreeIs(tree="9"))))
+    body = InOrder(id="", steps=(PICTURE, Act(id="", action="read_co2", at=TreeIs(tree="9"))))
     task = task_of(ForEach(id="", select=Trees(), body=body, optional=True))
     shed = Shed(t=1, node="n1", places=("1",), optional=True, reason="no budget for the second part")
     events = [

@@ -31,7 +31,7 @@ from fieldhand.places.selectors import Corners
 from fieldhand.site.geojson import parse_site
 from fieldhand.task.authorization import Authorization
 from fieldhand.task.conditions import Compare
-from fieldhand.task.plan import Act, ForEach, If, Sequence
+from fieldhand.task.plan import Act, ForEach, If, InOrder
 from fieldhand.task.results import (
     Acted,
     Arrived,
@@ -295,7 +295,7 @@ def test_a_reading_is_never_said_to_lie_on_a_threshold_that_it_misses(value, lim
 def test_a_reading_has_the_thresholds_that_the_plan_holds_it_against_and_no_others(tmp_path):
     warm = Compare(reading="n2", quantity="canopy_temperature", test="gt", value=30.0, unit="degC")
     then = If(id="n8", condition=warm, then=Act(id="n9", action="read_co2"))
-    plan = replace(TASK.composition, plan=Sequence(id="n0", steps=(TASK.composition.plan, then)))
+    plan = replace(TASK.composition, plan=InOrder(id="n0", steps=(TASK.composition.plan, then)))
     events = log(captured(node="n2", value=31.5), captured(node="n7", value=36.0))
     files = written(tmp_path, events, task=replace(TASK, composition=plan))
     rows = [
@@ -403,7 +403,7 @@ def test_the_comparison_is_with_the_branch_that_was_taken():
     cold = Compare(reading="r", quantity="canopy_temperature", test="lt", value=33.0, unit="degC")
     first = Act(id="", action="take_thermal_picture", at=Corners(which=("nw",)), reading="r")
     then = Act(id="", action="read_co2", at=Corners(which=("se",)))
-    task = task_for(SITE, Sequence(id="", steps=(first, If(id="", condition=cold, then=then))))
+    task = task_for(SITE, InOrder(id="", steps=(first, If(id="", condition=cold, then=then))))
     forecast = estimate(task, SITE, ROBOT)
     for holds, captures in ((True, 2), (False, 1)):
         decided = Decided(t=1, node="n3", holds=holds, why="")

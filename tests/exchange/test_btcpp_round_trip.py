@@ -72,7 +72,7 @@ def test_a_subtree_stands_in_its_place() -> None:
 
 def test_what_follows_from_a_changed_plan_is_made_anew() -> None:
     steps = (p.Act(id="", action="take_picture"), p.Act(id="", action="read_co2"))
-    task = make_task(request="both", plan=p.Sequence(id="", steps=steps), measures=MEASURES)
+    task = make_task(request="both", plan=p.InOrder(id="", steps=steps), measures=MEASURES)
     changed = write_tree(task, ROVER).replace(b'<take_picture name="n2"/>', b"")
     found = read_tree(changed, ROVER)
     assert found.command.request == "both"

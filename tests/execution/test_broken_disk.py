@@ -14,12 +14,12 @@ from fieldhand.execution.drivers.protocol import ActionGoal
 from fieldhand.execution.journal.store import Journal
 from fieldhand.places.selectors import TreeIs
 from fieldhand.task.event_lines import to_json
-from fieldhand.task.plan import Act, Sequence
+from fieldhand.task.plan import Act, InOrder
 from fieldhand.task.results import InDoubt, Resumed
 from journalled import PICTURE, Cut, Field
 from rig import captured, of_type
 
-PLAN = Sequence(
+PLAN = InOrder(
     id="",
     steps=(
         Act(id="", action=PICTURE, at=TreeIs(tree="r0c0"), reading="r"),

@@ -34,7 +34,7 @@ from fieldhand.task.build import FAULTED_EXITS
 from fieldhand.task.conditions import Compare, Not
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import FaultedExit
-from fieldhand.task.plan import Act, ForEach, GoTo, If, Optional, Sequence, Try
+from fieldhand.task.plan import Act, ForEach, GoTo, If, InOrder, OptionalStep, Try
 from fieldhand.task.results import (
     Acted,
     Arrived,
@@ -106,7 +106,7 @@ def test_an_absurd_value_decides_nothing() -> None:
     for value in (math.nan, math.inf, -1e9, 99999.0):
         for condition in (low, Not(condition=low)):
             read = Try(id="", body=act("r0c0", reading="r"), otherwise=GoTo(id="", place=TreeIs(tree="r0c1")))
-            plan = Sequence(id="", steps=(read, If(id="", condition=condition, then=act("r0c2"))))
+            plan = InOrder(id="", steps=(read, If(id="", condition=condition, then=act("r0c2"))))
             events = Rig(world=world(SensorAbsurd(quantity="co2", value=value))).fly(plan).events
             assert [e.holds for e in of_type(events, Decided)] == [False]
 
@@ -161,7 +161,7 @@ def test_the_way_that_is_blocked_is_never_tried_again_where_there_is_another() -
     ids = [t.place.id for t in site.trees]
     faults = [Blocked(between=(Spot(id=ids[8 + 4]), Spot(id=ids[16 + 4])), within_m=2.0)]
     rig = Rig(site=site, world=world(*faults))
-    plan = Sequence(id="", steps=tuple(act(ids[k]) for k in (8 + 6, 16 + 1, 16 + 6, 8 + 1, 16 + 7)))
+    plan = InOrder(id="", steps=tuple(act(ids[k]) for k in (8 + 6, 16 + 1, 16 + 6, 8 + 1, 16 + 7)))
     result = rig.fly(plan)
     assert result.status == "completed"
     assert len(of_type(result.events, Obstructed)) <= 2  # once from either end of the aisle
@@ -199,8 +199,8 @@ def test_optional_work_out_of_reach_is_left_out_and_the_mission_completes() -> N
     site = walled()
     ids = [t.place.id for t in site.trees]
     faults = [Blocked(between=(Spot(id=ids[6 + 3]), Spot(id=ids[j * 6 + 3])), within_m=2.4) for j in (0, 2)]
-    step = Optional(id="", body=Sequence(id="", steps=(act(ids[6 + 5]), act(ids[6 + 4]))))
-    for plan in (each(ids[6], ids[6 + 5], ids[6 + 1], optional=True), Sequence(id="", steps=(step, act(ids[6])))):
+    step = OptionalStep(id="", body=InOrder(id="", steps=(act(ids[6 + 5]), act(ids[6 + 4]))))
+    for plan in (each(ids[6], ids[6 + 5], ids[6 + 1], optional=True), InOrder(id="", steps=(step, act(ids[6])))):
         result = Rig(site=site, world=world(*faults)).fly(plan)
         assert result.status == "completed"
         assert ids[6 + 5] not in [tree for _, tree in captured(result.events)]

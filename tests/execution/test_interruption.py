@@ -18,12 +18,12 @@ from fieldhand.execution.world import ActionFails, Blocked, Spot, World
 from fieldhand.places.selectors import Half, Take, TreeIs
 from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import FaultedExit
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Repeat, Sequence, Try
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Repeat, Try
 from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event, Exited
 from rig import Rig, authorized, captured, husky, of_type, task_for
 
 PICTURE = "take_thermal_picture"
-PLAN = Sequence(
+PLAN = InOrder(
     id="",
     steps=(
         Act(id="", action=PICTURE, at=TreeIs(tree="r0c0"), count=2, reading="r"),

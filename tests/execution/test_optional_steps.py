@@ -11,7 +11,7 @@ from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.world import ActionFails, World
 from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
 from fieldhand.places.selectors import TreeIs, Union
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, Node, Optional, Repeat, Sequence, Stop, Try
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, InOrder, Node, OptionalStep, Repeat, StopMission, Try
 from fieldhand.task.results import Exited, Faulted, Shed
 from rig import BudgetOf, Rig, captured, husky, of_type, task_for
 
@@ -22,12 +22,12 @@ def act(tree: str = "", **more: object) -> Act:
     return Act(id="", action=PICTURE, at=TreeIs(tree=tree) if tree else None, **more)
 
 
-def seq(*steps: Node) -> Sequence:
-    return Sequence(id="", steps=steps)
+def seq(*steps: Node) -> InOrder:
+    return InOrder(id="", steps=steps)
 
 
-def optional(*steps: Node, reward: float = 1.0) -> Optional:
-    return Optional(id="", body=steps[0] if len(steps) == 1 else seq(*steps), reward=reward)
+def optional(*steps: Node, reward: float = 1.0) -> OptionalStep:
+    return OptionalStep(id="", body=steps[0] if len(steps) == 1 else seq(*steps), reward=reward)
 
 
 @dataclass
@@ -47,7 +47,7 @@ class Sheds(NoGuard):
         candidates: list[Visit],
         *,
         at_most: int | None = None,
-        still_to_come: Sequence[Visit] = (),
+        still_to_come: InOrder[Visit] = (),
     ) -> Choice:
         (visit,) = candidates
         self.asked.append((state.node, visit))
@@ -140,7 +140,7 @@ def test_an_action_that_fails_inside_the_step_is_a_failure():
 
 
 def test_a_stop_inside_the_step_ends_the_mission_only_if_the_step_is_done():
-    plan = seq(optional(act("r0c1"), Stop(id="")), act("r0c2"))
+    plan = seq(optional(act("r0c1"), StopMission(id="")), act("r0c2"))
     assert places(Rig(guard=Sheds(turns=())).fly(plan)) == ["r0c1"]
     assert places(Rig(guard=Sheds()).fly(plan)) == ["r0c2"]
 

@@ -34,8 +34,8 @@ from fieldhand.places.selectors import Half, TreeIs, Trees, Union
 from fieldhand.task.conditions import Compare
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Constraints, FaultedExit
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Stop, Try
-from fieldhand.task.plan import Sequence as Steps
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, StopMission, Try
+from fieldhand.task.plan import InOrder as Steps
 from fieldhand.task.results import (
     Acted,
     Arrived,
@@ -521,7 +521,7 @@ def test_the_guard_is_asked_before_the_robot_drives_back_to_the_place_in_hand() 
 
 
 def test_the_exit_names_the_stop_that_took_it() -> None:
-    stop = Try(id="", body=act(at="r0c0"), otherwise=Stop(id="", exit="faulted"))
+    stop = Try(id="", body=act(at="r0c0"), otherwise=StopMission(id="", exit="faulted"))
     world = World(faults=(ActionFails(action=PICTURE),))
     result = Rig(world=world).fly(seq(stop, act(CO2)))
     (exited,) = of_type(result.events, Exited)

@@ -24,7 +24,7 @@ from fieldhand.places.selectors import (
     Union,
 )
 from fieldhand.task.conditions import Compare, TreeHas
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Sequence, Stop, Try, walk
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Node, Repeat, StopMission, Try, walk
 from fieldhand.task.results import Acted, Arrived, Decided, Driving, Faulted, Visiting
 from rig import BudgetOf, Rig, captured, husky, of_type, orchard, task_for
 
@@ -40,8 +40,8 @@ def act(action: str = PICTURE, at: Selector | None = None, **more: object) -> Ac
     return Act(id="", action=action, at=at, **more)
 
 
-def seq(*steps: Node) -> Sequence:
-    return Sequence(id="", steps=steps)
+def seq(*steps: Node) -> InOrder:
+    return InOrder(id="", steps=steps)
 
 
 def each(*names: str, body: Node | None = None, **more: object) -> ForEach:
@@ -64,7 +64,7 @@ def test_every_node_is_a_behavior_named_by_its_id() -> None:
     plan = seq(
         AnyOrder(id="", steps=(act(at=tree("r0c0")), GoTo(id="", place=tree("r1c1")))),
         each("r0c0", "r0c1"),
-        Repeat(id="", times=2, body=If(id="", condition=HOT, then=act(), otherwise=Stop(id=""))),
+        Repeat(id="", times=2, body=If(id="", condition=HOT, then=act(), otherwise=StopMission(id=""))),
         Try(id="", body=act(CO2), otherwise=act(AIR)),
     )
     task, rig = task_for(plan), Rig()
@@ -81,7 +81,7 @@ def test_a_sequence_goes_in_order() -> None:
 
 
 def test_an_empty_sequence_is_done_at_once() -> None:
-    result = Rig().fly(Sequence(id="", steps=()))
+    result = Rig().fly(InOrder(id="", steps=()))
     assert result.status == "completed"
     assert of_type(result.events, Acted) == []
 
@@ -292,7 +292,9 @@ def test_try_catches_a_place_that_is_not_there() -> None:
 @pytest.mark.parametrize(("leave", "status"), [("nominal", "completed"), ("faulted", "faulted")])
 def test_stop_ends_the_mission_wherever_it_stands(leave: str, status: str) -> None:
     body = seq(
-        act(), Try(id="", body=Repeat(id="", times=3, body=Stop(id="", exit=leave)), otherwise=act(AIR)), act(CO2)
+        act(),
+        Try(id="", body=Repeat(id="", times=3, body=StopMission(id="", exit=leave)), otherwise=act(AIR)),
+        act(CO2),
     )
     result = Rig().fly(seq(each("r0c0", "r0c1", body=body), act(AIR)))
     assert captured(result.events) == [(PICTURE, "r0c0")]

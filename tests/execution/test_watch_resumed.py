@@ -21,12 +21,12 @@ from fieldhand.execution.mission_runner import Result, run
 from fieldhand.execution.world import BatteryDrains, World
 from fieldhand.places.selectors import TreeIs, Trees
 from fieldhand.task.event_lines import to_json
-from fieldhand.task.plan import Act, ForEach, Sequence
+from fieldhand.task.plan import Act, ForEach, InOrder
 from fieldhand.task.results import Event, LimitCrossed, Resumed
 from journalled import Cut, PowerCut
 from rig import authorized, captured, husky, of_type, orchard, task_for
 
-PLAN = Sequence(
+PLAN = InOrder(
     id="",
     steps=(
         Act(id="", action="read_co2", at=TreeIs(tree="r0c0")),

@@ -148,7 +148,7 @@ def drives_to(*places: s.Selector, then: s.Selector | None = None) -> p.Node:
     """A drive to each place, and at the end a picture at another if there is one."""
     steps: list[p.Node] = [p.GoTo(id="", place=place) for place in places]
     picture = p.Act(id="", action="take_thermal_picture", at=then)
-    return p.Sequence(id="", steps=(*steps, picture))
+    return p.InOrder(id="", steps=(*steps, picture))
 
 
 ROW = s.Rows(first="1", last="1")

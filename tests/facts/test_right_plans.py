@@ -29,7 +29,7 @@ from fieldhand.site.model import Site
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
-from fieldhand.task.codec import Draft
+from fieldhand.task.codec import TaskDraft
 from fieldhand.task.frames import Task
 from site_grids import grid
 
@@ -82,7 +82,7 @@ def test_no_example_of_the_prompt_is_doubted() -> None:
         found = read_answer(Reply(text=answer))
         if isinstance(found, TaskAnswer):
             draft = read_draft(found.document, capabilities_of(robot), request)
-            assert isinstance(draft, Draft)
+            assert isinstance(draft, TaskDraft)
             task = make_task(
                 request=request,
                 plan=draft.plan,
@@ -125,9 +125,9 @@ def written_out(x: Any) -> Any:
     """A visit to each of some named places as steps, and some captures as so many acts."""
     if isinstance(x, p.ForEach) and isinstance(x.select, s.Union) and not x.optional and x.at_most is None:
         steps = tuple(replace(x, select=part, order="best") for part in x.select.parts)
-        return p.Sequence(id="", steps=steps) if all(part.single for part in x.select.parts) else x
+        return p.InOrder(id="", steps=steps) if all(part.single for part in x.select.parts) else x
     if isinstance(x, p.Act) and x.count > 1 and x.at is not None:
-        return p.Sequence(id="", steps=(replace(x, count=1), *[replace(x, count=1, at=None)] * (x.count - 1)))
+        return p.InOrder(id="", steps=(replace(x, count=1), *[replace(x, count=1, at=None)] * (x.count - 1)))
     return x
 
 
@@ -223,7 +223,7 @@ def test_a_plan_by_a_careful_reader_is_not_doubted(request_: str, plan: str) -> 
     constraints = f"<constraints>{limits}</constraints>" if limits else ""
     document = f"<task><task-composition><plan>{body}</plan></task-composition>{constraints}</task>"
     draft = read_draft(document, capabilities_of(ROBOTS["husky"]))
-    assert isinstance(draft, Draft), draft
+    assert isinstance(draft, TaskDraft), draft
     task = make_task(request=request_, plan=draft.plan, measures={}, constraints=draft.constraints)
     assert mismatches(task, DEMO, ROBOTS["husky"]) == ()
 

@@ -12,7 +12,7 @@ from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.model import Site
 from fieldhand.task.build import make_task
-from fieldhand.task.codec import Draft
+from fieldhand.task.codec import TaskDraft
 from sites import point, read
 
 LON, LAT = -122.2869, 38.2989
@@ -42,7 +42,7 @@ def vineyard() -> Site:
 def doubts(request: str, plan: str, constraints: str = "") -> tuple[Mismatch, ...]:
     document = f"<task><task-composition><plan>{plan}</plan></task-composition>{constraints}</task>"
     draft = read_draft(document, capabilities_of(HUSKY))
-    assert isinstance(draft, Draft), draft
+    assert isinstance(draft, TaskDraft), draft
     task = make_task(request=request, plan=draft.plan, measures={}, constraints=draft.constraints, nominal="stay")
     return mismatches(task, vineyard(), HUSKY)
 

@@ -19,7 +19,7 @@ from fieldhand.forecast.estimate import estimate
 from fieldhand.places.selectors import Bound, Here, Nearest, Other, Take, TreeIs, Trees
 from fieldhand.task.conditions import Compare, Level, TreeHas
 from fieldhand.task.frames import Budget, Constraints
-from fieldhand.task.plan import Act, ForEach, If, Node, Optional, Repeat, Sequence, Stop, Try
+from fieldhand.task.plan import Act, ForEach, If, InOrder, Node, OptionalStep, Repeat, StopMission, Try
 from fieldhand.task.results import Acted, Decided
 from fieldhand.testing.small_orchard import block, husky, orchard, task_for
 from rig import Rig
@@ -37,8 +37,8 @@ def picture(at: str = "", **more: object) -> Act:
     return Act(id="", action="take_thermal_picture", at=tree(at) if at else None, **more)
 
 
-def line(*steps: Node) -> Sequence:
-    return Sequence(id="", steps=steps)
+def line(*steps: Node) -> InOrder:
+    return InOrder(id="", steps=steps)
 
 
 def either(condition, then: Node, otherwise: Node | None = None) -> If:
@@ -147,7 +147,7 @@ def _inside(steps: st.SearchStrategy[Node]) -> st.SearchStrategy[Node]:
     )
 
 
-plans = st.recursive(acts | st.just(Stop(id="")), _inside, max_leaves=8)
+plans = st.recursive(acts | st.just(StopMission(id="")), _inside, max_leaves=8)
 
 
 @given(plans, st.integers(0, 3))
@@ -217,7 +217,7 @@ def test_what_is_tried_fails_on_the_way_and_at_its_work_with_all_its_retries():
 
 
 def test_an_optional_step_is_explored_done_and_left_out():
-    plan = line(picture("1"), Optional(id="", body=picture("20")))
+    plan = line(picture("1"), OptionalStep(id="", body=picture("20")))
     found = branches(task_for(SITE, plan), SITE, ROBOT)
     done = {any(s.kind == "act" and s.places[0].id == "20" for s in w.steps) for w in found.told}
     assert done == {True, False}

@@ -18,7 +18,7 @@ from fieldhand.places.context import Context
 from fieldhand.places.selectors import Marker, TreeIs, Trees
 from fieldhand.task.conditions import Level
 from fieldhand.task.frames import Budget, Constraints
-from fieldhand.task.plan import Act, ForEach, If, Repeat, Sequence
+from fieldhand.task.plan import Act, ForEach, If, InOrder, Repeat
 from fieldhand.testing.small_orchard import husky, orchard, task_for
 from paper import frames_at
 
@@ -104,7 +104,7 @@ def test_optional_visits_are_no_problem_and_those_left_out_are_told():
 def test_the_worst_branch_is_the_one_that_takes_most():
     costly = If(id="", condition=LOW, then=Act(id="", action="take_thermal_picture", at=TreeIs(tree="20")))
     first = Act(id="", action="take_thermal_picture", at=TreeIs(tree="1"), reading="r")
-    found = estimate(task_for(SITE, Sequence(id="", steps=(first, costly))), SITE, ROBOT)
+    found = estimate(task_for(SITE, InOrder(id="", steps=(first, costly))), SITE, ROBOT)
     assert len(found.branches) == 2
     assert found.complete
     assert found.worst.decisions[0].answer is True
@@ -138,7 +138,7 @@ def test_every_limit_in_metres_allows_what_the_resource_allows():
 def test_the_rest_of_a_plan_is_what_stands_after_a_node_and_the_way_home():
     many = replace(ROUND, optional=True)
     last = Act(id="", action="take_thermal_picture", at=TreeIs(tree="20"), count=2)
-    task = task_for(SITE, Sequence(id="", steps=(many, last)))
+    task = task_for(SITE, InOrder(id="", steps=(many, last)))
     drives = drives_for(SITE, ROBOT)
     rest = rest_after(task, SITE, ROBOT, drives, frames_at(task.composition.plan, "n2"), Context(here=SITE.start))
     tree = SITE.by_id["20"].place
@@ -149,7 +149,7 @@ def test_the_rest_of_a_plan_is_what_stands_after_a_node_and_the_way_home():
 
 
 def test_the_rest_inside_a_loop_has_the_visits_that_are_still_to_come():
-    inner = Sequence(
+    inner = InOrder(
         id="", steps=(replace(ROUND, optional=True, select=TreeIs(tree="5")), Act(id="", action="read_co2"))
     )
     task = task_for(SITE, ForEach(id="", select=Trees(), body=inner))
@@ -180,7 +180,7 @@ def test_the_rest_is_that_of_the_branch_that_takes_most_and_home_where_nothing_f
     many = replace(ROUND, optional=True)
     drives = drives_for(SITE, ROBOT)
     here = Context(here=SITE.markers["end"])
-    task = task_for(SITE, Sequence(id="", steps=(many, choice)))
+    task = task_for(SITE, InOrder(id="", steps=(many, choice)))
     rest = rest_after(task, SITE, ROBOT, drives, frames_at(task.composition.plan, "n2"), here)
     assert rest.work.seconds == pytest.approx(9 * ROBOT.action["take_thermal_picture"].duration_s)
     task = task_for(SITE, many)
@@ -189,7 +189,7 @@ def test_the_rest_is_that_of_the_branch_that_takes_most_and_home_where_nothing_f
     task = task_for(SITE, many, nominal="stay")
     stays = rest_after(task, SITE, ROBOT, drives, frames_at(task.composition.plan, "n1"), here)
     assert stays.first is None
-    task = task_for(SITE, Sequence(id="", steps=(many, Act(id="", action="read_co2", at=Marker(name="start")))))
+    task = task_for(SITE, InOrder(id="", steps=(many, Act(id="", action="read_co2", at=Marker(name="start")))))
     back = rest_after(
         task, SITE, ROBOT, drives, frames_at(task.composition.plan, "n2"), Context(here=SITE.start)
     )  # fmt: skip
@@ -245,7 +245,7 @@ def test_branches_that_took_the_same_share_what_is_expected_of_optional_visits(m
         )
     ]
     task = task_for(
-        SITE, Sequence(id="", steps=(*looks, replace(ROUND, optional=True))), constraints=limited("distance_m", 120.0)
+        SITE, InOrder(id="", steps=(*looks, replace(ROUND, optional=True))), constraints=limited("distance_m", 120.0)
     )
     asked: list[str] = []
     real = optional_work.expected_visits

@@ -17,7 +17,7 @@ from fieldhand.places.selectors import First, Here, Nearest, TreeIs, Trees, Wher
 from fieldhand.task import plan as p
 from fieldhand.task.conditions import TreeHas
 from fieldhand.task.frames import Budget, Constraints
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Optional, Repeat, Sequence, Stop
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, OptionalStep, Repeat, StopMission
 from paper import frames_at
 from rig import husky, orchard, task_for
 
@@ -31,12 +31,12 @@ def picture(tree=None, **more):
 
 
 def optional(*steps, reward=1.0):
-    body = steps[0] if len(steps) == 1 else Sequence(id="", steps=steps)
-    return Optional(id="", body=body, reward=reward)
+    body = steps[0] if len(steps) == 1 else InOrder(id="", steps=steps)
+    return OptionalStep(id="", body=body, reward=reward)
 
 
 def steps(*nodes):
-    return Sequence(id="", steps=nodes)
+    return InOrder(id="", steps=nodes)
 
 
 def within(metres):
@@ -57,7 +57,7 @@ def done(found):
 
 def decided(found):
     """(done, shed) of each optional step that came up."""
-    of = [s for s in found.steps if isinstance(s.node, Optional)]
+    of = [s for s in found.steps if isinstance(s.node, OptionalStep)]
     assert all(s.kind == "visit-list" and len(s.places) + len(s.shed) == 1 for s in of)
     return [([p.id for p in s.places], [p.id for p in s.shed]) for s in of]
 
@@ -100,7 +100,7 @@ def test_a_body_is_one_visit_with_all_its_drives_and_work_on_its_longest_branch(
         picture("r3c0", count=2),
         If(id="", condition=yellow, then=picture("r3c4"), otherwise=picture("r3c1")),
     )
-    node = Optional(id="n1", body=body, reward=2.5)
+    node = OptionalStep(id="n1", body=body, reward=2.5)
     visit = Visits(task_for(node), SITE, ROBOT, DRIVES).of_step(node, Context(here=beginning(DRIVES)))
     action = ROBOT.action[PICTURE]
     assert (visit.place.id, visit.leaves.id, visit.reward) == ("r3c0", "r3c4", 2.5)
@@ -110,7 +110,7 @@ def test_a_body_is_one_visit_with_all_its_drives_and_work_on_its_longest_branch(
 
 
 def test_a_body_that_drives_nowhere_is_a_visit_to_the_place_in_hand():
-    node = Optional(id="n1", body=picture())
+    node = OptionalStep(id="n1", body=picture())
     here = DRIVES.stands((SITE.by_id["r2c2"].place,))[0]
     visit = Visits(task_for(node), SITE, ROBOT, DRIVES).of_step(node, Context(here=here))
     assert (visit.place, visit.inside_m, visit.leaves) == (here, 0.0, None)
@@ -122,7 +122,7 @@ def test_a_first_place_that_there_is_not_is_an_error():
 
 
 def test_a_stop_in_a_step_that_is_shed_ends_nothing():
-    plan = steps(picture("r0c0"), optional(picture("r3c4"), Stop(id="")), picture("r0c1"))
+    plan = steps(picture("r0c0"), optional(picture("r3c4"), StopMission(id="")), picture("r0c1"))
     assert done(walked(plan, length(steps(picture("r0c0"), picture("r0c1"))) + 1)) == ["r0c0", "r0c1"]
     assert done(walked(plan)) == ["r0c0", "r3c4"]
 
@@ -135,7 +135,7 @@ def test_what_must_follow_and_a_walk_of_what_must_be_done_have_no_optional_step(
     assert rest.first.id == "r0c1"
     assert len(rest.legs_m) == 1
     assert rest.work.seconds == ROBOT.action[PICTURE].duration_s
-    assert not any(isinstance(n, Optional) for n in p.walk(mandatory_part(task).composition.plan))
+    assert not any(isinstance(n, OptionalStep) for n in p.walk(mandatory_part(task).composition.plan))
 
 
 def test_steps_of_an_any_order_set_may_be_optional():

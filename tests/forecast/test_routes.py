@@ -21,7 +21,7 @@ from fieldhand.places.context import Context
 from fieldhand.places.selectors import Extreme, TreeIs, Trees, Where
 from fieldhand.task.build import number
 from fieldhand.task.conditions import TreeHas
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Repeat, Sequence, Try
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Repeat, Try
 from fieldhand.testing.small_orchard import husky, orchard, task_for
 
 SITE = orchard()
@@ -83,15 +83,15 @@ def test_a_node_ends_the_plan_if_no_step_and_no_round_follows():
     loop = ForEach(id="", select=Trees(), body=act())
     condition = TreeHas(attribute="leaf_color", test="eq", value="green")
     endings = {
-        "last step": (Sequence(id="", steps=(act(), loop)), True),
-        "not the last step": (Sequence(id="", steps=(loop, act())), False),
+        "last step": (InOrder(id="", steps=(act(), loop)), True),
+        "not the last step": (InOrder(id="", steps=(loop, act())), False),
         "one of a set": (AnyOrder(id="", steps=(loop, act())), False),
         "in a loop": (ForEach(id="", select=Trees(), body=loop), False),
         "in a repeat": (Repeat(id="", times=2, body=loop), False),
         "in a single round": (Repeat(id="", times=1, body=loop), True),
         "in an if": (If(id="", condition=condition, then=loop), True),
         "in a try": (Try(id="", body=loop, otherwise=act()), True),
-        "in an if before something": (Sequence(id="", steps=(If(id="", condition=condition, then=loop), act())), False),
+        "in an if before something": (InOrder(id="", steps=(If(id="", condition=condition, then=loop), act())), False),
     }
     for name, (plan, ends) in endings.items():
         numbered = number(plan)
@@ -107,7 +107,7 @@ def _loops(node):
 
 
 def test_home_counts_only_for_what_ends_the_plan_and_the_mission_goes_home():
-    plan = Sequence(id="", steps=(ForEach(id="", select=Trees(), body=act()), GoTo(id="", place=TreeIs(tree="3"))))
+    plan = InOrder(id="", steps=(ForEach(id="", select=Trees(), body=act()), GoTo(id="", place=TreeIs(tree="3"))))
     task = task_for(SITE, plan)
     assert home_if_last(task, SITE, "n2", SITE.start) is None
     assert home_if_last(task, SITE, "n4", SITE.start) == SITE.markers["end"]

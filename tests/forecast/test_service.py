@@ -5,7 +5,7 @@ import pytest
 from fieldhand.forecast.service import service_of
 from fieldhand.places.selectors import Trees
 from fieldhand.task.conditions import Level
-from fieldhand.task.plan import Act, ForEach, GoTo, If, Repeat, Sequence, Stop, Try
+from fieldhand.task.plan import Act, ForEach, GoTo, If, InOrder, Repeat, StopMission, Try
 from fieldhand.testing.small_orchard import husky
 
 ROBOT = husky()
@@ -40,5 +40,5 @@ def test_a_try_may_take_its_body_and_its_otherwise():
 
 
 def test_what_stands_after_a_stop_is_never_done_and_driving_is_no_work():
-    plan = Sequence(id="s", steps=(GoTo(id="g", place=Trees()), picture, Stop(id="x"), co2))
+    plan = InOrder(id="s", steps=(GoTo(id="g", place=Trees()), picture, StopMission(id="x"), co2))
     assert service_of(plan, ROBOT) == of(PICTURE)

@@ -10,7 +10,7 @@ from fieldhand.forecast.walk import walk
 from fieldhand.places.selectors import Bound, Here, Marker, Nearest, Other, TreeIs, Trees, Where
 from fieldhand.task.conditions import Level
 from fieldhand.task.frames import Budget, Constraints
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Repeat, Sequence, Stop, Try
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Repeat, StopMission, Try
 from fieldhand.testing.small_orchard import block, husky, orchard, task_for
 
 SITE = orchard()
@@ -35,7 +35,7 @@ def places(walk_, kind="act"):
 
 
 def test_every_drive_begins_where_the_last_one_ended_and_the_last_ends_at_home():
-    plan = Sequence(id="", steps=(picture(tree("7")), ForEach(id="", select=Trees(), body=picture(), at_most=5)))
+    plan = InOrder(id="", steps=(picture(tree("7")), ForEach(id="", select=Trees(), body=picture(), at_most=5)))
     found = walked(plan)
     drives = [s.drive for s in found.steps if s.drive is not None]
     assert drives[0].points[0] == SITE.start.xy
@@ -46,14 +46,14 @@ def test_every_drive_begins_where_the_last_one_ended_and_the_last_ends_at_home()
 
 
 def test_work_without_a_place_is_done_at_the_place_in_hand_and_costs_no_drive():
-    found = walked(Sequence(id="", steps=(picture(tree("7")), picture(count=2), picture(tree("7")))))
+    found = walked(InOrder(id="", steps=(picture(tree("7")), picture(count=2), picture(tree("7")))))
     assert places(found) == ["7", "7", "7"]
     assert places(found, "drive") == ["7"]
     assert [s.captures for s in found.steps if s.kind == "act"] == [1, 2, 1]
 
 
 def test_relative_places_resolve_when_they_are_reached():
-    plan = Sequence(
+    plan = InOrder(
         id="",
         steps=(
             picture(tree("1"), label="a"),
@@ -69,9 +69,9 @@ def test_relative_places_resolve_when_they_are_reached():
 
 def test_a_for_each_resolves_once_binds_each_place_and_afterwards_all_of_them():
     yellow = Where(attribute="leaf_color", test="eq", value="yellow")
-    body = Sequence(id="", steps=(GoTo(id="", place=Bound(label="x")), picture()))
+    body = InOrder(id="", steps=(GoTo(id="", place=Bound(label="x")), picture()))
     again = ForEach(id="", select=Bound(label="x"), body=picture(), order="given")
-    found = walked(Sequence(id="", steps=(ForEach(id="", select=yellow, body=body, label="x"), again)))
+    found = walked(InOrder(id="", steps=(ForEach(id="", select=yellow, body=body, label="x"), again)))
     acts = places(found)
     assert len(acts) == 2 * 7
     assert acts[:7] == acts[7:]
@@ -88,15 +88,13 @@ def test_a_loop_stops_once_its_until_holds_and_a_repeat_after_its_rounds():
 
 
 def test_a_try_goes_on_with_its_otherwise_only_where_the_body_fails():
-    plan = Sequence(
-        id="", steps=(Try(id="", body=picture(tree("1")), otherwise=picture(tree("2"))), picture(tree("3")))
-    )
+    plan = InOrder(id="", steps=(Try(id="", body=picture(tree("1")), otherwise=picture(tree("2"))), picture(tree("3"))))
     assert places(walked(plan)) == ["1", "3"]
     assert places(walked(plan, fails=lambda _: True)) == ["1", "2", "3"]
 
 
 def test_a_stop_ends_the_walk_with_its_exit():
-    plan = Sequence(id="", steps=(picture(tree("1")), Stop(id="", exit="faulted"), picture(tree("2"))))
+    plan = InOrder(id="", steps=(picture(tree("1")), StopMission(id="", exit="faulted"), picture(tree("2"))))
     found = walked(plan)
     assert places(found) == ["1"]
     assert (found.exit, found.steps[-1].kind, found.steps[-1].node.id) == ("faulted", "exit", "n3")
@@ -113,7 +111,7 @@ def test_staying_drives_nowhere_at_the_end():
 @pytest.mark.parametrize("plan", [picture(tree("99")), picture(Trees()), GoTo(id="", place=Bound(label="nobody"))])
 def test_a_place_that_is_nowhere_or_many_names_the_node(plan):
     with pytest.raises(PlaceError, match="n2"):
-        walked(Sequence(id="", steps=(plan, picture())))
+        walked(InOrder(id="", steps=(plan, picture())))
 
 
 def test_steps_in_any_order_are_done_in_the_shortest_one():
@@ -131,7 +129,7 @@ def test_optional_visits_are_those_that_the_budget_allows_with_what_must_follow_
     assert 3 <= len(listed.places) < 20
     assert {p.id for p in (*listed.places, *listed.shed)} == {t.place.id for t in SITE.trees}
     assert sum(found.legs_m) <= 60.0
-    followed = walked(Sequence(id="", steps=(many, picture(Marker(name="start")))), constraints=tight)
+    followed = walked(InOrder(id="", steps=(many, picture(Marker(name="start")))), constraints=tight)
     assert len(places(followed)) - 1 < len(places(found))
     assert places(followed)[-1] == "start"
     assert sum(followed.legs_m) <= 60.0
@@ -140,7 +138,7 @@ def test_optional_visits_are_those_that_the_budget_allows_with_what_must_follow_
 def test_a_walk_goes_around_a_keep_out():
     pond = block("keep_out", "pond", (0.5, 0.5), (1.5, 3.5))
     site = orchard(zones=[pond])
-    task = task_for(site, Sequence(id="", steps=(picture(tree("2")), picture(tree("12")))))
+    task = task_for(site, InOrder(id="", steps=(picture(tree("2")), picture(tree("12")))))
     dry, wet = (walk(task, s, ROBOT, holds=lambda _: True) for s in (SITE, site))
     assert sum(wet.legs_m) > sum(dry.legs_m)
 
@@ -148,10 +146,10 @@ def test_a_walk_goes_around_a_keep_out():
 def test_branches_of_conditions_are_all_found_each_once():
     high = Level(reading="s", quantity="canopy_temperature", level="high")
     again = picture(reading="s")
-    inner = Sequence(
+    inner = InOrder(
         id="", steps=(again, If(id="", condition=high, then=picture(tree("2")), otherwise=picture(tree("3"))))
     )
-    plan = Sequence(id="", steps=(picture(tree("1"), reading="r"), If(id="", condition=LOW, then=inner)))
+    plan = InOrder(id="", steps=(picture(tree("1"), reading="r"), If(id="", condition=LOW, then=inner)))
     found = branches(task_for(SITE, plan), SITE, ROBOT)
     assert found.complete
     assert sorted(places(w)[1:] for w in found.walks) == [[], ["1", "2"], ["1", "3"]]
@@ -159,7 +157,7 @@ def test_branches_of_conditions_are_all_found_each_once():
 
 
 def test_a_condition_at_each_of_some_trees_has_every_combination():
-    body = Sequence(id="", steps=(picture(reading="r"), If(id="", condition=LOW, then=picture())))
+    body = InOrder(id="", steps=(picture(reading="r"), If(id="", condition=LOW, then=picture())))
     task = task_for(SITE, ForEach(id="", select=Trees(), body=body, at_most=4))
     found = branches(task, SITE, ROBOT)
     assert found.complete
@@ -167,7 +165,7 @@ def test_a_condition_at_each_of_some_trees_has_every_combination():
 
 
 def test_more_branches_than_can_be_looked_at_are_reported_with_the_extremes_among_them():
-    body = Sequence(id="", steps=(picture(reading="r"), If(id="", condition=LOW, then=picture())))
+    body = InOrder(id="", steps=(picture(reading="r"), If(id="", condition=LOW, then=picture())))
     found = branches(task_for(SITE, ForEach(id="", select=Trees(), body=body)), SITE, ROBOT, limit=20)
     assert found.coverage == "bounded"
     counts = [len(places(w)) for w in found.walks]
@@ -194,6 +192,6 @@ def test_long_walks_are_not_walked_again_and_again():
     assert branches(task_for(SITE, long), SITE, ROBOT).complete
     look = picture(reading="r")
     choices = [look, If(id="", condition=LOW, then=picture(at=tree("2")), otherwise=picture(count=2))] * 4
-    found = branches(task_for(SITE, Sequence(id="", steps=(long, *choices))), SITE, ROBOT)
+    found = branches(task_for(SITE, InOrder(id="", steps=(long, *choices))), SITE, ROBOT)
     assert len(found.walks) == 4
     assert not found.complete

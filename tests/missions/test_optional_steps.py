@@ -13,7 +13,7 @@ from fieldhand.forecast.estimate import estimate
 from fieldhand.places.selectors import Corners, TreeIs
 from fieldhand.site.model import Zone
 from fieldhand.task.frames import Budget, Constraints, Task
-from fieldhand.task.plan import Act, AnyOrder, ForEach, Node, Optional, Sequence
+from fieldhand.task.plan import Act, AnyOrder, ForEach, InOrder, Node, OptionalStep
 from fieldhand.task.results import Acted, Shed
 from fieldhand.testing.small_orchard import husky, orchard, task_for
 from flights import Flight, fly_request, fly_task
@@ -26,17 +26,17 @@ def act(tree: str = "", **more: object) -> Act:
     return Act(id="", action=PICTURE, at=TreeIs(tree=tree) if tree else None, **more)
 
 
-def seq(*steps: Node) -> Sequence:
-    return Sequence(id="", steps=steps)
+def seq(*steps: Node) -> InOrder:
+    return InOrder(id="", steps=steps)
 
 
-def optional(*steps: Node) -> Optional:
-    return Optional(id="", body=steps[0] if len(steps) == 1 else seq(*steps))
+def optional(*steps: Node) -> OptionalStep:
+    return OptionalStep(id="", body=steps[0] if len(steps) == 1 else seq(*steps))
 
 
-def without(node: Sequence | AnyOrder) -> Node:
+def without(node: InOrder | AnyOrder) -> Node:
     """What must be done of a sequence or a set."""
-    return replace(node, steps=tuple(step for step in node.steps if not isinstance(step, Optional)))
+    return replace(node, steps=tuple(step for step in node.steps if not isinstance(step, OptionalStep)))
 
 
 def within(plan: Node, metres: float) -> Task:

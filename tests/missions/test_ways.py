@@ -37,7 +37,7 @@ from fieldhand.site.geojson import parse_site
 from fieldhand.site.model import Site
 from fieldhand.site.orchards import make_orchard, random_shapes
 from fieldhand.site.projection import Projection
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, Node, Sequence, Try
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, InOrder, Node, Try
 from fieldhand.task.results import Arrived, Driving, Ended, Faulted
 from rig import Rig, husky, of_type
 
@@ -163,7 +163,7 @@ def random_plan(rng: np.random.Generator, site: Site) -> Node:
         return Try(id=f"t{k}", body=wanted, otherwise=GoTo(id=f"o{k}", place=Here()))
 
     steps = tuple(step(k) for k in range(int(rng.integers(2, 6))))
-    return AnyOrder(id="all", steps=steps) if rng.random() < 0.2 else Sequence(id="all", steps=steps)
+    return AnyOrder(id="all", steps=steps) if rng.random() < 0.2 else InOrder(id="all", steps=steps)
 
 
 def crossings(ground: Planted, path: Any) -> list[str]:

@@ -17,7 +17,7 @@ from fieldhand.execution.drivers.ros2.dds.names import reply_name, request_name,
 from fieldhand.execution.drivers.ros2.dds.transport import DdsTransport
 from fieldhand.execution.mission_runner import Result
 from fieldhand.places.selectors import TreeIs
-from fieldhand.task.plan import Act, GoTo, Node, Sequence
+from fieldhand.task.plan import Act, GoTo, InOrder, Node
 from fieldhand.task.results import Acted, Driving, Faulted, Waited
 from fieldhand.testing.driver_contract import drive_goal, finish
 from patience import until
@@ -83,7 +83,7 @@ def flown(meeting: Meeting, *plan: Node, after_m: float, then: Callable[[], None
     """A mission in which something happens after so many metres."""
     driver = meeting.connect()
     meeting.clock.meanwhile = lambda: meeting.robot.state.get("driven_m", 0.0) >= after_m, then
-    return meeting.fly(Sequence(id="", steps=plan), driver)
+    return meeting.fly(InOrder(id="", steps=plan), driver)
 
 
 def why(meeting: Meeting) -> str:
@@ -206,7 +206,7 @@ def test_a_drive_that_nav2_aborts(meet: Meet, distro: str, code: dict[str, Any],
 
 def test_a_way_that_is_blocked_for_good(meet: Meet) -> None:
     plan = (act("read_co2", "r0c0"), go("r0c1"))
-    result = meet(blocked=(*SITE.by_id["r0c1"].place.xy, 3.0)).fly(Sequence(id="", steps=plan))
+    result = meet(blocked=(*SITE.by_id["r0c1"].place.xy, 3.0)).fly(InOrder(id="", steps=plan))
     ended(result, "faulted", "stay", r"tree r0c1.*: no way to the goal was found \(code 208 of Nav2\): no valid path")
     assert captured(result.events) == [("read_co2", "r0c0")]
 

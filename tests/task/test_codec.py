@@ -16,7 +16,7 @@ from fieldhand.task.codec import decode, decode_draft, encode
 from fieldhand.task.codec_shapes import FAMILIES, all_shapes, shape_of
 from fieldhand.task.conditions import Condition, TreeHas
 from fieldhand.task.frames import Budget, Command, Composition, Constraints, Task
-from fieldhand.task.plan import Act, GoTo, If, Node, Sequence, Stop
+from fieldhand.task.plan import Act, GoTo, If, InOrder, Node, StopMission
 from fieldhand.task.schema import validate
 from fieldhand.testing.generated.tasks import ROVER, Parts, numbers, texts, values
 
@@ -33,7 +33,7 @@ def holding(part: object) -> Task:
     if isinstance(part, Selector):
         return task_of(GoTo(id="n1", place=part))
     if isinstance(part, get_args(Condition)):
-        return task_of(If(id="n1", condition=part, then=Stop(id="n2")))
+        return task_of(If(id="n1", condition=part, then=StopMission(id="n2")))
     return task_of(part)
 
 
@@ -73,7 +73,7 @@ def test_every_finite_number_comes_back_to_the_last_bit(number):
 @settings(max_examples=100, deadline=None)
 @given(texts)
 def test_a_request_comes_back_word_for_word(request):
-    assert decode(encode(task_of(Stop(id="n1"), request))).command.request == request
+    assert decode(encode(task_of(StopMission(id="n1"), request))).command.request == request
 
 
 def test_what_is_default_is_not_written():
@@ -98,7 +98,7 @@ def test_a_prefix_comments_and_a_schema_location_change_nothing():
     document = b"""<f:task xmlns:f="urn:fieldhand:task:1" id="t" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"
       xsi:schemaLocation="urn:fieldhand:task:1 task.xsd"><!-- for tomorrow --><f:command><f:request>go</f:request>
       </f:command><f:task-composition><f:plan><f:stop id="n1"/></f:plan></f:task-composition></f:task>"""
-    assert decode(document) == task_of(Stop(id="n1"), "go")
+    assert decode(document) == task_of(StopMission(id="n1"), "go")
 
 
 def test_the_default_selector_may_be_written_out():
@@ -114,7 +114,7 @@ def test_a_draft_may_leave_out_what_is_derived():
           <constraints><budget kind="distance_m" limit="100"/></constraints></task>"""
     )
     act = Act(id="", action="read_co2", at=Corners(which=("nw",)))
-    assert draft.plan == Sequence(id="", steps=(act, Stop(id="")))
+    assert draft.plan == InOrder(id="", steps=(act, StopMission(id="")))
     assert (draft.nominal, draft.faulted, draft.request, draft.assumptions) == ("stay", (), "", ())
     assert draft.constraints.budgets[0].limit == 100
 
@@ -140,9 +140,9 @@ def test_the_names_of_the_elements_of_one_class_differ():
 @pytest.mark.parametrize(
     ("task", "words"),
     [
-        (task_of(Stop(id="n1"), "ring \x07"), "U+0007"),
-        (task_of(Stop(id="n1"), "half a \ud83c tree"), "U+D83C"),
-        (task_of(Stop(id="n\x00")), "U+0000"),
+        (task_of(StopMission(id="n1"), "ring \x07"), "U+0007"),
+        (task_of(StopMission(id="n1"), "half a \ud83c tree"), "U+D83C"),
+        (task_of(StopMission(id="n\x00")), "U+0000"),
         (holding(Where(attribute="x", test="lt", value=float("inf"))), "not a finite number"),
         (holding(Where(attribute="x", test="lt", value=float("nan"))), "not a finite number"),
         (task_of(Act(id="n1", action="take picture")), "cannot be the name"),
@@ -151,7 +151,7 @@ def test_the_names_of_the_elements_of_one_class_differ():
         (task_of(Act(id="n1", action="a", parameters=(("x", 1.0), ("x", 2.0)))), "stands twice"),
         (task_of(Act(id="n1", action="a", parameters=(("x", "10"),))), "would read as a number"),
         (task_of(Act(id="n1", action="a", count=10**30)), "too many digits"),
-        (task_of(Stop(id="n1"), "x" * 4_000_000), "split the mission"),
+        (task_of(StopMission(id="n1"), "x" * 4_000_000), "split the mission"),
     ],
 )
 def test_what_xml_cannot_hold_is_refused_in_one_line(task, words):
@@ -161,17 +161,17 @@ def test_what_xml_cannot_hold_is_refused_in_one_line(task, words):
 
 
 def test_a_plan_nested_too_deep_is_refused_by_encode():
-    plan: Node = Stop(id="n")
+    plan: Node = StopMission(id="n")
     for _ in range(5000):
-        plan = Sequence(id="n", steps=(plan,))
+        plan = InOrder(id="n", steps=(plan,))
     with pytest.raises(TaskError, match="nest less deeply"):
         encode(task_of(plan))
 
 
 def test_sixty_ifs_in_one_another_are_not_too_deep():
-    plan: Node = Stop(id="n")
+    plan: Node = StopMission(id="n")
     for _ in range(60):
-        plan = If(id="n", condition=TreeHas(attribute="a", test="eq", value=1.0), then=Sequence(id="s", steps=(plan,)))
+        plan = If(id="n", condition=TreeHas(attribute="a", test="eq", value=1.0), then=InOrder(id="s", steps=(plan,)))
     assert decode(encode(task_of(plan))) == task_of(plan)
 
 
@@ -179,7 +179,7 @@ def test_the_ranges_of_words_are_attributes_and_may_be_left_out():
     told = Task(
         id="t",
         command=Command(request="Please stop, at most 5 m, 9 % left, at the end.", no_part=((0, 6),)),
-        composition=Composition(plan=Stop(id="n1", said=((7, 11),)), nominal="stay", nominal_said=((36, 46),)),
+        composition=Composition(plan=StopMission(id="n1", said=((7, 11),)), nominal="stay", nominal_said=((36, 46),)),
         constraints=Constraints(
             budgets=(Budget(kind="distance_m", limit=5, said=((13, 24),)),),
             reserve_percent=9,

@@ -12,7 +12,7 @@ from fieldhand.language import open_language
 from fieldhand.mission import assess
 from fieldhand.robot.loader import load_robot
 from fieldhand.task.build import make_task
-from fieldhand.task.exceeded import exceeded, say_status
+from fieldhand.task.exceeded import exceeded_limits, say_status
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act
 from fieldhand.task.results import Arrived, Driving, Ended, Started
@@ -45,13 +45,13 @@ def limits(**of):
 
 @given(used=METRES, limit=st.floats(1.0, 5000.0))
 def test_a_distance_is_exceeded_exactly_where_the_odometer_shows_more(used, limit):
-    found = exceeded(limits(distance_m=limit), [started(), arrived(9.0, used), ended(9.0, used)])
+    found = exceeded_limits(limits(distance_m=limit), [started(), arrived(9.0, used), ended(9.0, used)])
     assert bool(found) == (used > limit + 1e-6 * max(1.0, limit))
 
 
 @given(left=st.floats(0.0, 100.0), reserve=st.floats(0.0, 99.0))
 def test_a_reserve_is_broken_exactly_where_less_is_left(left, reserve):
-    found = exceeded(limits(), [started(reserve=reserve), ended(9.0, 5.0, charge=left)])
+    found = exceeded_limits(limits(), [started(reserve=reserve), ended(9.0, 5.0, charge=left)])
     assert bool(found) == (left < reserve - 1e-6 * max(1.0, reserve))
 
 
@@ -60,7 +60,7 @@ def test_sums_that_differ_in_their_last_digits_do_not_exceed(limit, ulps):
     used = limit
     for _ in range(ulps):
         used = math.nextafter(used, math.inf)
-    assert exceeded(limits(distance_m=limit), [started(), ended(9.0, used)]) == ()
+    assert exceeded_limits(limits(distance_m=limit), [started(), ended(9.0, used)]) == ()
 
 
 def test_each_kind_of_limit_is_said_with_when_and_where():
@@ -72,7 +72,7 @@ def test_each_kind_of_limit_is_said_with_when_and_where():
         arrived(852.0, 904.5, charge=14.0),
         ended(852.0, 904.5, charge=14.0),
     ]
-    found = exceeded(limits(distance_m=900.0, duration_s=600.0, energy_percent=30.0), log)
+    found = exceeded_limits(limits(distance_m=900.0, duration_s=600.0, energy_percent=30.0), log)
     assert [one.kind for one in found] == ["distance_m", "duration_s", "energy_percent", "reserve"]
     assert [one.t for one in found] == [852.0, 852.0, 852.0, 852.0]
     assert {one.near for one in found} == {"on the way to the end"}
@@ -84,7 +84,7 @@ def test_each_kind_of_limit_is_said_with_when_and_where():
 
 
 def test_an_excess_of_millimetres_is_not_rounded_away_in_words():
-    (found,) = exceeded(limits(distance_m=900.0), [started(), ended(9.0, 900.004)])
+    (found,) = exceeded_limits(limits(distance_m=900.0), [started(), ended(9.0, 900.004)])
     assert found.why.startswith("900.004 m of 900 m driven")
 
 

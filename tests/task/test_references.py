@@ -10,7 +10,7 @@ from fieldhand.places.selectors import Bound, Corners, First, Here, Nearest, Tre
 from fieldhand.task.build import make_task
 from fieldhand.task.conditions import AllOf, Between, Compare, Level, Not
 from fieldhand.task.frames import Goal, Variable
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Optional, Repeat, Sequence, Stop, Try
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, OptionalStep, Repeat, StopMission, Try
 from fieldhand.task.references import references
 from fieldhand.testing.generated.tasks import ROVER
 
@@ -18,7 +18,7 @@ MEASURES = {"probe_soil": (("soil_moisture", "percent"), ("soil_ph", "pH")), "re
 
 
 def task_of(*steps, any_order=False):
-    kind = AnyOrder if any_order else Sequence
+    kind = AnyOrder if any_order else InOrder
     return make_task(request="go", plan=kind(id="", steps=steps), measures=MEASURES)
 
 
@@ -31,7 +31,7 @@ def dry(reading="r"):
 
 
 def when(condition, then=None, otherwise=None):
-    return If(id="", condition=condition, then=then or Stop(id=""), otherwise=otherwise)
+    return If(id="", condition=condition, then=then or StopMission(id=""), otherwise=otherwise)
 
 
 SOUND = {
@@ -46,12 +46,12 @@ SOUND = {
         ForEach(id="", select=Corners(), label="c", body=probe(at=Nearest(to=Bound(label="c"))))
     ),
     "read and test in an optional step": task_of(
-        Optional(id="", body=Sequence(id="", steps=(probe("r"), when(dry()))))
+        OptionalStep(id="", body=InOrder(id="", steps=(probe("r"), when(dry()))))
     ),
     "read before an optional step, test after it": task_of(
-        probe("r"), Optional(id="", body=probe("r")), when(dry()), Optional(id="", body=when(dry()))
+        probe("r"), OptionalStep(id="", body=probe("r")), when(dry()), OptionalStep(id="", body=when(dry()))
     ),
-    "an optional step at each place": task_of(ForEach(id="", select=Trees(), body=Optional(id="", body=probe()))),
+    "an optional step at each place": task_of(ForEach(id="", select=Trees(), body=OptionalStep(id="", body=probe()))),
     "an action binds its place": task_of(probe(at=First(), label="p"), GoTo(id="", place=Nearest(to=Bound(label="p")))),
 }
 
@@ -71,15 +71,15 @@ UNSOUND = {
     ),
     "read by a step that may come later": (task_of(probe("r"), when(dry()), any_order=True), "tests the reading 'r'"),
     "read later in the loop": (
-        task_of(Repeat(id="", times=2, body=Sequence(id="", steps=(when(dry()), probe("r"))))),
+        task_of(Repeat(id="", times=2, body=InOrder(id="", steps=(when(dry()), probe("r"))))),
         "tests the reading 'r'",
     ),
     "read by a step that may be shed": (
-        task_of(Optional(id="", body=probe("r")), when(dry())),
+        task_of(OptionalStep(id="", body=probe("r")), when(dry())),
         "node 'n4' tests the reading 'r', which only an optional step takes: test it inside that",
     ),
     "bound by a step that may be shed": (
-        task_of(Optional(id="", body=GoTo(id="", place=First(), label="p")), GoTo(id="", place=Bound(label="p"))),
+        task_of(OptionalStep(id="", body=GoTo(id="", place=First(), label="p")), GoTo(id="", place=Bound(label="p"))),
         "node 'n4' names the place 'p', which only an optional step binds: name it inside that",
     ),
     "place never bound": (
@@ -139,9 +139,9 @@ def test_nested_repeats_do_not_multiply_without_end(times, wrong):
 @pytest.mark.parametrize(
     ("inner", "outer"),
     [
-        (Optional(id="", body=probe()), lambda body: Optional(id="", body=Repeat(id="", times=2, body=body))),
-        (Optional(id="", body=probe()), lambda body: ForEach(id="", select=Trees(), optional=True, body=body)),
-        (ForEach(id="", select=Trees(), optional=True, body=probe()), lambda body: Optional(id="", body=body)),
+        (OptionalStep(id="", body=probe()), lambda body: OptionalStep(id="", body=Repeat(id="", times=2, body=body))),
+        (OptionalStep(id="", body=probe()), lambda body: ForEach(id="", select=Trees(), optional=True, body=body)),
+        (ForEach(id="", select=Trees(), optional=True, body=probe()), lambda body: OptionalStep(id="", body=body)),
     ],
 )
 def test_nothing_optional_stands_inside_an_optional_step_nor_it_inside_optional_visits(inner, outer):
@@ -158,7 +158,7 @@ def test_optional_visits_are_made_in_no_given_order(order, optional, wrong):
 
 def test_ids_stand_once():
     task = task_of(probe(), probe())
-    plan = Sequence(id="n1", steps=(probe(at=Here()), Stop(id="n1"), Stop(id="")))
+    plan = InOrder(id="n1", steps=(probe(at=Here()), StopMission(id="n1"), StopMission(id="")))
     problems = references(replace(task, composition=replace(task.composition, plan=plan)))
     assert "2 nodes of the plan have the id 'n1'" in problems
     assert "2 nodes of the plan have no id" in problems

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fieldhand.places.selectors import TreeIs, Trees
-from fieldhand.task import requests as ask
+from fieldhand.task import instructions as ask
 from fieldhand.task.build import make_task
 from fieldhand.task.nodes.base import Cut, Failed, GivenUp, Stopped
 from fieldhand.task.plan import (
@@ -19,15 +19,15 @@ from fieldhand.task.plan import (
     ForEach,
     GoTo,
     If,
+    InOrder,
     Node,
-    Optional,
+    OptionalStep,
     Repeat,
-    Sequence,
-    Stop,
+    StopMission,
     Try,
     walk,
 )
-from fieldhand.task.run import Frame, Run, carry_out
+from fieldhand.task.run import Run, StackFrame, carry_out
 
 WORD = ("", "a", "b")
 
@@ -44,14 +44,14 @@ def plans() -> st.SearchStrategy[Node]:
             label=st.sampled_from(WORD),
         ),
         st.builds(GoTo, id=st.just(""), place=st.just(TreeIs(tree="t")), label=st.sampled_from(WORD)),
-        st.builds(Stop, id=st.just("")),
+        st.builds(StopMission, id=st.just("")),
     )
 
     def inner(part: st.SearchStrategy[Node]) -> st.SearchStrategy[Node]:
         steps = st.lists(part, max_size=3).map(tuple)
         nothing = st.just("")
         return st.one_of(
-            st.builds(Sequence, id=nothing, steps=steps),
+            st.builds(InOrder, id=nothing, steps=steps),
             st.builds(AnyOrder, id=nothing, steps=steps),
             st.builds(
                 ForEach,
@@ -65,7 +65,7 @@ def plans() -> st.SearchStrategy[Node]:
             st.builds(Repeat, id=nothing, times=st.integers(1, 3), body=part),
             st.builds(If, id=nothing, condition=st.none(), then=part, otherwise=st.one_of(st.none(), part)),
             st.builds(Try, id=nothing, body=part, otherwise=part),
-            st.builds(Optional, id=nothing, body=part),
+            st.builds(OptionalStep, id=nothing, body=part),
         )
 
     return st.recursive(leaf, inner, max_leaves=12).map(
@@ -85,7 +85,7 @@ class Scripted:
     def __init__(self, plan: Node, luck: list[int], *, unlucky: bool = True) -> None:
         self.run = Run(plan)
         self.luck, self.unlucky = iter(luck), unlucky
-        self.asked: list[ask.Request] = []
+        self.asked: list[ask.Instruction] = []
         self.open: list[Node] = []
         self.ended: list[tuple[str, str]] = []
         self.run.entered, self.run.left = self.open.append, self._left
@@ -96,7 +96,7 @@ class Scripted:
         assert self.open.pop() is node
         self.ended.append((node.id, outcome))
 
-    def answer(self, request: ask.Request) -> Any:
+    def answer(self, request: ask.Instruction) -> Any:
         assert [frame.node for frame in self.run.frames] == self.open
         assert request.node is self.open[-1]
         assert self.must_be_in is None or request.node.id in self.must_be_in
@@ -108,21 +108,21 @@ class Scripted:
         if self.unlucky and number % 7 == 6:
             self._give_up()
         match request:
-            case ask.Arrange(node=node):
+            case ask.ArrangeSteps(node=node):
                 return tuple(reversed(range(len(node.steps)))) if number % 2 else tuple(range(len(node.steps)))
-            case ask.Begin():
+            case ask.BeginVisits():
                 return list(range(number % 4))
-            case ask.Next(tour=tour):
+            case ask.NextVisit(tour=tour):
                 return tour.pop() if tour else None
-            case ask.Drive(place=place):
+            case ask.DriveTo(place=place):
                 return place
-            case ask.Decide() | ask.Offer():
+            case ask.Decide() | ask.OfferStep():
                 return bool(number % 2)
             case ask.Locate():
                 return -1
         return None
 
-    def _fail(self, request: ask.Request) -> None:
+    def _fail(self, request: ask.Instruction) -> None:
         catching = next((f for f in self.run.outwards() if f.instead), None)
         if catching is not None:
             self.must_be_in = {node.id for node in walk(catching.instead[0])} | self._after(catching.node)
@@ -166,7 +166,7 @@ def test_requests_come_from_the_node_in_hand_and_every_node_that_is_entered_is_l
     assert script.run.frames == script.open == []
     assert script.ended[-1][0] == plan.id
     assert script.ended[-1][1] == {"done": "done", "failed": "failed", "stopped": "cut"}[how]
-    assert (how == "stopped") <= any(isinstance(node, Stop) for node in walk(plan))
+    assert (how == "stopped") <= any(isinstance(node, StopMission) for node in walk(plan))
 
 
 @given(plans(), st.lists(st.integers(0, 70), max_size=60))
@@ -194,7 +194,7 @@ def test_a_node_that_is_cut_is_over_and_what_comes_behind_it_goes_on(
     script = Scripted(plan, luck, unlucky=False)
     cut: list[str] = []
 
-    def answer(request: ask.Request) -> Any:
+    def answer(request: ask.Instruction) -> Any:
         if len(script.asked) == when and not cut:
             around = [frame.node for frame in script.run.outwards()]
             node = around[min(outwards, len(around) - 1)]
@@ -209,14 +209,14 @@ def test_a_node_that_is_cut_is_over_and_what_comes_behind_it_goes_on(
     if cut:
         first = next(k for k, (name, outcome) in enumerate(script.ended) if outcome == "cut" and name == cut[0])
         assert {outcome for _, outcome in script.ended[first + 1 :]} <= {"done"} or any(
-            isinstance(node, Stop) for node in walk(plan)
+            isinstance(node, StopMission) for node in walk(plan)
         )
 
 
 @given(plans(), st.lists(st.integers(0, 70), max_size=60))
 def test_a_node_goes_on_after_a_child_only_where_it_says_so(plan: Node, luck: list[int]) -> None:
     script = Scripted(plan, luck)
-    before: dict[int, tuple[Frame, Node]] = {}
+    before: dict[int, tuple[StackFrame, Node]] = {}
 
     def entered(node: Node) -> None:
         script.open.append(node)
@@ -245,18 +245,18 @@ def test_a_visit_that_is_given_up_does_not_count_and_is_not_among_the_label() ->
     plan = make_task(request="", plan=loop, measures={}).composition.plan
     run, bound, driven = Run(plan), [], []
 
-    def answer(request: ask.Request) -> Any:
+    def answer(request: ask.Instruction) -> Any:
         match request:
-            case ask.Begin():
+            case ask.BeginVisits():
                 return ["a", "b", "c", "d"]
-            case ask.Next(tour=tour):
+            case ask.NextVisit(tour=tour):
                 return tour.pop(0) if tour else None
-            case ask.Drive(place=place, tour=None):
+            case ask.DriveTo(place=place, tour=None):
                 return place
-            case ask.Drive(place=place):
+            case ask.DriveTo(place=place):
                 driven.append(place)
                 return place
-            case ask.Bind(node=node, places=places) if node is plan:
+            case ask.BindLabel(node=node, places=places) if node is plan:
                 bound.append(places)
             case ask.Capture() if driven[-1] == "b":
                 raise GivenUp(plan.id)
@@ -274,7 +274,7 @@ def test_a_failure_in_the_otherwise_of_a_try_is_not_caught_by_that_try() -> None
     plan = make_task(request="", plan=outer, measures={}).composition.plan
     done: list[str] = []
 
-    def answer(request: ask.Request) -> None:
+    def answer(request: ask.Instruction) -> None:
         if isinstance(request, ask.Capture):
             done.append(request.node.action)
             if request.node.action != "wait":

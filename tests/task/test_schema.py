@@ -21,6 +21,7 @@ from fieldhand.task.codec_shapes import all_shapes
 from fieldhand.task.plan import walk
 from fieldhand.task.references import references
 from fieldhand.task.schema import require_valid, schema_xsd, validate
+from fieldhand.task.schema_build import type_name
 from fieldhand.testing.generated.tasks import ROVER, Parts
 
 DOCUMENT = b"""<task xmlns="urn:fieldhand:task:1" id="t">
@@ -219,7 +220,7 @@ def test_every_class_of_the_room_has_a_type_with_its_docstring():
     schema = etree.fromstring(schema_xsd(ROVER))
     types = {t.get("name"): t for t in schema.findall("{*}complexType")}
     for shape in all_shapes().values():
-        documentation = types[shape.cls.__name__].findtext("{*}annotation/{*}documentation")
+        documentation = types[type_name(shape.cls)].findtext("{*}annotation/{*}documentation")
         assert documentation.split()[0] == shape.cls.__doc__.replace("``", "'").split()[0]
 
 

@@ -13,7 +13,7 @@ from fieldhand.places.selectors import EveryNth, Half, Nearest, Other, TreeIs, T
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.conditions import Compare
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Repeat, Sequence
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Node, Repeat
 from fieldhand.terms import Side
 from fieldhand_bench.scenes import WORTH
 
@@ -57,7 +57,7 @@ def mandatory_and_optional(ground: Ground) -> Node:
     """As many trees as fit, with visits before or after them that must be made."""
     before = [_must(ground, 5)] if ground.chance(0.6) else []
     after = [_must(ground, 5)] if not before or ground.chance(0.5) else []
-    return Sequence(id="", steps=(*before, _as_many(ground), *after))
+    return InOrder(id="", steps=(*before, _as_many(ground), *after))
 
 
 def mandatory(ground: Ground) -> Node:
@@ -70,7 +70,7 @@ def two_optional(ground: Ground) -> Node:
     steps: list[Node] = [_as_many(ground, reward=WORTH), _as_many(ground, reward=WORTH if ground.chance(0.5) else "")]
     if ground.chance(0.3):
         steps.append(_must(ground, 3))
-    return Sequence(id="", steps=tuple(steps))
+    return InOrder(id="", steps=tuple(steps))
 
 
 def loops(ground: Ground) -> Node:
@@ -85,14 +85,14 @@ def loops(ground: Ground) -> Node:
         read, condition = _reading(ground)
         return ForEach(id="", select=_few(ground, 25), body=read, optional=True, until=condition)
     rounds = Repeat(id="", times=ground.number(2, 4), body=_must(ground, 4))
-    return Sequence(id="", steps=(rounds, _as_many(ground)))
+    return InOrder(id="", steps=(rounds, _as_many(ground)))
 
 
 def work(ground: Ground) -> Node:
     """As many as fit, with several captures at each: time and energy go into work more than into driving."""
     acts = tuple(Act(id="", action=ground.action(), count=ground.number(1, 4)) for _ in range(ground.number(1, 3)))
-    loop = ForEach(id="", select=_some(ground), body=Sequence(id="", steps=acts), optional=True)
-    return Sequence(id="", steps=(_must(ground, 4), loop)) if ground.chance(0.4) else loop
+    loop = ForEach(id="", select=_some(ground), body=InOrder(id="", steps=acts), optional=True)
+    return InOrder(id="", steps=(_must(ground, 4), loop)) if ground.chance(0.4) else loop
 
 
 def conditions(ground: Ground) -> Node:
@@ -100,13 +100,13 @@ def conditions(ground: Ground) -> Node:
     read, condition = _reading(ground)
     if ground.chance(0.5):
         more = If(id="", condition=condition, then=Act(id="", action=ground.action(), count=ground.number(1, 5)))
-        loop = ForEach(id="", select=_few(ground, 6), body=Sequence(id="", steps=(read, more)), optional=True)
+        loop = ForEach(id="", select=_few(ground, 6), body=InOrder(id="", steps=(read, more)), optional=True)
         steps: tuple[Node, ...] = (loop, _must(ground, 3)) if ground.chance(0.5) else (loop,)
-        return Sequence(id="", steps=steps)
+        return InOrder(id="", steps=steps)
     first = Act(id="", action=read.action, at=TreeIs(tree=ground.trees(1)[0]), reading=read.reading)
     then = If(id="", condition=condition, then=_must(ground, 8), otherwise=None)
     steps = (first, then, _as_many(ground)) if ground.chance(0.5) else (first, _as_many(ground), then)
-    return Sequence(id="", steps=steps)
+    return InOrder(id="", steps=steps)
 
 
 Family = Callable[[Ground], Node]
@@ -142,17 +142,17 @@ def _must(ground: Ground, most: int) -> Node:
     sort = ground.number(0, 4)
     if sort == 0:
         acts = tuple(Act(id="", action=ground.action(), at=TreeIs(tree=t)) for t in trees)
-        return Sequence(id="", steps=acts)
+        return InOrder(id="", steps=acts)
     if sort == 1 and len(trees) <= 10:
         acts = tuple(Act(id="", action=ground.action(), at=TreeIs(tree=t)) for t in trees)
         return AnyOrder(id="", steps=acts)
     if sort == 2:
         go = GoTo(id="", place=TreeIs(tree=trees[0]))
         near = Nearest(to=TreeIs(tree=trees[0]), count=len(trees))
-        return Sequence(id="", steps=(go, ForEach(id="", select=near, body=Act(id="", action=ground.action()))))
+        return InOrder(id="", steps=(go, ForEach(id="", select=near, body=Act(id="", action=ground.action()))))
     body: Node = Act(id="", action=ground.action(), count=ground.number(1, 2))
     if ground.chance(0.3):
-        body = Sequence(id="", steps=(body, Act(id="", action=ground.action())))
+        body = InOrder(id="", steps=(body, Act(id="", action=ground.action())))
     order: Literal["best", "given"] = "given" if ground.chance(0.3) else "best"
     return ForEach(id="", select=Union(parts=tuple(TreeIs(tree=t) for t in trees)), body=body, order=order)
 

@@ -227,7 +227,7 @@ def _promise(draft: Draft) -> Promise:
     """What must be done, and the way home alone, against the limits, from the charge that the mission begins with."""
     if not _exceeds(draft, mandatory_part(draft.task)):
         return "within"
-    nothing = replace(draft.task.composition, plan=plan.Sequence(id=draft.task.composition.plan.id, steps=()))
+    nothing = replace(draft.task.composition, plan=plan.InOrder(id=draft.task.composition.plan.id, steps=()))
     return "hopeless" if _exceeds(draft, replace(draft.task, composition=nothing)) else "warned"
 
 

@@ -105,7 +105,7 @@ class _Reader:
     def play(self, node: p.Node) -> None:
         """Go through a node along the log."""
         match node:
-            case p.Sequence(steps=steps):
+            case p.InOrder(steps=steps):
                 self._in_order(steps)
             case p.AnyOrder(steps=steps):
                 self._any_order(list(steps))
@@ -123,7 +123,7 @@ class _Reader:
                 self._go_to(node)
             case p.Act():
                 self._act(node)
-            case p.Stop():
+            case p.StopMission():
                 raise _Stopped
 
     def _in_order(self, steps: Sequence[p.Node]) -> None:
@@ -308,9 +308,9 @@ class _Reader:
         """Nodes that the robot did not come to, as far as it is known what they want."""
         for node in nodes:
             match node:
-                case p.Sequence(steps=steps) | p.AnyOrder(steps=steps):
+                case p.InOrder(steps=steps) | p.AnyOrder(steps=steps):
                     self._miss(*steps)
-                case p.ForEach(optional=True) | p.Stop():
+                case p.ForEach(optional=True) | p.StopMission():
                     pass
                 case p.ForEach(at_most=None, select=selector) | p.GoTo(place=selector):
                     self._undo(node.id, *self._known(selector))

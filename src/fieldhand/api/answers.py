@@ -10,8 +10,8 @@ from fieldhand.api.maps import choices_map, plan_map, site_map
 from fieldhand.language import ENGLISH, Language, message
 from fieldhand.mission import Review
 from fieldhand.planning.planner import Clarify, Refused
-from fieldhand.task.account import NAMES, account, has_ranges
 from fieldhand.task.frames import Task
+from fieldhand.task.request_coverage import ROLE_NAMES, has_ranges, request_pieces
 
 
 def unplanned_answer(outcome: Clarify | Refused, ground: Ground) -> dict[str, Any]:
@@ -36,7 +36,9 @@ def words_answer(task: Task, language: Language = ENGLISH) -> list[dict[str, str
     """The request in pieces, each with what became of it; empty where the Task does not say it."""
     if not has_ranges(task):
         return []
-    return [{"text": p.text, "role": p.role, "name": language.say(NAMES.get(p.role, ""))} for p in account(task)]
+    return [
+        {"text": p.text, "role": p.role, "name": language.say(ROLE_NAMES.get(p.role, ""))} for p in request_pieces(task)
+    ]
 
 
 def review_answer(review: Review, ground: Ground, language: Language = ENGLISH) -> dict[str, Any]:

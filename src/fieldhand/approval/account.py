@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from fieldhand.approval.problem import Problem
 from fieldhand.language import joined, message
-from fieldhand.task.account import account, has_ranges
 from fieldhand.task.frames import Task
+from fieldhand.task.request_coverage import has_ranges, request_pieces
 
 #: So many stretches of words are quoted in one warning.
 _MOST_QUOTED = 8
@@ -13,7 +13,7 @@ _MOST_QUOTED = 8
 
 def unaccounted(task: Task) -> tuple[Problem, ...]:
     """A warning that names the words of the request that became nothing; none if there are none."""
-    lost = [piece.text.strip() for piece in account(task) if piece.role == "nothing"]
+    lost = [piece.text.strip() for piece in request_pieces(task) if piece.role == "nothing"]
     if not lost:
         return ()
     if not has_ranges(task):

@@ -17,7 +17,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Task, Then
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, Node, Optional, Repeat, Sequence, Stop, Try
+from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Node, OptionalStep, Repeat, StopMission, Try
 
 Names = dict[str, str]
 
@@ -118,7 +118,7 @@ class _Writer:
 
     def node(self, node: Node, indent: int) -> None:
         match node:
-            case Sequence(steps=steps):
+            case InOrder(steps=steps):
                 for step in steps:
                     self.node(step, indent)
             case AnyOrder(steps=steps):
@@ -136,14 +136,14 @@ class _Writer:
                 self.node(node.body, indent + 1)
                 self._open(node.id, indent, message("If that fails:"))
                 self.node(node.otherwise, indent + 1)
-            case Optional():
+            case OptionalStep():
                 self._optional(node, indent)
             case GoTo():
                 number = self.step(node.id, indent, message("Drive to {place}.", place=self._at(node, node.place)))
                 self._arrived(node.label, node.id, number)
             case Act():
                 self._act(node, indent)
-            case Stop(exit=taken):
+            case StopMission(exit=taken):
                 failed = message("End the mission here, which counts as failed.")
                 self.step(node.id, indent, message("End the mission here.") if taken == "nominal" else failed)
 
@@ -268,7 +268,7 @@ class _Writer:
                 message("Leave out the rest once {condition}.", condition=self._condition(node.until)),
             )
 
-    def _optional(self, node: Optional, indent: int) -> None:
+    def _optional(self, node: OptionalStep, indent: int) -> None:
         expected = say_expected(self._found.get(node.id))
         if node.reward == 1.0:
             head = message("If the budget allows {expected}:", expected=expected)

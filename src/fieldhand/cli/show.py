@@ -16,7 +16,7 @@ from fieldhand.cli.console import out as out
 from fieldhand.language import ENGLISH, Language, message
 from fieldhand.language.words import say_count, say_place
 from fieldhand.planning.planner import Clarify, Planned, Reason, Refused
-from fieldhand.task.account import NAMES, Piece, Role, account, has_ranges
+from fieldhand.task.request_coverage import ROLE_NAMES, Piece, WordRole, has_ranges, request_pieces
 from fieldhand.visible import json_text, visible
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 #: How words look by what became of them: told apart by brightness and form, too, not by red and green.
-WORDS: dict[Role, str] = {
+WORDS: dict[WordRole, str] = {
     "action": "bold blue",
     "place": "cyan",
     "condition": "yellow",
@@ -162,22 +162,26 @@ def mission_record(
 
 def show_request(task: Task, language: Language = ENGLISH) -> None:
     """The request with what became of its words: in colour, or else word by word behind it."""
-    pieces = [piece for piece in account(task) if piece.text.strip()]
+    pieces = [piece for piece in request_pieces(task) if piece.text.strip()]
     if not pieces:
         return
     heading(language.say(message("The request")))
     coloured = has_ranges(task) and out.color_system is not None and not out.no_color
     request = Text()
-    for piece in account(task) if coloured else [Piece(text=task.command.request, role="between")]:
+    for piece in request_pieces(task) if coloured else [Piece(text=task.command.request, role="between")]:
         request.append(visible(piece.text, lines=True).expandtabs(4), style=WORDS.get(piece.role, ""))
     with out.behind():
         for line in request.split("\n"):
             out.print(Text("  ") + line)
     if coloured:
         used = [role for role in WORDS if any(piece.role == role for piece in pieces)]
-        out.print(Text("  ") + Text("  ").join(Words(language.say(NAMES[role]), style=WORDS[role]) for role in used))
+        out.print(
+            Text("  ") + Text("  ").join(Words(language.say(ROLE_NAMES[role]), style=WORDS[role]) for role in used)
+        )
     elif has_ranges(task):
-        named = [f"{language.say(NAMES[p.role])}: {' '.join(p.text.split())}" for p in pieces if p.role in NAMES]
+        named = [
+            f"{language.say(ROLE_NAMES[p.role])}: {' '.join(p.text.split())}" for p in pieces if p.role in ROLE_NAMES
+        ]
         out.print(f"  ({'; '.join(named)})")
 
 

@@ -21,7 +21,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.build import exit_of
 from fieldhand.task.frames import Task
-from fieldhand.task.run import Frame
+from fieldhand.task.run import StackFrame
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -98,7 +98,7 @@ class Means:
         home = self.site.home(exit_of(self.task, "low_budget"), at)
         return home if self.distances.linked(at, home) else at
 
-    def rest(self, frames: Sequence[Frame], context: Context, to_come: Sequence[Visit] = ()) -> Rest:
+    def rest(self, frames: Sequence[StackFrame], context: Context, to_come: Sequence[Visit] = ()) -> Rest:
         """Return what must be done after the node in hand (:func:`fieldhand.forecast.rest.rest_after`).
 
         Where the robot has found its ways blocked, what cannot be reached now is not set aside.

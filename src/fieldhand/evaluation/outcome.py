@@ -17,7 +17,7 @@ from fieldhand.evaluation.replay import replay
 from fieldhand.evaluation.tally import Tally
 from fieldhand.language import counted, joined, kept_in_log, message, shaped
 from fieldhand.language.words import say_captures
-from fieldhand.task.exceeded import Exceeded, exceeded, final_status, reason_with, say_status
+from fieldhand.task.exceeded import Exceeded, exceeded_limits, final_status, reason_with, say_status
 from fieldhand.task.frames import Goal, Task
 from fieldhand.task.results import Ended, Event, GoalOutcome, MissionStatus
 
@@ -52,7 +52,7 @@ def judge_end(
         events: The event log, from its beginning; it may stop anywhere.
         reserve_percent: Charge that must be left where neither Task nor log says it.
     """
-    found = exceeded(task.constraints, events, reserve_percent)
+    found = exceeded_limits(task.constraints, events, reserve_percent)
     ended = next((e for e in reversed(events) if isinstance(e, Ended)), None)
     if ended is None:
         return None, "", found

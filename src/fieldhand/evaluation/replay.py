@@ -17,7 +17,7 @@ from typing import Any
 
 from fieldhand.evaluation.tally import Tallies, Tally
 from fieldhand.language import message
-from fieldhand.task import requests as ask
+from fieldhand.task import instructions as ask
 from fieldhand.task.nodes.base import Cut, Failed, GivenUp, Stopped
 from fieldhand.task.plan import Act, Node, acts
 from fieldhand.task.results import (
@@ -37,7 +37,7 @@ from fieldhand.task.results import (
     Visiting,
     Waited,
 )
-from fieldhand.task.run import Frame, Outcome, Run, carry_out
+from fieldhand.task.run import Outcome, Run, StackFrame, carry_out
 
 
 def replay(plan: Node, events: Sequence[Event]) -> dict[str, Tally]:
@@ -149,27 +149,27 @@ class _Replay:
 
     # --- answers -----------------------------------------------------------------------------------------------
 
-    def _answer(self, request: ask.Request) -> Any:
+    def _answer(self, request: ask.Instruction) -> Any:
         match request:
             case ask.Capture(node=act):
                 self._capture(act)
-            case ask.Drive(node=node, tour=None) if node.act is None:
+            case ask.DriveTo(node=node, tour=None) if node.act is None:
                 self._drive(node)
             case ask.Decide(node=node):
                 return self._decide(node)
-            case ask.Begin(node=loop):
+            case ask.BeginVisits(node=loop):
                 return self._begin(loop)
-            case ask.Next(node=loop, tour=tour):
+            case ask.NextVisit(node=loop, tour=tour):
                 return self._visit(loop, tour)
-            case ask.Round(node=repeat, left=left):
+            case ask.BeginRound(node=repeat, left=left):
                 if self._shed(repeat):
                     # All of its rounds are given up, whatever its test would have said.
                     self._tallies.miss(repeat.body, left + 1)
                     self._run.frame.left = ()
                     raise self._lost()
-            case ask.Offer(node=step):
+            case ask.OfferStep(node=step):
                 return self._offer(step)
-            case ask.Arrange(node=node):
+            case ask.ArrangeSteps(node=node):
                 return self._arrange(node)
         return None
 
@@ -279,7 +279,7 @@ class _Replay:
         if outcome == "done" and self._run.frames:
             self._went_well(self._run.frame)
 
-    def _went_well(self, frame: Frame) -> None:
+    def _went_well(self, frame: StackFrame) -> None:
         for tally in self._tallies.under(*frame.instead):
             tally.skipped.append(message("what it stands in for went well", context="log"))
 
@@ -300,7 +300,7 @@ class _Replay:
         self._miss(root)
         return Cut(root.node.id)
 
-    def _onward(self, around: Frame, child: Node) -> Exception | None:
+    def _onward(self, around: StackFrame, child: Node) -> Exception | None:
         """Return what to throw where the log goes on behind a child of a node in hand; None where it does not."""
         node, visits = around.node, around.tour
         if isinstance(visits, _Visits) and self._given_up(around):
@@ -315,7 +315,7 @@ class _Replay:
         later = around.left if node.rounds is None else (node,)
         return Cut(child.id) if self._comes(later) else None
 
-    def _given_up(self, frame: Frame) -> bool:
+    def _given_up(self, frame: StackFrame) -> bool:
         """Return True if the log goes on with optional work of the node that was given up; of a step, read that."""
         node, event = frame.node, self._peek_own(frame.node)
         if not isinstance(event, Shed) or not event.optional or not node.is_optional:
@@ -325,7 +325,7 @@ class _Replay:
             self._tallies.spare(node, event)
         return True
 
-    def _miss(self, frame: Frame) -> None:
+    def _miss(self, frame: StackFrame) -> None:
         """Count what a node in hand still had before it."""
         if isinstance(frame.tour, _Visits):
             self._miss_visits(frame.node, frame.tour)

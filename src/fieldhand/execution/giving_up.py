@@ -15,7 +15,7 @@ from fieldhand.task import plan
 from fieldhand.task.nodes.base import GivenUp
 from fieldhand.task.plan import Node
 from fieldhand.task.results import Shed
-from fieldhand.task.run import Frame
+from fieldhand.task.run import StackFrame
 
 
 class Over(Exception):
@@ -102,7 +102,7 @@ def give_up_rest(attempt: Attempt, place: Place | None, verdict: Verdict) -> Non
     _miss(attempt, frames, verdict)
 
 
-def _miss(attempt: Attempt, frames: Sequence[Frame], verdict: Verdict) -> None:
+def _miss(attempt: Attempt, frames: Sequence[StackFrame], verdict: Verdict) -> None:
     """Report the work after the current node, which will not be reached."""
     why = message("not reached: {why}", context="log", why=verdict.reason)
     missed = Verdict(go=False, reason=why, chance_short=verdict.chance_short)
@@ -110,7 +110,7 @@ def _miss(attempt: Attempt, frames: Sequence[Frame], verdict: Verdict) -> None:
         shed(attempt, node.id, places, missed, optional=optional)
 
 
-def _left_undone(attempt: Attempt, frames: Iterable[Frame]) -> Iterator[tuple[Node, Sequence[Place], bool]]:
+def _left_undone(attempt: Attempt, frames: Iterable[StackFrame]) -> Iterator[tuple[Node, Sequence[Place], bool]]:
     """Yield the remaining work of the current nodes: (node, places as far as known, True if optional)."""
     for frame in reversed(list(frames)):
         if frame.tour is not None and (undone := frame.tour.undone()):

@@ -27,7 +27,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.site.stopping import stands_in
 from fieldhand.task.authorization import AuthorizedTask
-from fieldhand.task.exceeded import exceeded, final_status, reason_with
+from fieldhand.task.exceeded import exceeded_limits, final_status, reason_with
 from fieldhand.task.frames import Task, Then
 from fieldhand.task.results import Continued, Ended, Event, Exited, MissionStatus, Paused, Started
 from fieldhand.task.run import Steps
@@ -411,7 +411,7 @@ class MissionRunner:
             charge_percent=attempt.charge_percent(),
             reason=ending.reason if ending.status != "completed" else "",
         )
-        found = exceeded(attempt.task.constraints, [*attempt.events, ended])
+        found = exceeded_limits(attempt.task.constraints, [*attempt.events, ended])
         status = final_status(ending.status, found)
         if status != ending.status:
             ended = replace(ended, status=status, reason=reason_with(found, ended.reason))

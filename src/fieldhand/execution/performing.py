@@ -1,4 +1,4 @@
-"""Execution of a plan's requests (:mod:`fieldhand.task.requests`) on the robot."""
+"""Execution of a plan's requests (:mod:`fieldhand.task.instructions`) on the robot."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from fieldhand.forecast.state import Choice
 from fieldhand.language import message
 from fieldhand.places.selector import Selector
 from fieldhand.site.model import Place
-from fieldhand.task import requests as ask
+from fieldhand.task import instructions as ask
 from fieldhand.task.conditions import Condition
 from fieldhand.task.nodes.base import Failed, GivenUp, Stopped
-from fieldhand.task.plan import Act, AnyOrder, Node, Optional
+from fieldhand.task.plan import Act, AnyOrder, Node, OptionalStep
 from fieldhand.task.results import Decided, MissionStatus
 from fieldhand.task.run import Steps, carry_out_in_steps
 
@@ -61,7 +61,7 @@ class Performer:
         except Stopped as stopped:
             self._stop(stopped)
 
-    def _perform(self, request: ask.Request) -> Answer:
+    def _perform(self, request: ask.Instruction) -> Answer:
         """Carry out a request; record a failure and raise it in the plan."""
         try:
             return (yield from self._answer(request))
@@ -70,11 +70,11 @@ class Performer:
         except FieldhandError as error:
             raise self._failure(request, error) from error
 
-    def _failure(self, request: ask.Request, error: FieldhandError) -> Failed | GivenUp:
+    def _failure(self, request: ask.Instruction, error: FieldhandError) -> Failed | GivenUp:
         """Record a failure, and return the exception to raise in the plan."""
-        at_work = isinstance(request, ask.Locate | ask.Drive | ask.Capture)
+        at_work = isinstance(request, ask.Locate | ask.DriveTo | ask.Capture)
         if isinstance(error, BlockedFault) and at_work:
-            if isinstance(request, ask.Drive) and request.tour is not None:
+            if isinstance(request, ask.DriveTo) and request.tour is not None:
                 request.tour.cannot_reach(error)
                 return GivenUp(request.node.id)
             if optional := give_up_unreachable(self.attempt, error.what):
@@ -82,35 +82,35 @@ class Performer:
         self.attempt.fail(request.node.id, error, handled=self.attempt.run.is_caught)
         return Failed(request.node.id)
 
-    def _answer(self, request: ask.Request) -> Answer:
+    def _answer(self, request: ask.Instruction) -> Answer:
         match request:
             case ask.Locate(selector=selector):
                 return (yield from self._locate(request.node, selector))
             case ask.Permit(node=node, place=place):
                 admit(self.attempt, visit_to(self.attempt, place, node), refused=[place])
-            case ask.Drive():
+            case ask.DriveTo():
                 return (yield from self._drive(request))
-            case ask.Bind(label=label, places=places):
+            case ask.BindLabel(label=label, places=places):
                 self.attempt.bind(label, places)
             case ask.Capture(node=act):
                 return (yield from self._capture(act))
-            case ask.Forget(reading=reading):
+            case ask.ForgetReading(reading=reading):
                 self.attempt.readings.pop(reading, None)
-            case ask.Read(reading=reading, value=value):
+            case ask.SetReading(reading=reading, value=value):
                 self.attempt.readings[reading] = value
             case ask.Decide(node=node, condition=condition):
                 return self._decide(node, condition)
-            case ask.Arrange(node=any_order):
+            case ask.ArrangeSteps(node=any_order):
                 return self._arrange(any_order)
-            case ask.Begin(node=for_each):
+            case ask.BeginVisits(node=for_each):
                 return Tour(self.attempt, for_each)
-            case ask.Next(tour=tour, made=made):
+            case ask.NextVisit(tour=tour, made=made):
                 self.place = None
                 yield from self._look_around(first=tour.place is None and made == 0)
                 return tour.next(made)
-            case ask.Round(node=repeat, left=left):
+            case ask.BeginRound(node=repeat, left=left):
                 yield from self._look_around(first=left == repeat.times - 1)
-            case ask.Offer(node=optional):
+            case ask.OfferStep(node=optional):
                 return self._offer(optional)
         return None
 
@@ -134,7 +134,7 @@ class Performer:
         self.place = there = attempt.reached(place)
         return there
 
-    def _drive(self, request: ask.Drive) -> Generator[None, None, Place]:
+    def _drive(self, request: ask.DriveTo) -> Generator[None, None, Place]:
         """Drive to a place; ask the guard again if an obstacle changes the way."""
         attempt, node = self.attempt, request.node
         tour: Tour | None = request.tour
@@ -179,7 +179,7 @@ class Performer:
         except (PlaceError, DriveFault):
             return tuple(range(len(node.steps)))
 
-    def _offer(self, node: Optional) -> bool:
+    def _offer(self, node: OptionalStep) -> bool:
         """Ask the guard whether the step may be done; report it as given up if not."""
         attempt = self.attempt
         state = attempt.state()

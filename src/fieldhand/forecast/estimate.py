@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence as Sequence_
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -19,7 +19,7 @@ from fieldhand.language.words import say_rounded
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Node, Sequence
+from fieldhand.task.plan import InOrder, Node
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -177,7 +177,7 @@ def _of_mandatory(kept: _Kept, task: Task, site: Site, robot: RobotProfile, char
     return limit_problems(part, site, routes.drives_for(site, robot), resources, estimates)
 
 
-def _worst(estimates: Sequence_[BranchEstimate]) -> BranchEstimate:
+def _worst(estimates: Sequence[BranchEstimate]) -> BranchEstimate:
     return max(estimates, key=lambda b: (max(c.chance - c.accepted for c in b.chances), b.seconds.mean))
 
 
@@ -188,12 +188,12 @@ def mandatory_part(task: Task) -> Task:
 
 def _without_optional(node: Node) -> Node:
     if node.is_optional:
-        return Sequence(id=node.id, steps=())
+        return InOrder(id=node.id, steps=())
     return node.with_children([_without_optional(child) for child in node.children])
 
 
 def limit_problems(
-    task: Task, site: Site, drives: Drives, resources: tuple[Resource, ...], estimates: Sequence_[BranchEstimate]
+    task: Task, site: Site, drives: Drives, resources: tuple[Resource, ...], estimates: Sequence[BranchEstimate]
 ) -> tuple[str, ...]:
     """Return a sentence about each limit that the mission will not keep, on the branch most likely to exceed it."""
     found = []

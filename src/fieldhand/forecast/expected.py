@@ -21,7 +21,7 @@ from fieldhand.forecast.steps import Outlook
 from fieldhand.forecast.ways import Way, chances_short, cost_model, way_of
 from fieldhand.places.context import Context
 from fieldhand.site.model import Place
-from fieldhand.task.plan import ForEach, Optional
+from fieldhand.task.plan import ForEach, OptionalStep
 
 if TYPE_CHECKING:
     from fieldhand.forecast.walker import Walker
@@ -55,7 +55,7 @@ class Expected:
 
 def expected_visits(
     walker: Walker,
-    node: ForEach | Optional,
+    node: ForEach | OptionalStep,
     visits: Sequence[Visit],
     rng: np.random.Generator,
     before: Expected | None = None,
@@ -118,7 +118,7 @@ def _candidates(walker: Walker, visits: Sequence[Visit], rest: Rest) -> tuple[Se
 
 def _several(
     walker: Walker,
-    node: ForEach | Optional,
+    node: ForEach | OptionalStep,
     visits: Sequence[Visit],
     rest: Rest,
     accepted: float,
@@ -171,7 +171,7 @@ def _one(walker: Walker, visit: Visit, rest: Rest, share: float, used: Floats, r
     )
 
 
-def _rest(walker: Walker, node: ForEach | Optional, visits: Sequence[Visit]) -> Rest:
+def _rest(walker: Walker, node: ForEach | OptionalStep, visits: Sequence[Visit]) -> Rest:
     """What must follow, from where a step ends, or from where a for-each begins."""
     here, to_come = walker.context, walker.to_come()
     if node.is_optional_step:

@@ -15,7 +15,7 @@ from fieldhand.forecast.steps import Step
 from fieldhand.forecast.visits import Visits
 from fieldhand.forecast.walker import Walker
 from fieldhand.site.model import Place
-from fieldhand.task.plan import ForEach, Optional
+from fieldhand.task.plan import ForEach, OptionalStep
 
 #: Of optional visits of which nothing is known so many are driven to where a walk is told to make them.
 MOST_TOLD = 200
@@ -36,7 +36,7 @@ class LikelyWork:
     ) -> tuple[Place, ...]:
         return self._some(walker, node, _visits(walker).of_places(node, places, walker.context), closed)
 
-    def takes(self, walker: Walker, node: Optional) -> bool:
+    def takes(self, walker: Walker, node: OptionalStep) -> bool:
         try:
             visit = _visits(walker).of_step(node, walker.context)
         except DriveFault:
@@ -47,7 +47,7 @@ class LikelyWork:
         return bool(self._some(walker, node, [visit], ()))
 
     def _some(
-        self, walker: Walker, node: ForEach | Optional, visits: Sequence[Visit], closed: tuple[Place, ...]
+        self, walker: Walker, node: ForEach | OptionalStep, visits: Sequence[Visit], closed: tuple[Place, ...]
     ) -> tuple[Place, ...]:
         """Return the visits that are the likeliest to fit the budgets."""
         if not visits:
@@ -89,7 +89,7 @@ class ToldWork:
         walker.note(Step(node=node, kind="visit-list", context=walker.context, places=made, shed=closed))
         return made
 
-    def takes(self, walker: Walker, node: Optional) -> bool:
+    def takes(self, walker: Walker, node: OptionalStep) -> bool:
         try:
             first = _visits(walker).of_step(node, walker.context).place
         except DriveFault:

@@ -1,7 +1,7 @@
 """What still has to be done of a plan under way: the mandatory steps that follow, and the way home.
 
-The nodes in hand (:class:`fieldhand.task.run.Frame`) hold what is left of them. Which visits of the loops in hand are
-still to come is told by who asks. Of a repeat all further rounds are left, as if its condition never ended it.
+The nodes in hand (:class:`fieldhand.task.run.StackFrame`) hold what is left of them. Which visits of the loops in hand
+are still to come is told by who asks. Of a repeat all further rounds are left, as if its condition never ended it.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from fieldhand.site.model import Place, Site
 from fieldhand.task import plan
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Node
-from fieldhand.task.run import Frame
+from fieldhand.task.run import StackFrame
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -67,7 +67,7 @@ def rest_after(
     site: Site,
     robot: RobotProfile,
     drives: Drives,
-    frames: Sequence[Frame],
+    frames: Sequence[StackFrame],
     context: Context,
     *,
     to_come: Sequence[Visit] = (),
@@ -108,7 +108,7 @@ def _most(task: Task, site: Site, robot: RobotProfile, drives: Drives, nodes: Se
     return worst
 
 
-def optional_runs(frames: Sequence[Frame]) -> int:
+def optional_runs(frames: Sequence[StackFrame]) -> int:
     """Return how many runs of optional visits a mission may still come to, that of the node in hand included.
 
     In a loop there may be any number of them; one more than can be seen is counted, so that some is left.
@@ -119,7 +119,7 @@ def optional_runs(frames: Sequence[Frame]) -> int:
     return 1 + sum(loops) + later
 
 
-def following(frames: Sequence[Frame]) -> tuple[Node, ...]:
+def following(frames: Sequence[StackFrame]) -> tuple[Node, ...]:
     """Return the nodes that come after the one in hand, in their order; of repeats the rounds that are left."""
     return tuple(node for frame in reversed(frames) for node in frame.left)
 

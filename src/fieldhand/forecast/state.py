@@ -9,7 +9,7 @@ from fieldhand.places.context import Context
 from fieldhand.site.model import Place
 
 if TYPE_CHECKING:
-    from fieldhand.task.run import Frame
+    from fieldhand.task.run import StackFrame
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,7 +92,7 @@ class MissionState:
         charge_percent: Battery left.
     """
 
-    frames: tuple[Frame, ...]
+    frames: tuple[StackFrame, ...]
     context: Context
     spent: Spent
     charge_percent: float

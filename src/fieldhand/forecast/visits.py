@@ -18,7 +18,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task import plan
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import ForEach, Node, Optional
+from fieldhand.task.plan import ForEach, Node, OptionalStep
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -62,7 +62,7 @@ class Visits:
         longest = max((v.inside_m for v in looked_at.values()), default=0.0)
         return tuple(looked_at.get(k, replace(visit, inside_m=longest)) for k, visit in enumerate(visits))
 
-    def of_step(self, node: Optional, context: Context) -> Visit:
+    def of_step(self, node: OptionalStep, context: Context) -> Visit:
         """An optional step: from where its body first drives to, on the branch that takes most.
 
         Args:

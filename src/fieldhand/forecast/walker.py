@@ -1,4 +1,4 @@
-"""A walk through a Task on paper: the answers to what its nodes ask (:mod:`fieldhand.task.requests`).
+"""A walk through a Task on paper: the answers to what its nodes ask (:mod:`fieldhand.task.instructions`).
 
 Orders come from :mod:`fieldhand.forecast.routes`, as they do on the robot.
 """
@@ -20,11 +20,11 @@ from fieldhand.forecast.trail import Answers, Trail
 from fieldhand.places.context import Context
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
-from fieldhand.task import requests as ask
+from fieldhand.task import instructions as ask
 from fieldhand.task.build import exit_of
 from fieldhand.task.frames import Task
 from fieldhand.task.nodes.base import Failed, Stopped
-from fieldhand.task.plan import Act, ForEach, Node, Optional
+from fieldhand.task.plan import Act, ForEach, Node, OptionalStep
 from fieldhand.task.run import carry_out
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ class OptionalWork(Protocol):
             closed: Those that never can.
         """
 
-    def takes(self, walker: Walker, node: Optional) -> bool:
+    def takes(self, walker: Walker, node: OptionalStep) -> bool:
         """Return True if an optional step is done, and note that as a step."""
 
 
@@ -66,7 +66,7 @@ class NoOptionalWork:
         walker.note(Step(node=node, kind="visit-list", context=walker.context, shed=closed))
         return ()
 
-    def takes(self, walker: Walker, node: Optional) -> bool:  # noqa: ARG002
+    def takes(self, walker: Walker, node: OptionalStep) -> bool:  # noqa: ARG002
         return False
 
 
@@ -179,14 +179,14 @@ class Walker(Trail):
                 advice="repeat less often, or nest fewer loops",
             )
 
-    def _answer(self, request: ask.Request) -> Any:
+    def _answer(self, request: ask.Instruction) -> Any:
         """Answer what a node asks."""
         match request:
-            case ask.Drive(node=node, place=place, back=back):
+            case ask.DriveTo(node=node, place=place, back=back):
                 if not back or self._stuck:
                     self._drive_to(node, place)
                 return self.context.here
-            case ask.Bind(label=label, places=places):
+            case ask.BindLabel(label=label, places=places):
                 return self._bind(label, *places)
             case ask.Capture(node=act):
                 return self._capture(act)
@@ -196,22 +196,22 @@ class Walker(Trail):
                 return routes.place_of(node, selector, self.site, self.context)
             case ask.Decide(node=node):
                 return self.decide(node, "holds")
-            case ask.Next(tour=tour):
+            case ask.NextVisit(tour=tour):
                 return tour.next()
-            case ask.Begin(node=for_each):
+            case ask.BeginVisits(node=for_each):
                 return self._tour(for_each)
-            case ask.Offer(node=optional):
+            case ask.OfferStep(node=optional):
                 return self._optional.takes(self, optional)
-            case ask.Arrange(node=any_order):
+            case ask.ArrangeSteps(node=any_order):
                 home = routes.home_if_last(self.task, self.site, any_order.id, self.context.here)
                 return routes.steps_in_order(any_order, self.site, self.drives, self.context, home)
-            case ask.Forget(reading=reading):
+            case ask.ForgetReading(reading=reading):
                 if self.readings is not None:
                     self.readings.lose(reading)
-            case ask.Read(node=act, reading=reading):
+            case ask.SetReading(node=act, reading=reading):
                 if self.readings is not None:
                     self.readings.take(reading, act.action)
-            case ask.Permit() | ask.Round():
+            case ask.Permit() | ask.BeginRound():
                 pass
         return None
 

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 from fieldhand.errors import TaskError
 from fieldhand.task.capabilities import RESERVED_ACTIONS
 from fieldhand.task.codec_read import Reader
-from fieldhand.task.codec_shapes import NAMESPACE, SURROGATES, Attribute, Child, Head, element_name, shape_of
-from fieldhand.task.codec_text import SEVERAL_LINES, bare_value, hidden_character, number_text, written
+from fieldhand.task.codec_shapes import NAMESPACE, SURROGATES, Attribute, Child, NamedElement, element_name, shape_of
+from fieldhand.task.codec_text import SEVERAL_LINES, attribute_text, bare_value, hidden_character, number_text
 from fieldhand.task.codec_xml import MAX_BYTES, MAX_DEPTH, local_name, parse_xml
 from fieldhand.task.frames import Constraints, FaultedExit, Task, Then
 from fieldhand.task.plan import Node, Span
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Draft:
+class TaskDraft:
     """What a draft of a Task says, for ``task.build.make_task`` to complete. Ids that it leaves out are empty.
 
     Attributes:
@@ -74,14 +74,14 @@ def decode(data: bytes, *, source: str = "") -> Task:
     return Reader(source=source).task(parse_xml(data, source=source))
 
 
-def decode_draft(data: bytes, *, source: str = "") -> Draft:
+def decode_draft(data: bytes, *, source: str = "") -> TaskDraft:
     """What a draft says. A draft may leave out what can be derived: ids, request, goals, state, resources.
 
     Raises:
         TaskError: It is no draft of a Task; says at which line and element.
     """
     task = Reader(source=source, draft=True).task(parse_xml(data, source=source))
-    return Draft(
+    return TaskDraft(
         plan=task.composition.plan,
         constraints=task.constraints,
         nominal=task.composition.nominal,
@@ -104,12 +104,12 @@ def encode_parts(parts: Iterable[Any]) -> str:
     """
     from lxml import etree
 
-    written = []
+    documents = []
     for part in parts:
         root = etree.Element(f"{{{NAMESPACE}}}{element_name(type(part))}", nsmap={None: NAMESPACE})  # type: ignore[dict-item]  # stubs forget None
         _fill(root, part, depth=2)
-        written.append(etree.tostring(root, encoding="unicode").replace(f' xmlns="{NAMESPACE}"', "", 1))
-    return "".join(written)
+        documents.append(etree.tostring(root, encoding="unicode").replace(f' xmlns="{NAMESPACE}"', "", 1))
+    return "".join(documents)
 
 
 def decode_parts(text: str, options: tuple[type, ...], *, source: str = "") -> tuple[Any, ...]:
@@ -157,7 +157,7 @@ def _fill(element: _Element, value: Any, *, depth: int) -> None:
                     _fill(_sub(inside, element_name(type(part))), part, depth=below)
 
 
-def _fill_head(element: _Element, head: Head, value: Any) -> None:
+def _fill_head(element: _Element, head: NamedElement, value: Any) -> None:
     """Write what belongs to an action or a quantity into an element of its name."""
     name = getattr(value, head.field)
     if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_.-]*", name) or name in RESERVED_ACTIONS:
@@ -182,7 +182,7 @@ def _set(element: _Element, attribute: Attribute, value: Any) -> None:
     if value is None or (attribute.default is not MISSING and value == attribute.default):
         return
     try:
-        for name, text in written(attribute, value).items():
+        for name, text in attribute_text(attribute, value).items():
             element.set(name, _text(text, attribute.name))
     except ValueError as error:
         raise TaskError(str(error), where=f"<{local_name(element)}>, {attribute.name}") from None

@@ -15,11 +15,11 @@ from fieldhand.task.codec_shapes import (
     SURROGATES,
     Attribute,
     Child,
-    Head,
+    NamedElement,
     element_name,
     shape_of,
 )
-from fieldhand.task.codec_text import SEVERAL_LINES, bare_value, parsed
+from fieldhand.task.codec_text import SEVERAL_LINES, bare_value, parse_value
 from fieldhand.task.codec_xml import at_line, line_of, local_name, require_visible
 from fieldhand.task.frames import Task
 
@@ -122,7 +122,7 @@ class Reader:
             return {child.field: self.default(element, cls, child.field, child.default, what)}
         return {child.field: values[0]}
 
-    def head(self, element: _Element, heads: list[_Element], head: Head) -> dict[str, Any]:
+    def head(self, element: _Element, heads: list[_Element], head: NamedElement) -> dict[str, Any]:
         """What stands in the element that is named after an action or a quantity."""
         if len(heads) != 1:
             what = f"has {len(heads)} elements that name the {head.of}, it needs one"
@@ -153,7 +153,7 @@ class Reader:
                 found[attribute.field] = self.default(element, type(None), attribute.field, attribute.default, what)
                 continue
             try:
-                found[attribute.field] = parsed(attribute, text, marked)
+                found[attribute.field] = parse_value(attribute, text, marked)
             except ValueError as error:
                 raise self.error(element, f"{attribute.name}: {error}", "correct it") from None
         for name in left:

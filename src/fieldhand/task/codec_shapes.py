@@ -21,7 +21,7 @@ from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import SELECTORS
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Command, Composition, FaultedExit, Task, Then
-from fieldhand.task.plan import Act, Node, Span
+from fieldhand.task.plan import Act, InOrder, Node, OptionalStep, Span, StopMission
 from fieldhand.terms import Value
 
 NAMESPACE = "urn:fieldhand:task:1"
@@ -31,7 +31,7 @@ ChildKind = Literal["text", "texts", "inline", "one", "many"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Exits:
+class ExitsElement:
     """Where the robot goes when the plan is done, and what it does about each fault."""
 
     nominal: Then = "return_to_end"
@@ -44,7 +44,7 @@ class TaskComposition:
     """The plan and its exits, grouped as the standard groups them; stands for ``frames.Composition`` in XML."""
 
     plan: Node
-    exits: Exits = Exits()
+    exits: ExitsElement = ExitsElement()
 
 
 #: The attribute with which a draft quotes words of the request, and the ranges that it stands for in each element; in
@@ -53,7 +53,14 @@ QUOTES = "words"
 QUOTED = {"command": "no-part", "exits": "nominal-said", "constraints": "reserve-said"}
 #: Field names that are not element names already.
 _NAMES: dict[tuple[type, str], str] = {(Task, "composition"): "task-composition", (Command, "variables"): "state"}
-_CLASS_NAMES: dict[type, str] = {FaultedExit: "faulted"}
+#: Elements that are not named after their class: their names are part of the file format.
+_ELEMENT_NAMES: dict[type, str] = {
+    FaultedExit: "faulted",
+    ExitsElement: "exits",
+    InOrder: "sequence",
+    OptionalStep: "optional",
+    StopMission: "stop",
+}
 #: Text of any length stands in an element of its own.
 _TEXTS = {(Command, "request"), (Command, "read_as"), (Command, "assumptions"), (Command, "warnings")}
 #: Fields whose meaning depends on the quantity that stands beside them.
@@ -100,7 +107,7 @@ class Child:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Head:
+class NamedElement:
     """A child element that is named after an action or a quantity and holds what depends on it.
 
     Attributes:
@@ -120,7 +127,7 @@ class Shape:
     element: str
     attributes: tuple[Attribute, ...]
     children: tuple[Child, ...]
-    head: Head | None = None
+    head: NamedElement | None = None
 
 
 #: Classes that XML groups differently, with the class that stands for each and the way back.
@@ -128,7 +135,7 @@ SURROGATES: dict[type, tuple[type, Callable[[Any], Any], Callable[[Any], Any]]] 
     Composition: (
         TaskComposition,
         lambda c: TaskComposition(
-            plan=c.plan, exits=Exits(nominal=c.nominal, nominal_said=c.nominal_said, faulted=c.faulted)
+            plan=c.plan, exits=ExitsElement(nominal=c.nominal, nominal_said=c.nominal_said, faulted=c.faulted)
         ),
         lambda t: Composition(
             plan=t.plan, nominal=t.exits.nominal, nominal_said=t.exits.nominal_said, faulted=t.exits.faulted
@@ -146,7 +153,7 @@ FAMILIES: dict[tuple[type, ...], str] = {
 
 def element_name(cls: type) -> str:
     """The element that a class becomes: ``GoTo`` is ``go-to``."""
-    return _CLASS_NAMES.get(cls) or re.sub(r"(?<!^)(?=[A-Z])", "-", cls.__name__).lower()
+    return _ELEMENT_NAMES.get(cls) or re.sub(r"(?<!^)(?=[A-Z])", "-", cls.__name__).lower()
 
 
 def hints_of(cls: type) -> dict[str, Any]:
@@ -186,10 +193,10 @@ def shape_of(cls: type) -> Shape:
     return Shape(cls=cls, element=element_name(cls), attributes=tuple(attributes), children=tuple(children), head=head)
 
 
-def _head(cls: type, names: list[str], of_quantity: tuple[Attribute, ...]) -> Head | None:
+def _head(cls: type, names: list[str], of_quantity: tuple[Attribute, ...]) -> NamedElement | None:
     if cls is Act:
-        return Head(field="action", of="action")
-    return Head(field="quantity", of="quantity", attributes=of_quantity) if "quantity" in names else None
+        return NamedElement(field="action", of="action")
+    return NamedElement(field="quantity", of="quantity", attributes=of_quantity) if "quantity" in names else None
 
 
 def _without_none(hint: Any) -> Any:

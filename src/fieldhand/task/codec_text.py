@@ -68,7 +68,7 @@ def bare_value(text: str) -> Value:
     return number_of(text) if re.fullmatch(NUMBER, text) else text
 
 
-def written(attribute: Attribute, value: Any) -> dict[str, str]:
+def attribute_text(attribute: Attribute, value: Any) -> dict[str, str]:
     """The attributes, by name, that stand for a value.
 
     Raises:
@@ -99,7 +99,7 @@ def written(attribute: Attribute, value: Any) -> dict[str, str]:
     return {attribute.name: text}
 
 
-def parsed(attribute: Attribute, text: str, marked: str | None = None) -> Any:
+def parse_value(attribute: Attribute, text: str, marked: str | None = None) -> Any:
     """The value that a text stands for; ``marked`` is the text of the ``-as`` attribute beside it, if it stands.
 
     Raises:

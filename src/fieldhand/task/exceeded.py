@@ -43,7 +43,7 @@ class Exceeded:
     why: str
 
 
-def exceeded(
+def exceeded_limits(
     constraints: Constraints, events: Sequence[Event], reserve_percent: float | None = None
 ) -> tuple[Exceeded, ...]:
     """Return the limits that a mission exceeded, budgets in their order, then the reserve.

@@ -7,8 +7,8 @@ What a plan means is said once, in the node's own file (:mod:`fieldhand.task.nod
 carry that out (:class:`fieldhand.task.run.Run`), and differ only in what they answer.
 
 The budget guard may shed what is optional (:attr:`~.nodes.base.PlanNode.is_optional`), and the mission goes on: work
-that was shed did not fail. It is asked about an ``Optional`` once, when that is reached, about all of it; in one stands
-nothing else that is optional.
+that was shed did not fail. It is asked about an ``OptionalStep`` once, when that is reached, about all of it; in one
+stands nothing else that is optional.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from collections.abc import Iterator
 from fieldhand.task.nodes.act import Act
 from fieldhand.task.nodes.any_order import AnyOrder
 from fieldhand.task.nodes.base import Span
-from fieldhand.task.nodes.branch import If
-from fieldhand.task.nodes.fallback import Try
 from fieldhand.task.nodes.for_each import ForEach
 from fieldhand.task.nodes.go_to import GoTo
-from fieldhand.task.nodes.optional import Optional
+from fieldhand.task.nodes.if_else import If
+from fieldhand.task.nodes.in_order import InOrder
+from fieldhand.task.nodes.optional_step import OptionalStep
 from fieldhand.task.nodes.repeat import Repeat
-from fieldhand.task.nodes.sequence import Sequence
-from fieldhand.task.nodes.stop import Stop
+from fieldhand.task.nodes.stop_mission import StopMission
+from fieldhand.task.nodes.try_otherwise import Try
 
 __all__ = [
     "Act",
@@ -33,18 +33,18 @@ __all__ = [
     "ForEach",
     "GoTo",
     "If",
+    "InOrder",
     "Node",
-    "Optional",
+    "OptionalStep",
     "Repeat",
-    "Sequence",
     "Span",
-    "Stop",
+    "StopMission",
     "Try",
     "acts",
     "walk",
 ]
 
-Node = Sequence | AnyOrder | ForEach | Repeat | If | Try | Optional | GoTo | Act | Stop
+Node = InOrder | AnyOrder | ForEach | Repeat | If | Try | OptionalStep | GoTo | Act | StopMission
 
 
 def walk(node: Node) -> Iterator[Node]:

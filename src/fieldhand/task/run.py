@@ -6,11 +6,11 @@ from collections.abc import Callable, Generator, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
-from fieldhand.task.nodes.base import Cut, Failed, GivenUp, Meaning
+from fieldhand.task.nodes.base import Cut, Failed, GivenUp, Program
 
 if TYPE_CHECKING:
+    from fieldhand.task.instructions import Instruction, OpaqueTour
     from fieldhand.task.plan import Node
-    from fieldhand.task.requests import Request, Tour
 
 Outcome = Literal["done", "failed", "cut"]
 
@@ -19,7 +19,7 @@ Steps = Generator[None, None, None]
 
 
 @dataclass(kw_only=True)
-class Frame:
+class StackFrame:
     """A node in hand.
 
     Attributes:
@@ -31,7 +31,7 @@ class Frame:
 
     node: Node
     left: tuple[Node, ...] = ()
-    tour: Tour | None = None
+    tour: OpaqueTour | None = None
     made: int = 0
     instead: tuple[Node, ...] = ()
 
@@ -54,22 +54,22 @@ class Run:
 
     def __init__(self, plan: Node) -> None:
         self.plan = plan
-        self.frames: list[Frame] = []
+        self.frames: list[StackFrame] = []
         self.entered: Callable[[Node], None] = _unheard
         self.left: Callable[[Node, Outcome], None] = _unheard
 
-    def program(self) -> Meaning:
+    def program(self) -> Program:
         """The meaning of the whole plan."""
         return self.do(self.plan)
 
-    def do(self, node: Node) -> Meaning:
+    def do(self, node: Node) -> Program:
         """Carry out one node inside the one in hand."""
-        self.frames.append(Frame(node=node))
+        self.frames.append(StackFrame(node=node))
         depth = len(self.frames)
         outcome: Outcome = "cut"
         self.entered(node)
         try:
-            yield from node.meaning(self)
+            yield from node.execute(self)
             outcome = "done"
         except Failed:
             outcome = "failed"
@@ -82,16 +82,16 @@ class Run:
             self.left(node, outcome)
 
     @property
-    def frame(self) -> Frame:
+    def frame(self) -> StackFrame:
         """The innermost node in hand."""
         return self.frames[-1]
 
-    def outwards(self) -> Iterator[Frame]:
+    def outwards(self) -> Iterator[StackFrame]:
         """The frames, innermost first."""
         return reversed(self.frames)
 
     @property
-    def optional(self) -> Frame | None:
+    def optional(self) -> StackFrame | None:
         """The optional visit or step in hand; there is at most one."""
         return next((frame for frame in self.outwards() if frame.node.is_optional), None)
 
@@ -101,7 +101,7 @@ class Run:
         return any(frame.instead for frame in self.frames)
 
 
-def carry_out(program: Meaning, answer: Callable[[Request], Any]) -> None:
+def carry_out(program: Program, answer: Callable[[Instruction], Any]) -> None:
     """Carry a plan out to its end.
 
     Args:
@@ -126,7 +126,7 @@ def carry_out(program: Meaning, answer: Callable[[Request], Any]) -> None:
         program.close()
 
 
-def carry_out_in_steps(program: Meaning, perform: Callable[[Request], Generator[None, None, Any]]) -> Steps:
+def carry_out_in_steps(program: Program, perform: Callable[[Instruction], Generator[None, None, Any]]) -> Steps:
     """:func:`carry_out` by somebody whose answers take their time: it yields whenever an answer is waited for.
 
     Args:
@@ -146,7 +146,7 @@ def carry_out_in_steps(program: Meaning, perform: Callable[[Request], Generator[
         program.close()
 
 
-def _sent(program: Meaning, found: Any) -> Request | None:
+def _sent(program: Program, found: Any) -> Instruction | None:
     """The next request; None where there is none."""
     try:
         return program.send(found)
@@ -154,7 +154,7 @@ def _sent(program: Meaning, found: Any) -> Request | None:
         return None
 
 
-def _thrown(program: Meaning, thrown: Exception) -> Request | None:
+def _thrown(program: Program, thrown: Exception) -> Instruction | None:
     try:
         return program.throw(thrown)
     except StopIteration:

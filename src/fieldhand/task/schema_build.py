@@ -88,7 +88,7 @@ class SchemaBuilder:
         for options, family in FAMILIES.items():
             group = _xs(_xs(schema, "group", name=family), "choice")
             for option in self.usable(options):
-                _xs(group, "element", name=element_name(option), type=f"f:{option.__name__}")
+                _xs(group, "element", name=element_name(option), type=f"f:{type_name(option)}")
         for shape in self.shapes:
             self.complex_type(schema, shape)
         self.simple_types(schema)
@@ -110,7 +110,7 @@ class SchemaBuilder:
 
     def complex_type(self, schema: _Element, shape: Shape) -> None:
         """The type of the element of one class."""
-        made = _xs(schema, "complexType", name=shape.cls.__name__)
+        made = _xs(schema, "complexType", name=type_name(shape.cls))
         documented = _xs(_xs(made, "annotation"), "documentation")
         documented.text = " ".join((inspect.getdoc(shape.cls) or "").replace("``", "'").split())
         if shape.head:
@@ -166,7 +166,7 @@ class SchemaBuilder:
             _xs(content, "element", name=child.name, type="xs:string", **least)
         elif child.kind == "inline":
             option = shape_of(child.options[0]).cls
-            _xs(content, "element", name=child.name, type=f"f:{option.__name__}", **least)
+            _xs(content, "element", name=child.name, type=f"f:{type_name(option)}", **least)
         else:
             made = _xs(_xs(content, "element", name=child.name, **least), "complexType")
             self.parts(made, child)
@@ -185,7 +185,7 @@ class SchemaBuilder:
             _xs(inside, "group", ref=f"f:{FAMILIES[child.options]}", **occurs)
         else:
             for option in self.usable(child.options):
-                _xs(inside, "element", name=element_name(option), type=f"f:{option.__name__}", **occurs)
+                _xs(inside, "element", name=element_name(option), type=f"f:{type_name(option)}", **occurs)
 
     def required(self, cls: type, field: str, default: object) -> bool:
         """Whether a field must stand."""
@@ -229,6 +229,11 @@ class SchemaBuilder:
             restriction = _xs(_xs(schema, "simpleType", name=name), "restriction", base=base)
             for facet, value in facets.items():
                 _xs(restriction, facet, value=value)
+
+
+def type_name(cls: type) -> str:
+    """Return the XSD type of the element of a class: ``GoTo`` for ``<go-to>``."""
+    return "".join(word.capitalize() for word in element_name(cls).split("-"))
 
 
 def _enumeration(attribute: _Element, words: Iterable[str]) -> None:

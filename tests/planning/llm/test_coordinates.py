@@ -13,7 +13,7 @@ from fieldhand.planning.planner import Planned
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.model import Site
-from fieldhand.task.codec import Draft
+from fieldhand.task.codec import TaskDraft
 from fieldhand.task.codec_shapes import all_shapes
 from fieldhand.testing.scripted_chat import ScriptedChat, planner_of, task_document
 from site_grids import grid
@@ -27,7 +27,7 @@ REQUEST = "Take a picture of the first tree."
 
 def problems(plan: str, request: str = REQUEST, site: Site = SITE) -> tuple[Problem, ...]:
     draft = read_draft(task_document(plan), ABLE)
-    if not isinstance(draft, Draft):
+    if not isinstance(draft, TaskDraft):
         return draft
     return (*review(draft, site, ABLE), *coordinates(draft, request, site))
 
@@ -125,10 +125,10 @@ def test_a_pair_of_numbers_in_an_assumption_is_a_position() -> None:
     said = "<assumption>The first tree is at 37.30012, -120.50031.</assumption>"
     said = f"<command><assumptions>{said}</assumptions></command>"
     draft = read_draft(document[:head] + said + document[head:], ABLE)
-    assert isinstance(draft, Draft)
+    assert isinstance(draft, TaskDraft)
     assert [p.kind for p in coordinates(draft, REQUEST, SITE)] == ["coordinate"]
     converted = read_draft(document[:head] + said.replace("37.30012, -120.50031", "30.5 m") + document[head:], ABLE)
-    assert isinstance(converted, Draft)
+    assert isinstance(converted, TaskDraft)
     assert coordinates(converted, REQUEST, SITE) == ()
 
 

@@ -17,7 +17,7 @@ from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
 from fieldhand.task.build import make_task
-from fieldhand.task.codec import Draft, encode
+from fieldhand.task.codec import TaskDraft, encode
 from fieldhand.task.frames import Task
 from fieldhand.testing.generated.tasks import ROVER, Parts
 from fieldhand.testing.scripted_chat import task_document
@@ -50,7 +50,7 @@ def read(document: str) -> tuple[Problem, ...]:
     if not isinstance(answer, TaskAnswer):
         return (Problem(kind="answer", message=getattr(answer, "reason", "question or refusal")),)
     draft = read_draft(answer.document, ABLE)
-    if not isinstance(draft, Draft):
+    if not isinstance(draft, TaskDraft):
         return draft
     found = (*review(draft, DEMO, ABLE), *coordinates(draft, "Go.", DEMO))
     if found:
@@ -65,7 +65,7 @@ def is_typed(found: tuple[Problem, ...]) -> bool:
 
 def test_the_document_that_is_broken_below_is_sound() -> None:
     draft = read_draft(GOOD, ABLE)
-    assert isinstance(draft, Draft), draft
+    assert isinstance(draft, TaskDraft), draft
     assert review(draft, DEMO, ABLE) == ()
 
 

@@ -20,7 +20,7 @@ from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
 from fieldhand.task import plan
 from fieldhand.task.capabilities import Capabilities
-from fieldhand.task.codec import Draft
+from fieldhand.task.codec import TaskDraft
 from fieldhand.task.codec_shapes import all_shapes, element_name, shape_of
 from fieldhand.task.conditions import Condition
 from fieldhand.task.plan import Node
@@ -119,7 +119,7 @@ def test_every_form_that_is_shown_is_valid_with_all_that_may_be_left_out_and_wit
         element = f"<if><condition>{element}</condition><then><stop/></then></if>"
     document = f"<task><task-composition><plan>{element}</plan></task-composition></task>"
     draft = read_draft(document, HUSKY)
-    assert isinstance(draft, Draft), (element, draft)
+    assert isinstance(draft, TaskDraft), (element, draft)
 
 
 def test_every_element_and_attribute_of_the_schema_is_in_the_prompt() -> None:

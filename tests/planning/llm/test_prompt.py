@@ -19,7 +19,7 @@ from fieldhand.planning.planner import Planned
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import builtin_names, load_robot
 from fieldhand.site.model import Site
-from fieldhand.task.codec import Draft
+from fieldhand.task.codec import TaskDraft
 from fieldhand.testing.scripted_chat import ScriptedChat, planner_of
 from site_grids import LAT, LON, grid
 from sites import area, point, read
@@ -138,7 +138,7 @@ def test_every_example_is_a_good_answer_for_the_robot_that_it_names(request_: st
     assert isinstance(found, TaskAnswer)
     capabilities = capabilities_of(load_robot(ROBOT))
     draft = read_draft(found.document, capabilities, request_)
-    assert isinstance(draft, Draft), draft
+    assert isinstance(draft, TaskDraft), draft
     assert review(draft, grid(6, 8), capabilities) == ()
     assert request_ in instructions()
 

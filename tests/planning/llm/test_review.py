@@ -13,7 +13,7 @@ from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
 from fieldhand.task.build import number
-from fieldhand.task.codec import Draft, encode
+from fieldhand.task.codec import TaskDraft, encode
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import walk
 from fieldhand.testing.generated.tasks import ROVER, Parts
@@ -37,7 +37,7 @@ def problems(plan: str) -> tuple[Problem, ...]:
 @given(task=Parts(ROVER).tasks())
 def test_a_valid_task_is_read_as_the_plan_that_it_holds_but_for_ids_and_spans(task: Task) -> None:
     draft = read_draft(encode(task).decode().partition("\n")[2], ROVER)
-    assert isinstance(draft, Draft), draft
+    assert isinstance(draft, TaskDraft), draft
     assert [type(n) for n in walk(draft.plan)] == [type(n) for n in walk(task.composition.plan)]
     assert all(not n.said for n in walk(draft.plan))
     ids = [n.id for n in walk(draft.plan)]
@@ -50,7 +50,7 @@ def test_a_valid_task_is_read_as_the_plan_that_it_holds_but_for_ids_and_spans(ta
 def test_a_forgotten_namespace_is_added() -> None:
     plan = "<act><take_picture/><at><first/></at></act>"
     with_it, without = read_draft(document(plan), AMIGA), read_draft(document(plan, xmlns=""), AMIGA)
-    assert isinstance(with_it, Draft)
+    assert isinstance(with_it, TaskDraft)
     assert with_it == without
 
 
@@ -164,7 +164,7 @@ def test_a_selector_that_gives_one_place_may_be_where_an_act_is_done(selector: s
 )
 def test_a_zone_without_trees_is_something_to_measure_from(selector: str) -> None:
     draft = read_draft(document(f"<act><take_picture/><at>{selector}</at></act>"), AMIGA)
-    assert isinstance(draft, Draft)
+    assert isinstance(draft, TaskDraft)
     assert review(draft, open_site("demo"), AMIGA) == ()
 
 

@@ -14,10 +14,10 @@ from fieldhand.forecast.estimate import Estimate, Figure
 from fieldhand.language.words import capitalised, listed, say_action, say_count, say_duration, say_number
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
-from fieldhand.task.account import NAMES, account, has_ranges
 from fieldhand.task.authorization import Authorization
 from fieldhand.task.exceeded import say_status
 from fieldhand.task.frames import BudgetKind, Task
+from fieldhand.task.request_coverage import ROLE_NAMES, has_ranges, request_pieces
 from fieldhand.task.results import Event, GoalOutcome, Shed
 
 _MARKS = {"success": "✓ met", "failure": "✗ not met", "indeterminate": "? not known"}
@@ -185,9 +185,9 @@ def _words(task: Task) -> tuple[tuple[str, str], ...]:
     """Return what became of each word of the request, or nothing if the Task does not record it."""
     if not has_ranges(task):
         return ()
-    pieces = account(task)
-    found = {role: [p.text.strip() for p in pieces if p.role == role] for role in NAMES}
-    return tuple((capitalised(NAMES[role]), "; ".join(texts)) for role, texts in found.items() if texts)
+    pieces = request_pieces(task)
+    found = {role: [p.text.strip() for p in pieces if p.role == role] for role in ROLE_NAMES}
+    return tuple((capitalised(ROLE_NAMES[role]), "; ".join(texts)) for role, texts in found.items() if texts)
 
 
 def _goal_rows(task: Task, events: Sequence[Event], outcomes: Sequence[GoalOutcome]) -> Iterable[GoalRow]:

@@ -13,7 +13,7 @@ from fieldhand.exchange.btcpp.vocabulary import leaves, plain_attributes, port_n
 from fieldhand.task.capabilities import Capabilities
 from fieldhand.task.codec import decode_parts
 from fieldhand.task.codec_shapes import Attribute
-from fieldhand.task.codec_text import parsed
+from fieldhand.task.codec_text import parse_value
 from fieldhand.task.codec_xml import at_line, line_of
 from fieldhand.task.plan import Span
 
@@ -138,7 +138,7 @@ class Elements:
         text = tag.element.get(name)
         try:
             attribute = Attribute(field=name, name=name, kind="spans", default=())
-            return () if text is None else tuple(parsed(attribute, text))
+            return () if text is None else tuple(parse_value(attribute, text))
         except ValueError as error:
             raise self.error(tag.element, f"{name}: {error}", "correct it, or take it out") from None
 
@@ -156,6 +156,6 @@ class Elements:
             return attribute.default
         marked = tag.ports.get(port_name(f"{attribute.name}-as")) or None
         try:
-            return parsed(attribute, text, marked if attribute.kind == "value" else None)
+            return parse_value(attribute, text, marked if attribute.kind == "value" else None)
         except ValueError as error:
             raise self.error(tag.element, f"{name}: {error}", "correct it") from None

@@ -95,7 +95,7 @@ class NodeReader:
             label = inside[0].ports.get("label") or act.label
             return replace(act, label=label)
         steps = tuple(self.node(child.element) for child in inside if child.kind != "AlwaysSuccess")
-        return p.Sequence(**beside, steps=steps)
+        return p.InOrder(**beside, steps=steps)
 
     def _any_order(self, loop: Tag, beside: dict[str, Any]) -> p.AnyOrder:
         entry = _entry(loop, "value", "_step")
@@ -178,7 +178,7 @@ class NodeReader:
             self.elements.ports(asked, self.elements.known[ALLOWS])
             if other.tag != "AlwaysSuccess":
                 raise self.elements.error(other, "instead of an optional step nothing is done", "use <AlwaysSuccess/>")
-            return p.Optional(**beside, body=self.node(then), **self.elements.fields(asked, p.Optional))
+            return p.OptionalStep(**beside, body=self.node(then), **self.elements.fields(asked, p.OptionalStep))
         otherwise = None if other.tag == "AlwaysSuccess" else self.node(other)
         return p.If(**beside, condition=self._condition(first), then=self.node(then), otherwise=otherwise)
 
@@ -221,12 +221,12 @@ class NodeReader:
             raise self.elements.error(tag.element, what, "write for instance {reading_r1}")
         return found[1]
 
-    def _stop(self, script: Tag, beside: dict[str, Any]) -> p.Stop:
+    def _stop(self, script: Tag, beside: dict[str, Any]) -> p.StopMission:
         code = script.ports.get("code", "")
         found = re.fullmatch(rf"{EXIT_ENTRY} := '(nominal|faulted)'", code.strip())
         if found is None:
             raise self.elements.error(script.element, f"a Task cannot say the script {code!r}", "take it out")
-        return p.Stop(**beside, exit="nominal" if found[1] == "nominal" else "faulted")
+        return p.StopMission(**beside, exit="nominal" if found[1] == "nominal" else "faulted")
 
     def _times(self, tag: Tag) -> int:
         text = tag.ports.get("num_cycles", "")

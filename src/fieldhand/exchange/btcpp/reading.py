@@ -143,7 +143,7 @@ def _mission(tree: _Element, reader: NodeReader, frames: _Frames) -> tuple[_Fram
     if not rest:
         raise elements.error(top, "holds no plan", f"put the plan behind <{BEGIN}>")
     steps = tuple(reader.node(one.element) for one in rest)
-    return frames, steps[0] if len(steps) == 1 else p.Sequence(id=top.get("name") or "", steps=steps)
+    return frames, steps[0] if len(steps) == 1 else p.InOrder(id=top.get("name") or "", steps=steps)
 
 
 def _begun(begin: Tag, elements: Elements, frames: _Frames) -> _Frames:

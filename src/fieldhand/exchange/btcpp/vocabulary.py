@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Literal
 
 from fieldhand.task.capabilities import Capabilities, ChoiceParameter, NumberParameter
 from fieldhand.task.codec_shapes import Attribute, shape_of
-from fieldhand.task.codec_text import number_text, written
+from fieldhand.task.codec_text import attribute_text, number_text
 from fieldhand.task.conditions import Between, Compare, Level, TreeHas
-from fieldhand.task.plan import Act, ForEach, Optional
+from fieldhand.task.plan import Act, ForEach, OptionalStep
 
 if TYPE_CHECKING:
     from lxml.etree import _Element
@@ -92,7 +92,9 @@ def leaves(capabilities: Capabilities) -> tuple[Leaf, ...]:
         Leaf(id=ORDER, kind="Action", ports=(first, order)),
         Leaf(id=EXIT, kind="Action", ports=(then,)),
         Leaf(id=FAULT, kind="Action", ports=(exits,)),
-        Leaf(id=ALLOWS, kind="Condition", ports=(node, Port(name="place", type=_TEXT, default=""), *_ports(Optional))),
+        Leaf(
+            id=ALLOWS, kind="Condition", ports=(node, Port(name="place", type=_TEXT, default=""), *_ports(OptionalStep))
+        ),
     )
     conditions = (Leaf(id=name, kind="Condition", ports=_condition_ports(cls)) for cls, name in CONDITIONS.items())
     return (*ours, *conditions, *(_action(name, capabilities) for name in capabilities.actions))
@@ -132,7 +134,7 @@ def _ports(cls: type, *, beside: tuple[str, ...] = ()) -> tuple[Port, ...]:
         name, kind = port_name(attribute.name), _TYPES.get(attribute.kind, _TEXT)
         default: str | None = None
         if attribute.default is not MISSING:
-            default = "" if attribute.default is None else written(attribute, attribute.default)[attribute.name]
+            default = "" if attribute.default is None else attribute_text(attribute, attribute.default)[attribute.name]
         found.append(Port(name=name, type=kind, default=default))
         if attribute.kind == "value":
             found.append(Port(name=port_name(f"{attribute.name}-as"), type=_TEXT, default="", about="text, or nothing"))

@@ -34,7 +34,7 @@ from fieldhand.task import plan as p
 from fieldhand.task.capabilities import Capabilities
 from fieldhand.task.codec import encode_parts
 from fieldhand.task.codec_shapes import Attribute
-from fieldhand.task.codec_text import hidden_character, number_text, written
+from fieldhand.task.codec_text import attribute_text, hidden_character, number_text
 from fieldhand.task.codec_xml import MAX_BYTES, MAX_DEPTH
 from fieldhand.task.conditions import AllOf, AnyOf, Condition, Not, TreeHas
 from fieldhand.task.frames import Task
@@ -118,7 +118,7 @@ class _Writer:
     def _of(self, node: p.Node) -> _Element:
         entry = self._entry[id(node)]
         match node:
-            case p.Sequence(steps=steps):
+            case p.InOrder(steps=steps):
                 return _element("Sequence", *[self.node(s) for s in steps] or (_element("AlwaysSuccess"),))
             case p.AnyOrder():
                 return self._any_order(node, entry)
@@ -135,14 +135,14 @@ class _Writer:
                 instead = self.node(otherwise)
                 instead.set("_failureIf", f"{EXIT_ENTRY} != ''")
                 return _element("Fallback", self.node(body), instead)
-            case p.Optional(body=body):
+            case p.OptionalStep(body=body):
                 allows = _element(ALLOWS, **(_ports(node, node.id) | {"node": node.id}))
                 return _element("IfThenElse", allows, self.node(body), _element("AlwaysSuccess"))
             case p.GoTo(place=place):
                 return _element(GO_TO, **(_ports(node, node.id) | {"place": encode_parts([place])}))
             case p.Act():
                 return self._act(node)
-            case p.Stop(exit=taken):
+            case p.StopMission(exit=taken):
                 # No script after the node: those run even where a fallback leaves the node out.
                 return _element("Sequence", _script(f"{EXIT_ENTRY} := '{taken}'"), _element("AlwaysFailure"))
 
@@ -268,7 +268,7 @@ def _ports(part: Any, where: str, *, beside: tuple[str, ...] = ()) -> dict[str, 
 
 def _written(attribute: Attribute, value: Any, where: str) -> dict[str, str]:
     try:
-        return written(attribute, value)
+        return attribute_text(attribute, value)
     except ValueError as error:
         raise TaskError(f"{attribute.name}: {error}", where=where) from None
 

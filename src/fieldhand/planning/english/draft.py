@@ -202,7 +202,7 @@ def rename(condition: c.Condition, renamed: dict[str, str]) -> c.Condition:
 def node_of(block: Block) -> p.Node:
     """A block as a plan node; one step alone needs no sequence around it."""
     nodes = tuple(_node(step) for step in block.steps)
-    return nodes[0] if len(nodes) == 1 else p.Sequence(id="", steps=nodes)
+    return nodes[0] if len(nodes) == 1 else p.InOrder(id="", steps=nodes)
 
 
 def _node(step: Step) -> p.Node:
@@ -243,6 +243,6 @@ def _node(step: Step) -> p.Node:
         case Attempt():
             return p.Try(id="", body=node_of(step.body), otherwise=node_of(step.fallback), said=step.said)
         case Maybe():
-            return p.Optional(id="", body=node_of(step.body), said=step.said)
+            return p.OptionalStep(id="", body=node_of(step.body), said=step.said)
         case Halt():
-            return p.Stop(id="", said=step.said)
+            return p.StopMission(id="", said=step.said)

@@ -51,7 +51,7 @@ def planned(
     check_averages(told.root, request, robot)
     nominal = usual_exit(site) if told.nominal is None else told.nominal
     plan = node_of(told.root)
-    if isinstance(plan, p.Sequence):
+    if isinstance(plan, p.InOrder):
         plan = replace(plan, said=tuple(told.joints))
     else:
         told.no_part += told.joints  # there is nothing that they could put in order

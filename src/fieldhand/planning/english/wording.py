@@ -19,7 +19,7 @@ from fieldhand.planning.english.rule_cache import cached
 from fieldhand.planning.english.runon import with_stops
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.english.triggers import Triggers, may_match, triggers
-from fieldhand.task.weightless import is_weightless
+from fieldhand.task.filler_words import is_filler
 
 _KEPT = re.compile(r"\$(\d)")
 
@@ -169,7 +169,7 @@ def _swallows(pattern: re.Pattern[str], said: str, match: re.Match[str], words: 
     for word in words:
         if word.norm in kept:
             kept.remove(word.norm)
-        elif word.kind == "word" and not is_weightless(word.norm) and not _names(pattern.pattern, word.norm):
+        elif word.kind == "word" and not is_filler(word.norm) and not _names(pattern.pattern, word.norm):
             return True
     return False
 

@@ -17,7 +17,7 @@ from fieldhand.planning.llm.review import Problem
 from fieldhand.site.kinds import phrase
 from fieldhand.site.model import Site
 from fieldhand.task import conditions, plan
-from fieldhand.task.codec import Draft
+from fieldhand.task.codec import TaskDraft
 from fieldhand.task.plan import Node
 from fieldhand.terms import Value
 
@@ -33,7 +33,7 @@ _DECIMAL = re.compile(r"\d+[.,]\d+|\d+\s*\N{DEGREE SIGN}")
 _PAIR = re.compile(r"[-+]?\d{1,3}\.\d{2,}\s*\N{DEGREE SIGN}?\s*[NSEW]?[\s,;/]+[-+]?\d{1,3}\.\d{2,}")
 
 
-def coordinates(draft: Draft, request: str, site: Site) -> tuple[Problem, ...]:
+def coordinates(draft: TaskDraft, request: str, site: Site) -> tuple[Problem, ...]:
     """A problem for each literal coordinate of a draft that is not in the request."""
     found = [problem for node in plan.walk(draft.plan) for problem in _of_node(node, request, site)]
     for sentence in draft.assumptions:

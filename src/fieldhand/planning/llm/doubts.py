@@ -9,12 +9,12 @@ from fieldhand.facts import mismatches
 from fieldhand.planning.llm.review import Problem
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
-from fieldhand.task.codec import Draft
+from fieldhand.task.codec import TaskDraft
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import walk
 
 
-def doubts(task: Task, draft: Draft, site: Site, robot: RobotProfile) -> tuple[Problem, ...]:
+def doubts(task: Task, draft: TaskDraft, site: Site, robot: RobotProfile) -> tuple[Problem, ...]:
     """Every certain contradiction between a Task and its request.
 
     Args:

@@ -29,7 +29,7 @@ from fieldhand.robot.capabilities import capabilities_of, measures_of
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.build import make_task
-from fieldhand.task.codec import Draft
+from fieldhand.task.codec import TaskDraft
 from fieldhand.task.codec_text import hidden_character
 from fieldhand.task.frames import Resource
 
@@ -195,7 +195,7 @@ def _check(request: str) -> None:
 
 
 def _planned(
-    draft: Draft, request: str, site: Site, robot: RobotProfile, name: str, answers: tuple[Answer, ...]
+    draft: TaskDraft, request: str, site: Site, robot: RobotProfile, name: str, answers: tuple[Answer, ...]
 ) -> Planned:
     usual = usual_exit(site)
     asked = bool(draft.nominal_said) or draft.nominal not in ("return_to_end", usual)

@@ -22,7 +22,7 @@ from fieldhand.site.kinds import phrase
 from fieldhand.site.model import Place, Site
 from fieldhand.task import conditions, plan
 from fieldhand.task.capabilities import Capabilities
-from fieldhand.task.codec import Draft, decode_draft
+from fieldhand.task.codec import TaskDraft, decode_draft
 from fieldhand.task.codec_shapes import NAMESPACE, element_name
 from fieldhand.task.codec_xml import line_of, parse_xml
 from fieldhand.task.conditions import TreeHas
@@ -59,7 +59,7 @@ class Problem:
         return f"[{self.kind}] " + (f"{self.where}: " if self.where else "") + self.message
 
 
-def read_draft(document: str, capabilities: Capabilities, request: str = "") -> Draft | tuple[Problem, ...]:
+def read_draft(document: str, capabilities: Capabilities, request: str = "") -> TaskDraft | tuple[Problem, ...]:
     """The draft that a document holds, or each problem of its form.
 
     The ids of the nodes say where in the document they stand (``line 12 <act>``), for the messages that follow;
@@ -83,7 +83,7 @@ def read_draft(document: str, capabilities: Capabilities, request: str = "") -> 
         return (Problem(kind="schema", message=_said(error), where=error.where),)
 
 
-def review(draft: Draft, site: Site, capabilities: Capabilities) -> tuple[Problem, ...]:
+def review(draft: TaskDraft, site: Site, capabilities: Capabilities) -> tuple[Problem, ...]:
     """Every problem of a draft with its references and with the site, each once."""
     bare = Task(id="draft", command=Command(request=""), composition=Composition(plan=draft.plan))
     unbound = [Problem(kind="reference", message=message) for message in references(bare, capabilities)]

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.language.words import say_action
-from fieldhand.task.nodes.base import Meaning, PlanNode, Role, SayPlace, Span
-from fieldhand.task.requests import Bind, Capture, Drive, Forget, Locate, Permit, Read
+from fieldhand.task.instructions import BindLabel, Capture, DriveTo, ForgetReading, Locate, Permit, SetReading
+from fieldhand.task.nodes.base import PlanNode, Program, Role, SayPlace, Span
 
 if TYPE_CHECKING:
     from fieldhand.places.selector import Selector
-    from fieldhand.task.requests import Place, Reading
+    from fieldhand.task.instructions import OpaquePlace, Reading
     from fieldhand.task.run import Run
 
 
@@ -42,16 +42,16 @@ class Act(PlanNode):
     reading: str = ""
     said: tuple[Span, ...] = ()
 
-    def meaning(self, run: Run) -> Meaning:  # noqa: ARG002
+    def execute(self, run: Run) -> Program:  # noqa: ARG002
         if self.reading:
-            yield Forget(node=self, reading=self.reading)
-        place: Place = yield Locate(node=self, selector=self.at)
+            yield ForgetReading(node=self, reading=self.reading)
+        place: OpaquePlace = yield Locate(node=self, selector=self.at)
         yield Permit(node=self, place=place)
-        place = yield Drive(node=self, place=place, back=self.at is None)
-        yield Bind(node=self, label=self.label, places=(place,))
+        place = yield DriveTo(node=self, place=place, back=self.at is None)
+        yield BindLabel(node=self, label=self.label, places=(place,))
         value: Reading = yield Capture(node=self)
         if self.reading:
-            yield Read(node=self, reading=self.reading, value=value)
+            yield SetReading(node=self, reading=self.reading, value=value)
 
     def say(self, place: SayPlace) -> str:
         there = "" if self.at is None else f" at {place(self.at)}"

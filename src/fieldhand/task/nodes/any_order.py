@@ -8,8 +8,8 @@ from functools import reduce
 from operator import or_
 from typing import TYPE_CHECKING
 
-from fieldhand.task.nodes.base import K, Meaning, Part, PlanNode, Role, SayPlace, Span
-from fieldhand.task.requests import Arrange
+from fieldhand.task.instructions import ArrangeSteps
+from fieldhand.task.nodes.base import ChildNode, K, PlanNode, Program, Role, SayPlace, Span
 
 if TYPE_CHECKING:
     from fieldhand.task.plan import Node
@@ -27,8 +27,8 @@ class AnyOrder(PlanNode):
     steps: tuple[Node, ...]
     said: tuple[Span, ...] = ()
 
-    def meaning(self, run: Run) -> Meaning:
-        order: tuple[int, ...] = yield Arrange(node=self)
+    def execute(self, run: Run) -> Program:
+        order: tuple[int, ...] = yield ArrangeSteps(node=self)
         for at, index in enumerate(order):
             run.frame.left = tuple(self.steps[k] for k in order[at + 1 :])
             yield from run.do(self.steps[index])
@@ -41,8 +41,8 @@ class AnyOrder(PlanNode):
         return "order"
 
     @property
-    def parts(self) -> tuple[Part, ...]:
-        return tuple(Part(node=step) for step in self.steps)
+    def parts(self) -> tuple[ChildNode, ...]:
+        return tuple(ChildNode(node=step) for step in self.steps)
 
     @property
     def is_series(self) -> bool:

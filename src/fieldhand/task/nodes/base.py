@@ -1,14 +1,14 @@
 """What every kind of node says of itself.
 
-The *meaning* of a node is a generator. It yields requests (:mod:`fieldhand.task.requests`) to whoever carries the plan
-out, is sent the answers, and returns when the node is done. What goes wrong is thrown in:
+The *meaning* of a node is a generator. It yields requests (:mod:`fieldhand.task.instructions`) to whoever carries the
+plan out, is sent the answers, and returns when the node is done. What goes wrong is thrown in:
 
 * :class:`Failed`: an action, a drive or a place failed for good. The nearest ``Try`` around goes on with its otherwise;
   where there is none, the plan has failed.
 * :class:`GivenUp`: a visit of a for-each, or an optional step, is given up half-way. That node goes on behind it.
 * :class:`Cut`: a log does not tell what came of a node. What comes behind that node goes on.
 
-A ``Stop`` raises :class:`Stopped`, which nothing catches: the plan is over.
+A ``StopMission`` raises :class:`Stopped`, which nothing catches: the plan is over.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, Self, TypeAlias, TypeV
 if TYPE_CHECKING:
     from fieldhand.places.selector import Selector
     from fieldhand.task.conditions import Condition
+    from fieldhand.task.instructions import Instruction
     from fieldhand.task.nodes.act import Act
-    from fieldhand.task.nodes.stop import Stop
+    from fieldhand.task.nodes.stop_mission import StopMission
     from fieldhand.task.plan import Node
-    from fieldhand.task.requests import Request
     from fieldhand.task.run import Run
 
 #: A range of characters of the request: first, and one behind the last.
@@ -34,7 +34,7 @@ Span: TypeAlias = tuple[int, int]
 Role: TypeAlias = Literal["condition", "limit", "end", "action", "place", "order"]
 
 #: Requests, the answers to them, and nothing at the end.
-Meaning: TypeAlias = "Generator[Request, Any, None]"
+Program: TypeAlias = "Generator[Instruction, Any, None]"
 
 #: Says a selector in a few words.
 SayPlace: TypeAlias = "Callable[[Selector], str]"
@@ -69,19 +69,19 @@ class Cut(Exception):
 
 
 class Stopped(Exception):
-    """A ``Stop`` was reached.
+    """A ``StopMission`` was reached.
 
     Args:
-        node: The ``Stop``.
+        node: The ``StopMission``.
     """
 
-    def __init__(self, node: Stop) -> None:
+    def __init__(self, node: StopMission) -> None:
         self.node = node
         super().__init__(node.id)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Part:
+class ChildNode:
     """A node inside another, and how often it is done whenever the other is.
 
     Attributes:
@@ -114,7 +114,7 @@ class PlanNode(ABC):
     said: tuple[Span, ...]
 
     @abstractmethod
-    def meaning(self, run: Run) -> Meaning:
+    def execute(self, run: Run) -> Program:
         """Carry the node out: yield what it needs, be sent what happened.
 
         Args:
@@ -133,7 +133,7 @@ class PlanNode(ABC):
     # --- the nodes inside --------------------------------------------------------------------------------------------
 
     @property
-    def parts(self) -> tuple[Part, ...]:
+    def parts(self) -> tuple[ChildNode, ...]:
         """The nodes directly inside, in the order in which they stand, each with how often it is done."""
         return ()
 

@@ -6,14 +6,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
-from fieldhand.task.nodes.base import GivenUp, K, Meaning, Part, PlanNode, Role, SayPlace, Span
-from fieldhand.task.requests import Begin, Bind, Decide, Drive, Next
+from fieldhand.task.instructions import BeginVisits, BindLabel, Decide, DriveTo, NextVisit
+from fieldhand.task.nodes.base import ChildNode, GivenUp, K, PlanNode, Program, Role, SayPlace, Span
 
 if TYPE_CHECKING:
     from fieldhand.places.selector import Selector
     from fieldhand.task.conditions import Condition
+    from fieldhand.task.instructions import OpaquePlace
     from fieldhand.task.plan import Node
-    from fieldhand.task.requests import Place
     from fieldhand.task.run import Run
 
 
@@ -45,17 +45,17 @@ class ForEach(PlanNode):
     until: Condition | None = None
     said: tuple[Span, ...] = ()
 
-    def meaning(self, run: Run) -> Meaning:
+    def execute(self, run: Run) -> Program:
         frame = run.frame
-        frame.tour = tour = yield Begin(node=self)
-        visited: list[Place] = []
+        frame.tour = tour = yield BeginVisits(node=self)
+        visited: list[OpaquePlace] = []
         while self.at_most is None or len(visited) < self.at_most:
-            place: Place | None = yield Next(node=self, tour=tour, made=len(visited))
+            place: OpaquePlace | None = yield NextVisit(node=self, tour=tour, made=len(visited))
             if place is None:
                 break
             try:
-                place = yield Drive(node=self, place=place, tour=tour)
-                yield Bind(node=self, label=self.label, places=(place,))
+                place = yield DriveTo(node=self, place=place, tour=tour)
+                yield BindLabel(node=self, label=self.label, places=(place,))
                 yield from run.do(self.body)
             except GivenUp as given_up:
                 if given_up.node != self.id:
@@ -66,7 +66,7 @@ class ForEach(PlanNode):
             if self.until is not None and (yield Decide(node=self, condition=self.until)):
                 break
         if visited:
-            yield Bind(node=self, label=self.label, places=tuple(visited))
+            yield BindLabel(node=self, label=self.label, places=tuple(visited))
 
     def say(self, place: SayPlace) -> str:
         return f"{'as many as fit of' if self.optional else 'at each of'} {place(self.select)}"
@@ -76,8 +76,8 @@ class ForEach(PlanNode):
         return "place"
 
     @property
-    def parts(self) -> tuple[Part, ...]:
-        return (Part(node=self.body, times=1 if self.select.single else None),)
+    def parts(self) -> tuple[ChildNode, ...]:
+        return (ChildNode(node=self.body, times=1 if self.select.single else None),)
 
     def with_children(self, children: Sequence[Node]) -> ForEach:
         (body,) = children

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldhand.task.nodes.base import Meaning, PlanNode, Role, SayPlace, Span
-from fieldhand.task.requests import Bind, Drive, Locate, Permit
+from fieldhand.task.instructions import BindLabel, DriveTo, Locate, Permit
+from fieldhand.task.nodes.base import PlanNode, Program, Role, SayPlace, Span
 
 if TYPE_CHECKING:
     from fieldhand.places.selector import Selector
-    from fieldhand.task.requests import Place
+    from fieldhand.task.instructions import OpaquePlace
     from fieldhand.task.run import Run
 
 
@@ -23,11 +23,11 @@ class GoTo(PlanNode):
     label: str = ""
     said: tuple[Span, ...] = ()
 
-    def meaning(self, run: Run) -> Meaning:  # noqa: ARG002
-        place: Place = yield Locate(node=self, selector=self.place)
+    def execute(self, run: Run) -> Program:  # noqa: ARG002
+        place: OpaquePlace = yield Locate(node=self, selector=self.place)
         yield Permit(node=self, place=place)
-        place = yield Drive(node=self, place=place)
-        yield Bind(node=self, label=self.label, places=(place,))
+        place = yield DriveTo(node=self, place=place)
+        yield BindLabel(node=self, label=self.label, places=(place,))
 
     def say(self, place: SayPlace) -> str:
         return f"go to {place(self.place)}"

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldhand.language.words import say_times
-from fieldhand.task.nodes.base import K, Meaning, Part, PlanNode, Role, SayPlace, Span
-from fieldhand.task.requests import Decide, Round
+from fieldhand.task.instructions import BeginRound, Decide
+from fieldhand.task.nodes.base import ChildNode, K, PlanNode, Program, Role, SayPlace, Span
 
 if TYPE_CHECKING:
     from fieldhand.task.conditions import Condition
@@ -26,10 +26,10 @@ class Repeat(PlanNode):
     until: Condition | None = None
     said: tuple[Span, ...] = ()
 
-    def meaning(self, run: Run) -> Meaning:
+    def execute(self, run: Run) -> Program:
         for left in reversed(range(self.times)):
             run.frame.left = (replace(self, times=left),) if left else ()
-            yield Round(node=self, left=left)
+            yield BeginRound(node=self, left=left)
             yield from run.do(self.body)
             if self.until is not None and (yield Decide(node=self, condition=self.until)):
                 break
@@ -42,8 +42,8 @@ class Repeat(PlanNode):
         return "order"
 
     @property
-    def parts(self) -> tuple[Part, ...]:
-        return (Part(node=self.body, times=self.times if self.until is None else None),)
+    def parts(self) -> tuple[ChildNode, ...]:
+        return (ChildNode(node=self.body, times=self.times if self.until is None else None),)
 
     def with_children(self, children: Sequence[Node]) -> Repeat:
         (body,) = children

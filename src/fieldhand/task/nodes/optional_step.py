@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldhand.task.nodes.base import GivenUp, K, Meaning, Part, PlanNode, Role, SayPlace, Span
-from fieldhand.task.requests import Offer
+from fieldhand.task.instructions import OfferStep
+from fieldhand.task.nodes.base import ChildNode, GivenUp, K, PlanNode, Program, Role, SayPlace, Span
 
 if TYPE_CHECKING:
     from fieldhand.task.plan import Node
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Optional(PlanNode):
+class OptionalStep(PlanNode):
     """``body`` as a whole, if the budget allows. What it binds is known inside it alone.
 
     It is offered once, when it is reached. Not to do it, or to give it up half-way, is no failure.
@@ -29,8 +29,8 @@ class Optional(PlanNode):
     reward: float = 1.0
     said: tuple[Span, ...] = ()
 
-    def meaning(self, run: Run) -> Meaning:
-        if not (yield Offer(node=self)):
+    def execute(self, run: Run) -> Program:
+        if not (yield OfferStep(node=self)):
             return
         try:
             yield from run.do(self.body)
@@ -46,10 +46,10 @@ class Optional(PlanNode):
         return "limit"
 
     @property
-    def parts(self) -> tuple[Part, ...]:
-        return (Part(node=self.body, certain=False),)
+    def parts(self) -> tuple[ChildNode, ...]:
+        return (ChildNode(node=self.body, certain=False),)
 
-    def with_children(self, children: Sequence[Node]) -> Optional:
+    def with_children(self, children: Sequence[Node]) -> OptionalStep:
         (body,) = children
         return replace(self, body=body)
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from collections.abc import Sequence as Sequence_
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldhand.task.nodes.base import K, Meaning, Part, PlanNode, Role, SayPlace, Span
+from fieldhand.task.nodes.base import ChildNode, K, PlanNode, Program, Role, SayPlace, Span
 
 if TYPE_CHECKING:
     from fieldhand.task.plan import Node
@@ -15,14 +14,14 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sequence(PlanNode):
+class InOrder(PlanNode):
     """Steps in their order; it fails as soon as one does."""
 
     id: str = ""
     steps: tuple[Node, ...]
     said: tuple[Span, ...] = ()
 
-    def meaning(self, run: Run) -> Meaning:
+    def execute(self, run: Run) -> Program:
         for at, step in enumerate(self.steps):
             run.frame.left = self.steps[at + 1 :]
             yield from run.do(step)
@@ -35,14 +34,14 @@ class Sequence(PlanNode):
         return "order"
 
     @property
-    def parts(self) -> tuple[Part, ...]:
-        return tuple(Part(node=step) for step in self.steps)
+    def parts(self) -> tuple[ChildNode, ...]:
+        return tuple(ChildNode(node=step) for step in self.steps)
 
     @property
     def is_series(self) -> bool:
         return True
 
-    def with_children(self, children: Sequence_[Node]) -> Sequence:
+    def with_children(self, children: Sequence[Node]) -> InOrder:
         return replace(self, steps=tuple(children))
 
     def goes_on_after(self, child: Node) -> bool:

@@ -2,7 +2,7 @@
 
 Only what a Task says is believed: a word that stands in no range became nothing, unless it is one of the words that say
 nothing alone. A planner may say of words that they have no part in the plan; of a word that means something
-(:mod:`fieldhand.task.weightless`) and stands nowhere else in the plan's words, that is not believed either.
+(:mod:`fieldhand.task.filler_words`) and stands nowhere else in the plan's words, that is not believed either.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ from itertools import groupby
 from typing import Literal, get_args
 
 from fieldhand.language import message
+from fieldhand.task.filler_words import FUNCTION_WORDS, is_filler
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Span, acts, walk
-from fieldhand.task.weightless import FUNCTION_WORDS, is_weightless
 
 #: What words can become. Of two ranges that are the same, the role that stands first here is shown.
-Role = Literal["condition", "limit", "end", "action", "place", "order", "no_part", "nothing", "between"]
-ROLES: tuple[Role, ...] = get_args(Role)
+WordRole = Literal["condition", "limit", "end", "action", "place", "order", "no_part", "nothing", "between"]
+ROLES: tuple[WordRole, ...] = get_args(WordRole)
 
 #: How each is called; ``between`` has no name, since it is nothing to show.
-NAMES: dict[Role, str] = {
+ROLE_NAMES: dict[WordRole, str] = {
     "action": message("action", context="role"),
     "place": message("place", context="role"),
     "condition": message("condition", context="role"),
@@ -47,13 +47,13 @@ class Piece:
     """
 
     text: str
-    role: Role
+    role: WordRole
 
 
-def account(task: Task) -> tuple[Piece, ...]:
+def request_pieces(task: Task) -> tuple[Piece, ...]:
     """The request in pieces, in order; put together they are the request."""
     request = task.command.request
-    roles: list[Role] = ["between"] * len(request)
+    roles: list[WordRole] = ["between"] * len(request)
     for start, end, role in _words(task):
         roles[start:end] = [role] * (end - start)
     _bridge(roles, request)
@@ -71,10 +71,10 @@ def has_ranges(task: Task) -> bool:
     return any(True for _ in _ranges(task))
 
 
-def _words(task: Task) -> Iterator[tuple[int, int, Role]]:
+def _words(task: Task) -> Iterator[tuple[int, int, WordRole]]:
     """Every word of the request that says something alone, with its role: that of the shortest range around it."""
     ranges = sorted(_ranges(task), key=lambda found: (found[0][1] - found[0][0], ROLES.index(found[1])))
-    found: list[tuple[str, int, int, Role]] = []
+    found: list[tuple[str, int, int, WordRole]] = []
     for word in _WORD.finditer(task.command.request):
         start, end = word.start(), word.start() + len(word.group().rstrip())
         text = word.group().strip().lower()
@@ -85,7 +85,7 @@ def _words(task: Task) -> Iterator[tuple[int, int, Role]]:
     spoken |= {_stem(r.name.lower()) for r in task.resources if r.kind == "robot"}
     spoken |= {_stem(word) for act in acts(task.composition.plan) for word in act.action.split("_")}
     for text, start, end, role in found:
-        dropped = role == "no_part" and not is_weightless(text) and _stem(text) not in spoken
+        dropped = role == "no_part" and not is_filler(text) and _stem(text) not in spoken
         yield start, end, "nothing" if dropped else role
 
 
@@ -94,7 +94,7 @@ def _stem(word: str) -> str:
     return word.removesuffix("s")
 
 
-def _ranges(task: Task) -> Iterator[tuple[Span, Role]]:
+def _ranges(task: Task) -> Iterator[tuple[Span, WordRole]]:
     """Every range of a Task with what it became."""
     for node in walk(task.composition.plan):
         yield from ((span, node.role) for span in node.said)
@@ -106,7 +106,7 @@ def _ranges(task: Task) -> Iterator[tuple[Span, Role]]:
     yield from ((span, "no_part") for span in task.command.no_part)
 
 
-def _bridge(roles: list[Role], request: str) -> None:
+def _bridge(roles: list[WordRole], request: str) -> None:
     """What stands between two words of one role belongs to them unless a sign parts them. ``roles`` changes."""
     at = 0
     for role, run in groupby(list(roles)):

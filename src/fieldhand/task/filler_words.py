@@ -59,9 +59,9 @@ _SAYING_LITTLE = _words(
     """
 )
 #: Words that ask for nothing.
-WEIGHTLESS = FUNCTION_WORDS | _COURTESY | _ADDRESSED | _LEADING | _SAYING_LITTLE
+FILLER_WORDS = FUNCTION_WORDS | _COURTESY | _ADDRESSED | _LEADING | _SAYING_LITTLE
 
 
-def is_weightless(word: str) -> bool:
+def is_filler(word: str) -> bool:
     """Return True if a word asks for nothing wherever it stands."""
-    return word.strip().lower().replace("\u2019", "'").rstrip(".") in WEIGHTLESS
+    return word.strip().lower().replace("\u2019", "'").rstrip(".") in FILLER_WORDS

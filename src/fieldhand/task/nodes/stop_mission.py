@@ -5,21 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from fieldhand.task.nodes.base import Meaning, PlanNode, Role, SayPlace, Span, Stopped
+from fieldhand.task.nodes.base import PlanNode, Program, Role, SayPlace, Span, Stopped
 
 if TYPE_CHECKING:
     from fieldhand.task.run import Run
 
 
 @dataclass(frozen=True, kw_only=True)
-class Stop(PlanNode):
+class StopMission(PlanNode):
     """End the mission here and take an exit. Nothing around it goes on, no ``Try`` either."""
 
     id: str = ""
     exit: Literal["nominal", "faulted"] = "nominal"
     said: tuple[Span, ...] = ()
 
-    def meaning(self, run: Run) -> Meaning:  # noqa: ARG002
+    def execute(self, run: Run) -> Program:  # noqa: ARG002
         yield from ()
         raise Stopped(self)
 

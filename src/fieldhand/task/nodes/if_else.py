@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldhand.task.nodes.base import K, Meaning, Part, PlanNode, Role, SayPlace, Span
-from fieldhand.task.requests import Decide
+from fieldhand.task.instructions import Decide
+from fieldhand.task.nodes.base import ChildNode, K, PlanNode, Program, Role, SayPlace, Span
 
 if TYPE_CHECKING:
     from fieldhand.task.conditions import Condition
@@ -28,7 +28,7 @@ class If(PlanNode):
     otherwise: Node | None = None
     said: tuple[Span, ...] = ()
 
-    def meaning(self, run: Run) -> Meaning:
+    def execute(self, run: Run) -> Program:
         if (yield Decide(node=self, condition=self.condition)):
             yield from run.do(self.then)
         elif self.otherwise is not None:
@@ -42,9 +42,9 @@ class If(PlanNode):
         return "condition"
 
     @property
-    def parts(self) -> tuple[Part, ...]:
+    def parts(self) -> tuple[ChildNode, ...]:
         sides = (self.then,) if self.otherwise is None else (self.then, self.otherwise)
-        return tuple(Part(node=side, certain=False) for side in sides)
+        return tuple(ChildNode(node=side, certain=False) for side in sides)
 
     def with_children(self, children: Sequence[Node]) -> If:
         then, *other = children

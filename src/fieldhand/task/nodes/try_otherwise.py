@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldhand.task.nodes.base import Failed, K, Meaning, Part, PlanNode, Role, SayPlace, Span
+from fieldhand.task.nodes.base import ChildNode, Failed, K, PlanNode, Program, Role, SayPlace, Span
 
 if TYPE_CHECKING:
     from fieldhand.task.plan import Node
@@ -22,7 +22,7 @@ class Try(PlanNode):
     otherwise: Node
     said: tuple[Span, ...] = ()
 
-    def meaning(self, run: Run) -> Meaning:
+    def execute(self, run: Run) -> Program:
         frame = run.frame
         frame.instead = (self.otherwise,)
         try:
@@ -41,8 +41,8 @@ class Try(PlanNode):
         return "condition"
 
     @property
-    def parts(self) -> tuple[Part, ...]:
-        return (Part(node=self.body), Part(node=self.otherwise, certain=False))
+    def parts(self) -> tuple[ChildNode, ...]:
+        return (ChildNode(node=self.body), ChildNode(node=self.otherwise, certain=False))
 
     def with_children(self, children: Sequence[Node]) -> Try:
         body, otherwise = children

@@ -15,13 +15,13 @@ if TYPE_CHECKING:
     from fieldhand.task.nodes.act import Act
     from fieldhand.task.nodes.any_order import AnyOrder
     from fieldhand.task.nodes.for_each import ForEach
-    from fieldhand.task.nodes.optional import Optional
+    from fieldhand.task.nodes.optional_step import OptionalStep
     from fieldhand.task.nodes.repeat import Repeat
     from fieldhand.task.plan import Node
 
-Place: TypeAlias = Any
+OpaquePlace: TypeAlias = Any
 #: The visits of a for-each that is under way, as the carrier keeps them.
-Tour: TypeAlias = Any
+OpaqueTour: TypeAlias = Any
 #: What an action measured, by quantity.
 Reading: TypeAlias = Mapping[str, float]
 
@@ -39,11 +39,11 @@ class Permit:
     """Whether work that must be done may go ahead. Answer: nothing; what forbids it is thrown in, or ends the plan."""
 
     node: Node
-    place: Place
+    place: OpaquePlace
 
 
 @dataclass(frozen=True, kw_only=True)
-class Drive:
+class DriveTo:
     """Be at a place. Answer: the place as it was reached, which now is the place in hand.
 
     Attributes:
@@ -52,18 +52,18 @@ class Drive:
     """
 
     node: Node
-    place: Place
-    tour: Tour | None = None
+    place: OpaquePlace
+    tour: OpaqueTour | None = None
     back: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
-class Bind:
+class BindLabel:
     """Let a label mean some places. Answer: nothing. An empty label binds nothing."""
 
     node: Node
     label: str
-    places: tuple[Place, ...]
+    places: tuple[OpaquePlace, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,7 +74,7 @@ class Capture:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Forget:
+class ForgetReading:
     """Nothing is known of a reading any more. Answer: nothing."""
 
     node: Act
@@ -82,7 +82,7 @@ class Forget:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Read:
+class SetReading:
     """Let a reading be what was measured. Answer: nothing."""
 
     node: Act
@@ -99,30 +99,30 @@ class Decide:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Arrange:
+class ArrangeSteps:
     """In which order some steps are done. Answer: the position of each, once."""
 
     node: AnyOrder
 
 
 @dataclass(frozen=True, kw_only=True)
-class Begin:
+class BeginVisits:
     """The visits of a for-each: its selector is resolved now. Answer: the tour."""
 
     node: ForEach
 
 
 @dataclass(frozen=True, kw_only=True)
-class Next:
+class NextVisit:
     """Which visit of a tour comes next. Answer: its place; None where none does."""
 
     node: ForEach
-    tour: Tour
+    tour: OpaqueTour
     made: int
 
 
 @dataclass(frozen=True, kw_only=True)
-class Round:
+class BeginRound:
     """Another round of a repeat begins. Answer: nothing."""
 
     node: Repeat
@@ -130,10 +130,24 @@ class Round:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Offer:
+class OfferStep:
     """Whether an optional step is done. Answer: yes or no."""
 
-    node: Optional
+    node: OptionalStep
 
 
-Request = Locate | Permit | Drive | Bind | Capture | Forget | Read | Decide | Arrange | Begin | Next | Round | Offer
+Instruction = (
+    Locate
+    | Permit
+    | DriveTo
+    | BindLabel
+    | Capture
+    | ForgetReading
+    | SetReading
+    | Decide
+    | ArrangeSteps
+    | BeginVisits
+    | NextVisit
+    | BeginRound
+    | OfferStep
+)
