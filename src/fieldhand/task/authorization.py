@@ -1,6 +1,6 @@
-"""The output of approval: a Task that may be carried out, and for which site and robot.
+"""The output of approval: a Task cleared for execution, with the site and robot it was approved for.
 
-Approval alone makes one (a test holds every other room to that); execution takes nothing else.
+Only the approval room creates one (a test enforces this); execution accepts nothing else.
 """
 
 from __future__ import annotations
@@ -12,14 +12,14 @@ from fieldhand.task.frames import Task
 
 @dataclass(frozen=True, kw_only=True)
 class Authorization:
-    """Who approved what.
+    """Record of an approval.
 
     Attributes:
-        by: Who approved.
-        at: When, ISO 8601 with time zone.
-        task_sha256, site_sha256, robot_sha256: Of the Task document, the site file and the profile that were approved.
-        confirmed: Every warning of the Task there, each shown and accepted, as it was shown.
-        language: In which it was read and approved, by its code (ISO 639).
+        by: Name of the approver.
+        at: Time of approval, ISO 8601 with time zone.
+        task_sha256, site_sha256, robot_sha256: Hashes of the approved Task document, site file and robot profile.
+        confirmed: The Task's warnings that the approver was shown and accepted, in the words shown.
+        language: Language of the review, as an ISO 639 code.
     """
 
     by: str

@@ -1,6 +1,6 @@
-"""From a bare plan to a whole Task: stable ids, goals, state variables.
+"""Complete a bare plan to a Task: stable ids, goals, state variables.
 
-What can be derived from the plan is derived here and nowhere else, so that no planner can get it wrong.
+Everything that follows from the plan is derived here and nowhere else, so no planner can get it wrong.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from fieldhand.task.frames import (
 )
 from fieldhand.task.plan import Node, Span, acts
 
-#: What every mission does about faults unless its Task says otherwise.
+#: Default exits on faults.
 FAULTED_EXITS = (
     FaultedExit(fault="action_failed", then="return_to_start"),
     FaultedExit(fault="drive_failed", then="stay"),
@@ -33,7 +33,7 @@ FAULTED_EXITS = (
 
 
 def exit_of(task: Task, fault: Fault) -> Then:
-    """What a Task does about a fault: what it says, else what every mission does."""
+    """Return a Task's exit for a fault: its own, else the default one."""
     chosen = {e.fault: e.then for e in (*FAULTED_EXITS, *task.composition.faulted)}
     return chosen[fault]
 
@@ -53,24 +53,24 @@ def make_task(
     read_as: str = "",
     warnings: tuple[str, ...] = (),
 ) -> Task:
-    """A Task whose ids, goals and variables follow from its plan.
+    """Return a Task whose ids, goals and variables are derived from its plan.
 
     Args:
         request: The request, word for word.
-        plan: The plan; ids that it holds are replaced by ``n1``, ``n2``, ... in the order in which the nodes stand.
+        plan: Root of the plan; its ids are replaced by ``n1``, ``n2``, ... in document order.
         measures: For each action of the robot, the quantities that it measures as (name, unit).
-        resources: The site and the robot that it is for.
+        resources: Site and robot that the Task is for.
         constraints: Budgets and reserve; none by default.
-        nominal: Where the robot goes when the plan is done.
-        faulted: What to do about each fault.
-        assumptions: What was assumed in reading the request, as sentences.
-        nominal_said: Ranges of the request that say where the robot goes when the plan is done.
+        nominal: Exit taken when the plan is done.
+        faulted: Exit for each fault.
+        assumptions: Assumptions made in interpreting the request, as sentences.
+        nominal_said: Ranges of the request that state the nominal exit.
         no_part: Ranges of the request that have no part in the plan.
-        read_as: The request with what was answered to questions about it, if anything was.
-        warnings: What has to be confirmed before it is approved, as sentences.
+        read_as: The request with the answers to clarifying questions; empty without questions.
+        warnings: Warnings to confirm before approval, as sentences.
 
     Returns:
-        The same Task for the same arguments: its id is a hash of request, plan and resources.
+        The Task; its id is a hash of request, plan and resources, so equal arguments give equal Tasks.
     """
     numbered = number(plan)
     digest = hashlib.sha256(repr((request, numbered, resources, constraints, nominal)).encode()).hexdigest()
@@ -92,7 +92,7 @@ def make_task(
 
 
 def number(plan: Node) -> Node:
-    """The plan with ids ``n1``, ``n2``, ... in the order in which the nodes stand, outermost first."""
+    """Return the plan with ids ``n1``, ``n2``, ... in document order, outermost first."""
     return _number(plan, 1)[0]
 
 
@@ -108,7 +108,7 @@ def _number(node: Node, first: int) -> tuple[Node, int]:
 
 
 def goals(plan: Node) -> tuple[Goal, ...]:
-    """One goal for every action of the plan, in the order in which they stand."""
+    """Return one goal for every action of the plan, in document order."""
     found: list[Goal] = []
 
     def visit(node: Node, times: int | None, conditional: bool, optional: bool) -> None:
@@ -126,7 +126,7 @@ def goals(plan: Node) -> tuple[Goal, ...]:
             )
         for part in node.parts:
             again = None if times is None or part.times is None else times * part.times
-            # What only the budget decides on is optional, and not conditional.
+            # Work that only the budget decides about is optional, not conditional.
             decided = node.tested is not None or not (part.certain or node.is_optional)
             visit(part.node, again, conditional or decided, optional or node.is_optional)
 
@@ -135,7 +135,7 @@ def goals(plan: Node) -> tuple[Goal, ...]:
 
 
 def variables(plan: Node, measures: Mapping[str, tuple[tuple[str, str], ...]]) -> tuple[Variable, ...]:
-    """The state variables that the readings of a plan bind."""
+    """Return the state variables bound by the readings of a plan."""
     return tuple(
         Variable(name=node.reading, quantity=quantity, unit=unit, node=node.id)
         for node in acts(plan)

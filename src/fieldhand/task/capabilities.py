@@ -1,6 +1,6 @@
-"""What a Task may ask of a robot, as pure data: the part of a profile that Task documents are checked against.
+"""The part of a robot profile that Task documents are checked against, as pure data.
 
-The task room does not know robot profiles; :func:`fieldhand.robot.capabilities.capabilities_of` makes this from one.
+The task room does not import robot profiles; :func:`fieldhand.robot.capabilities.capabilities_of` converts one.
 """
 
 from __future__ import annotations
@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-#: In a Task document ``<at>`` stands beside the action in ``<act>``, so no action may have that name.
+#: Names that no action may have: ``<at>`` is a sibling of the action's element in ``<act>``.
 RESERVED_ACTIONS = ("at",)
 
 
 @dataclass(frozen=True, kw_only=True)
 class NumberParameter:
-    """A number between two bounds, both included (None: no bound)."""
+    """A numeric parameter with inclusive bounds (None: unbounded)."""
 
     minimum: float | None = None
     maximum: float | None = None
@@ -23,14 +23,14 @@ class NumberParameter:
 
 @dataclass(frozen=True, kw_only=True)
 class ChoiceParameter:
-    """One of some words."""
+    """A parameter with a fixed set of values."""
 
     choices: tuple[str, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
 class ActionCapability:
-    """One action: the names of the quantities that a capture yields, and its parameters by name."""
+    """An action: names of the quantities that one capture measures, and its parameters by name."""
 
     measures: tuple[str, ...] = ()
     parameters: Mapping[str, NumberParameter | ChoiceParameter] = field(default_factory=dict)
@@ -38,7 +38,7 @@ class ActionCapability:
 
 @dataclass(frozen=True, kw_only=True)
 class QuantityCapability:
-    """One quantity: the unit in which it is reported, and the words ("low") for which it has a threshold."""
+    """A measured quantity: its unit, and the level words ("low") that have a threshold."""
 
     unit: str
     levels: tuple[str, ...] = ()
@@ -46,7 +46,7 @@ class QuantityCapability:
 
 @dataclass(frozen=True, kw_only=True)
 class Capabilities:
-    """What a robot can do and measure, by name. The order of the mappings is the order of the schema."""
+    """The actions and quantities of a robot by name. The order of the mappings is the order in the schema."""
 
     actions: Mapping[str, ActionCapability]
     quantities: Mapping[str, QuantityCapability]

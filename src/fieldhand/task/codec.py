@@ -1,7 +1,7 @@
-"""A Task as an XML document, and back.
+"""Encode a Task as an XML document and decode it.
 
-``decode(encode(task)) == task`` for every Task whose text XML can hold. What each class looks like is derived in
-:mod:`fieldhand.task.codec_shapes`; here is only the walk over it. The document is UTF-8 and the same for equal Tasks.
+``decode(encode(task)) == task`` for every Task whose text XML can represent. :mod:`fieldhand.task.codec_shapes` derives
+the form of each class; this module walks over it. Equal Tasks give identical UTF-8 documents.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class TaskDraft:
-    """What a draft of a Task says, for ``task.build.make_task`` to complete. Ids that it leaves out are empty.
+    """Contents of a draft document, to be completed by ``task.build.make_task``. Omitted ids are empty.
 
     Attributes:
-        request: Empty if the draft leaves it out.
-        faulted: Empty if the draft says nothing of faults.
+        request: Empty if omitted.
+        faulted: Empty if the draft lists no exits for faults.
     """
 
     plan: Node
@@ -45,10 +45,10 @@ class TaskDraft:
 
 
 def encode(task: Task) -> bytes:
-    """A Task as a UTF-8 XML document, indented, ending with a line end.
+    """Return a Task as an indented UTF-8 XML document ending with a newline.
 
     Raises:
-        TaskError: It holds hidden characters or a number that XML cannot hold, is nested too deep, or is too large.
+        TaskError: Hidden characters, a number that XML cannot represent, nesting too deep, or a document too large.
     """
     from lxml import etree
 
@@ -62,23 +62,23 @@ def encode(task: Task) -> bytes:
 
 
 def decode(data: bytes, *, source: str = "") -> Task:
-    """The Task that a document holds. Whether a robot can do it is the schema's business.
+    """Return the Task in a document. The schema, not this function, checks that a robot can do it.
 
     Args:
         data: The document.
-        source: What to call it in messages, such as its file name.
+        source: Name of the document in messages, such as its file name.
 
     Raises:
-        TaskError: It is no Task document; says at which line and element.
+        TaskError: Not a Task document; the message gives line and element.
     """
     return Reader(source=source).task(parse_xml(data, source=source))
 
 
 def decode_draft(data: bytes, *, source: str = "") -> TaskDraft:
-    """What a draft says. A draft may leave out what can be derived: ids, request, goals, state, resources.
+    """Return the contents of a draft, which may omit what can be derived: ids, request, goals, state, resources.
 
     Raises:
-        TaskError: It is no draft of a Task; says at which line and element.
+        TaskError: Not a draft of a Task; the message gives line and element.
     """
     task = Reader(source=source, draft=True).task(parse_xml(data, source=source))
     return TaskDraft(
@@ -95,12 +95,12 @@ def decode_draft(data: bytes, *, source: str = "") -> TaskDraft:
 
 
 def encode_parts(parts: Iterable[Any]) -> str:
-    """Parts of a Task (selectors, conditions, frames), one after the other, as XML in one line without namespace.
+    """Return parts of a Task (selectors, conditions, frames) one after the other as single-line XML without namespace.
 
-    Other documents carry it as text, such as the tree of another program in an attribute.
+    Other formats embed this text, for instance in an attribute of a BehaviorTree.CPP tree.
 
     Raises:
-        TaskError: As :func:`encode`.
+        TaskError: As for :func:`encode`.
     """
     from lxml import etree
 
@@ -113,10 +113,10 @@ def encode_parts(parts: Iterable[Any]) -> str:
 
 
 def decode_parts(text: str, options: tuple[type, ...], *, source: str = "") -> tuple[Any, ...]:
-    """The parts that :func:`encode_parts` wrote, each of one of the classes in ``options``.
+    """Return the parts written by :func:`encode_parts`, each an instance of one of ``options``.
 
     Raises:
-        TaskError: It is something else; ``source`` says where.
+        TaskError: Anything else; the message names ``source``.
     """
     root = parse_xml(f'<parts xmlns="{NAMESPACE}">{text}</parts>'.encode(), source=source)
     reader = Reader(source=source)

@@ -1,4 +1,4 @@
-"""Read the elements of a Task document into the dataclasses that they stand for, with the line of whatever is wrong."""
+"""Read the elements of a Task document into dataclasses; errors give the line."""
 
 from __future__ import annotations
 
@@ -34,15 +34,15 @@ class Reader:
     """Reads elements into dataclasses.
 
     Attributes:
-        source: What to call the document in messages.
-        draft: What can be derived may be left out.
+        source: Name of the document in messages.
+        draft: Accept omission of whatever can be derived.
     """
 
     source: str
     draft: bool = False
 
     def task(self, root: _Element) -> Task:
-        """The Task in a root element."""
+        """Return the Task in a root element."""
         self.require_visible(root)
         if root.tag == "task":
             raise self.error(root, "the namespace is missing", f'write <task xmlns="{NAMESPACE}">')
@@ -52,12 +52,12 @@ class Reader:
         return task
 
     def require_visible(self, root: _Element) -> None:
-        """Refuse characters that nobody sees; a draft is not signed."""
+        """Refuse invisible characters; drafts are exempt, since nobody signs them."""
         if not self.draft:
             require_visible(root, source=self.source, lines=SEVERAL_LINES.__contains__)
 
     def value(self, element: _Element, cls: type) -> Any:
-        """The dataclass in an element."""
+        """Return the dataclass in an element."""
         shape = shape_of(cls)
         self.no_text(element)
         found = self.attributes(element, shape.attributes)
@@ -79,7 +79,7 @@ class Reader:
     def fields(
         self, element: _Element, cls: type, expected: tuple[Child, ...], children: list[_Element]
     ) -> dict[str, Any]:
-        """The fields that stand each in an element of its name."""
+        """Return the fields that have a child element of their own name."""
         by_name = {c.name: c for c in expected}
         found: dict[str, Any] = {}
         for inside in children:
@@ -105,7 +105,7 @@ class Reader:
         return found
 
     def parts(self, element: _Element, cls: type, child: Child) -> dict[str, Any]:
-        """The part or parts that stand directly in an element."""
+        """Return the field whose values are direct children of the element."""
         options = {element_name(option): option for option in child.options}
         values = []
         for inside in element:
@@ -123,7 +123,7 @@ class Reader:
         return {child.field: values[0]}
 
     def head(self, element: _Element, heads: list[_Element], head: NamedElement) -> dict[str, Any]:
-        """What stands in the element that is named after an action or a quantity."""
+        """Return the fields in the child element named after an action or a quantity."""
         if len(heads) != 1:
             what = f"has {len(heads)} elements that name the {head.of}, it needs one"
             raise self.error(element, what, f"write for instance <{head.of}_name .../> inside <{local_name(element)}>")
@@ -141,7 +141,7 @@ class Reader:
         return found | {"parameters": tuple(parameters)}
 
     def attributes(self, element: _Element, expected: Iterable[Attribute]) -> dict[str, Any]:
-        """The fields that stand as attributes of an element."""
+        """Return the fields written as attributes of an element."""
         left = {str(k): str(v) for k, v in element.attrib.items() if not str(k).startswith(XSI)}
         names = [a.name for a in expected]
         found: dict[str, Any] = {}
@@ -161,7 +161,7 @@ class Reader:
         return found
 
     def default(self, element: _Element, cls: type, field: str, default: Any, what: str) -> Any:
-        """What a field is where nothing stands for it."""
+        """Return the default of an omitted field, or raise if it is required."""
         if default is not MISSING:
             return default
         for key in (field, (cls, field)) if self.draft else ():
@@ -170,7 +170,7 @@ class Reader:
         raise self.error(element, f"{what} is missing", "add it")
 
     def items(self, element: _Element, name: str) -> Iterable[str]:
-        """The texts of a list."""
+        """Return the texts of a list."""
         self.no_text(element)
         self.attributes(element, ())
         for item in element:
@@ -179,31 +179,31 @@ class Reader:
             yield self.text(item)
 
     def text(self, element: _Element) -> str:
-        """The text of an element that holds nothing else."""
+        """Return the text of an element without children."""
         self.attributes(element, ())
         if len(element):
             raise self.error(element[0], f"cannot stand inside <{local_name(element)}>", "write < as &lt; in text")
         return element.text or ""
 
     def no_text(self, element: _Element) -> None:
-        """Refuse words between elements: they would be dropped in silence."""
+        """Refuse text between child elements, which would otherwise be dropped silently."""
         for text in (element.text, *(child.tail for child in element)):
             if text and text.strip():
                 shown = " ".join(text.split())[:40]
                 raise self.error(element, f"holds the text {shown!r} between its elements", "take it out")
 
     def name(self, element: _Element) -> str:
-        """The name of an element of our namespace."""
+        """Return the local name of an element in the Task namespace."""
         if not isinstance(element.tag, str) or not element.tag.startswith(f"{{{NAMESPACE}}}"):
             raise self.error(element, "is not in the namespace of Task documents", f"use {NAMESPACE}")
         return local_name(element)
 
     def unknown(self, element: _Element, known: Mapping[str, Any]) -> TaskError:
-        """An element that cannot stand where it does."""
+        """Return the error for an element that is not allowed where it is."""
         return self.error(element, "is not known here", _nearest(local_name(element), list(known)))
 
     def error(self, element: _Element, what: str, advice: str) -> TaskError:
-        """A problem at an element."""
+        """Return an error located at an element."""
         return TaskError(what, where=at_line(self.source, line_of(element), local_name(element)), advice=advice)
 
 

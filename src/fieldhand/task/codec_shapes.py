@@ -1,11 +1,11 @@
-"""What every part of a Task looks like as XML, derived from the dataclasses: the one place that says so.
+"""XML form of every part of a Task, derived from the dataclasses.
 
 A class becomes an element (``AnyOrder`` is ``any-order``); a plain field becomes an attribute (``at_most`` is
-``at-most``); a field that holds other parts becomes a child element of that name with the parts inside, and where a
-class has only one such field the parts stand in its element directly. A field that equals its default is left out.
-What belongs to one action or one quantity stands in an element of that name (``<co2 value="400" unit="ppm"/>``), so
-that a schema can say which values go with which. Codec and schema both read these shapes: a new selector, condition
-or plan node needs no change in either.
+``at-most``); a field with other parts becomes a child element of that name around them, or, if it is the only such
+field of the class, the parts become direct children. Fields equal to their default are omitted. Whatever depends on one
+action or one quantity goes into an element of that name (``<co2 value="400" unit="ppm"/>``), so that a schema can
+restrict its values. Codec and schema both use these shapes: a new selector, condition or plan node needs no change in
+either.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ ChildKind = Literal["text", "texts", "inline", "one", "many"]
 
 @dataclass(frozen=True, kw_only=True)
 class ExitsElement:
-    """Where the robot goes when the plan is done, and what it does about each fault."""
+    """The ``<exits>`` of a Task: where the robot goes when the plan is done, and on each fault."""
 
     nominal: Then = "return_to_end"
     nominal_said: tuple[Span, ...] = ()
@@ -41,17 +41,17 @@ class ExitsElement:
 
 @dataclass(frozen=True, kw_only=True)
 class TaskComposition:
-    """The plan and its exits, grouped as the standard groups them; stands for ``frames.Composition`` in XML."""
+    """The ``<task-composition>`` element: plan and exits. XML stand-in for ``frames.Composition``."""
 
     plan: Node
     exits: ExitsElement = ExitsElement()
 
 
-#: The attribute with which a draft quotes words of the request, and the ranges that it stands for in each element; in
-#: any node and in a budget ``said``.
+#: Attribute in which a draft quotes words of the request, and the ranges that replace it in each element (``said`` in
+#: nodes and budgets).
 QUOTES = "words"
 QUOTED = {"command": "no-part", "exits": "nominal-said", "constraints": "reserve-said"}
-#: Field names that are not element names already.
+#: Elements not named after their field.
 _NAMES: dict[tuple[type, str], str] = {(Task, "composition"): "task-composition", (Command, "variables"): "state"}
 #: Elements that are not named after their class: their names are part of the file format.
 _ELEMENT_NAMES: dict[type, str] = {
@@ -61,11 +61,11 @@ _ELEMENT_NAMES: dict[type, str] = {
     OptionalStep: "optional",
     StopMission: "stop",
 }
-#: Text of any length stands in an element of its own.
+#: Fields with text of any length, written as elements.
 _TEXTS = {(Command, "request"), (Command, "read_as"), (Command, "assumptions"), (Command, "warnings")}
-#: Fields whose meaning depends on the quantity that stands beside them.
+#: Fields that depend on the quantity, written into its element.
 _OF_QUANTITY = ("value", "low", "high", "unit", "level")
-#: What a draft may leave out beside what has a default: it is derived by ``task.build.make_task``.
+#: Fields without a default that a draft may omit, since ``task.build.make_task`` derives them.
 DRAFT_DEFAULTS: dict[tuple[type, str] | str, Any] = {
     "id": "",
     (Command, "request"): "",
@@ -75,11 +75,11 @@ DRAFT_DEFAULTS: dict[tuple[type, str] | str, Any] = {
 
 @dataclass(frozen=True, kw_only=True)
 class Attribute:
-    """A field that is written as an attribute.
+    """A field written as an attribute.
 
     Attributes:
-        choices: The words that a choice, or each of several choices, may be.
-        default: ``MISSING`` if the attribute must stand.
+        choices: Allowed words, where the kind is ``choice`` or ``choices``.
+        default: Default value; ``MISSING`` if the attribute is required.
     """
 
     field: str
@@ -91,11 +91,11 @@ class Attribute:
 
 @dataclass(frozen=True, kw_only=True)
 class Child:
-    """A field that is written as child elements.
+    """A field written as child elements.
 
     Attributes:
-        options: The classes that may stand there; empty for text.
-        direct: The parts stand in the parent's element, with no element of the field's name around them.
+        options: Classes allowed inside; empty for text.
+        direct: The parts are direct children, without an element named after the field around them.
     """
 
     field: str
@@ -108,10 +108,11 @@ class Child:
 
 @dataclass(frozen=True, kw_only=True)
 class NamedElement:
-    """A child element that is named after an action or a quantity and holds what depends on it.
+    """A child element named after an action or a quantity, with everything that depends on it.
 
     Attributes:
-        attributes: What depends on a quantity; an action's are its parameters, which only a profile knows.
+        attributes: Attributes that depend on the quantity. An action's parameters are not listed: only a profile
+            defines them.
     """
 
     field: str
@@ -121,7 +122,7 @@ class NamedElement:
 
 @dataclass(frozen=True, kw_only=True)
 class Shape:
-    """How one class is written. ``attributes`` and ``children`` stand in the order of its fields."""
+    """XML form of one class. ``attributes`` and ``children`` follow the order of its fields."""
 
     cls: type
     element: str
@@ -130,7 +131,7 @@ class Shape:
     head: NamedElement | None = None
 
 
-#: Classes that XML groups differently, with the class that stands for each and the way back.
+#: Classes with a stand-in that XML groups differently, and the conversions to and from it.
 SURROGATES: dict[type, tuple[type, Callable[[Any], Any], Callable[[Any], Any]]] = {
     Composition: (
         TaskComposition,
@@ -143,7 +144,7 @@ SURROGATES: dict[type, tuple[type, Callable[[Any], Any], Callable[[Any], Any]]] 
     )
 }
 
-#: The families of which any member may stand in a place, by name.
+#: Families of classes whose members are interchangeable in a document, by name.
 FAMILIES: dict[tuple[type, ...], str] = {
     SELECTORS: "selector",
     get_args(Condition): "condition",
@@ -152,18 +153,18 @@ FAMILIES: dict[tuple[type, ...], str] = {
 
 
 def element_name(cls: type) -> str:
-    """The element that a class becomes: ``GoTo`` is ``go-to``."""
+    """Return the element name of a class: ``GoTo`` is ``go-to``."""
     return _ELEMENT_NAMES.get(cls) or re.sub(r"(?<!^)(?=[A-Z])", "-", cls.__name__).lower()
 
 
 def hints_of(cls: type) -> dict[str, Any]:
-    """The type of each field; those families that refer to each other are known here."""
+    """Return the type of each field, with the mutually recursive families resolved."""
     return get_type_hints(cls, localns={"Node": Node, "Selector": Selector, "Condition": Condition})
 
 
 @cache
 def shape_of(cls: type) -> Shape:
-    """How a class is written; a class that XML groups differently has the shape of its stand-in."""
+    """Return the XML form of a class, or that of its stand-in."""
     if cls in SURROGATES:
         return shape_of(SURROGATES[cls][0])
     hints = hints_of(cls)
@@ -207,7 +208,7 @@ def _without_none(hint: Any) -> Any:
 
 
 def _attribute(field: str, name: str, hint: Any, default: Any) -> Attribute | None:
-    """The attribute for a plain field; None for a field that holds other parts."""
+    """Return the attribute of a plain field; None for a field with other parts."""
     hint = _without_none(hint)
     plain: dict[Any, AttributeKind] = {str: "text", int: "integer", float: "number", bool: "flag", Value: "value"}
     plain[tuple[Span, ...]] = "spans"
@@ -235,7 +236,7 @@ def _child(field: str, name: str, hint: Any, default: Any) -> Child:
 
 
 def all_shapes() -> dict[type, Shape]:
-    """The shape of every class that can stand in a Task, the Task first."""
+    """Return the shape of every class that can occur in a Task, the Task first."""
     found: dict[type, Shape] = {}
 
     def visit(cls: type) -> None:

@@ -1,7 +1,7 @@
-"""Values of attributes as text and back. Every value comes back equal, with its type.
+"""Convert attribute values to text and back. Every value is restored with its type.
 
-Numbers are written with the fewest digits that read back as the same number. A value that may be text, number or yes/no
-is written bare; text that would read as one of the others is marked (``value="10" value-as="text"``).
+Numbers are written with the fewest digits that restore the same value. A value that may be text, number or boolean is
+written bare; text that would be read as a number or boolean is marked (``value="10" value-as="text"``).
 """
 
 from __future__ import annotations
@@ -18,26 +18,26 @@ NUMBER = r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?"
 INTEGER = r"[+-]?[0-9]{1,18}"
 SPANS = r"([0-9]{1,9}-[0-9]{1,9}( [0-9]{1,9}-[0-9]{1,9})*)?"
 
-#: Elements whose text may have several lines: a request stands in the Task as it was typed.
+#: Elements with multi-line text: the Task keeps the request as it was typed.
 SEVERAL_LINES = frozenset({"request", "read-as"})
 
 
 def hidden_character(text: str, *, lines: bool = False) -> str | None:
-    """Return the first character of a text that a Task may not hold, such as ``U+202E``; None if there is none.
+    """Return the first forbidden character of a text, such as ``U+202E``; None if there is none.
 
-    That is every character that nobody sees: what is read back must be what is signed. Those that XML 1.0 excludes are
-    among them. They are refused and not escaped: no one means them, and an escape would shift the character ranges of
-    ``said``.
+    Invisible characters are forbidden, including those that XML 1.0 excludes: a signed document must contain exactly
+    what was read back. They are refused rather than escaped, because nobody means them and an escape would shift the
+    character ranges in ``said``.
     """
     found = find_hidden(text, lines=lines)
     return None if found is None else found.name
 
 
 def number_text(value: float) -> str:
-    """A finite number as text.
+    """Return a finite number as text.
 
     Raises:
-        ValueError: It is infinite or not a number.
+        ValueError: Infinite or not a number.
     """
     if not math.isfinite(value):
         raise ValueError(f"{value} is not a finite number")
@@ -48,10 +48,10 @@ def number_text(value: float) -> str:
 
 
 def number_of(text: str) -> float:
-    """The number that a text stands for.
+    """Return the number that a text represents.
 
     Raises:
-        ValueError: It is no number, or too large for one.
+        ValueError: Not a number, or too large.
     """
     if not re.fullmatch(NUMBER, text.strip(" \t\r\n")):
         raise ValueError(f"{text!r} is not a number")
@@ -62,14 +62,14 @@ def number_of(text: str) -> float:
 
 
 def bare_value(text: str) -> Value:
-    """What a bare text stands for: ``true``, ``false``, a number, else itself."""
+    """Return the value of an unmarked text: a boolean for ``true`` and ``false``, a number, else the text itself."""
     if text in ("true", "false"):
         return text == "true"
     return number_of(text) if re.fullmatch(NUMBER, text) else text
 
 
 def attribute_text(attribute: Attribute, value: Any) -> dict[str, str]:
-    """The attributes, by name, that stand for a value.
+    """Return the XML attributes, by name, that represent a value.
 
     Raises:
         ValueError: The value cannot be written.
@@ -100,10 +100,10 @@ def attribute_text(attribute: Attribute, value: Any) -> dict[str, str]:
 
 
 def parse_value(attribute: Attribute, text: str, marked: str | None = None) -> Any:
-    """The value that a text stands for; ``marked`` is the text of the ``-as`` attribute beside it, if it stands.
+    """Return the value that a text represents; ``marked`` is the text of the ``-as`` attribute beside it, if present.
 
     Raises:
-        ValueError: It stands for none; says what would.
+        ValueError: The text is invalid; the message says what is allowed.
     """
     bare = text.strip(" \t\r\n")
     match attribute.kind:

@@ -1,4 +1,4 @@
-"""Read XML from anyone safely: no document type, no entities, no network, bounded in size and depth."""
+"""Parse XML from untrusted sources: no document type, no entities, no network, bounded size and depth."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from fieldhand.task.codec_text import hidden_character
 if TYPE_CHECKING:
     from lxml.etree import _Element
 
-#: A Task of a hundred thousand words stays far below this.
+#: Maximum size in bytes. A Task of a hundred thousand words is far smaller.
 MAX_BYTES = 4_000_000
-#: Elements within elements. An if within an if takes three, so about sixty ifs nest.
+#: Maximum nesting of elements. A nested if takes three levels, so about sixty ifs nest.
 MAX_DEPTH = 200
 
 
@@ -25,10 +25,10 @@ _GIVE_XML = message("give an XML file")
 
 
 def read_xml(path: Path, *, advice: str = _GIVE_XML) -> bytes:
-    """The bytes of a document's file; no more of it is read than one may have.
+    """Return the bytes of a document, reading no more than the size limit.
 
     Raises:
-        TaskError: It cannot be read, or is too large.
+        TaskError: The file cannot be read, or is too large.
     """
     try:
         return read_file(path, MAX_BYTES)
@@ -38,11 +38,11 @@ def read_xml(path: Path, *, advice: str = _GIVE_XML) -> bytes:
 
 
 def parse_xml(data: bytes, *, source: str = "") -> _Element:
-    """The root element of a document, without comments and processing instructions.
+    """Return the root element of a document, without comments and processing instructions.
 
     Raises:
-        TaskError: It is empty, too large, nested too deep, not UTF-8, has a document type or entities of its own, or is
-            not well-formed; says at which line.
+        TaskError: The document is empty, too large, nested too deep, not UTF-8, not well-formed, or has a document type
+            or entities; the message gives the line.
     """
     from lxml import etree
 
@@ -77,15 +77,15 @@ def parse_xml(data: bytes, *, source: str = "") -> _Element:
 
 
 def require_visible(root: _Element, *, source: str = "", lines: Callable[[str], bool] = lambda _: True) -> None:
-    """Refuse characters that nobody sees, wherever in a document: what is read back must be what is signed.
+    """Refuse invisible characters anywhere in a document: a signed document must contain exactly what was read back.
 
     Args:
-        root: Its outermost element.
-        source: What to call the document in messages.
-        lines: Returns True for the name of an element whose text, or ``@name`` of an attribute, may have several lines.
+        root: Outermost element.
+        source: Name of the document in messages.
+        lines: Returns True for an element name, or ``@name`` of an attribute, whose text may have several lines.
 
     Raises:
-        TaskError: It holds one; says at which line and element, and where in it.
+        TaskError: An invisible character; the message gives line, element and part of the element.
     """
     for element in root.iter():
         name = local_name(element)
@@ -103,26 +103,26 @@ def require_visible(root: _Element, *, source: str = "", lines: Callable[[str], 
 
 
 def at_line(source: str, line: int, element: str = "") -> str:
-    """A place in a document, as errors name it: ``task.xml, line 12, <act>``."""
+    """Return a location in a document for error messages: ``task.xml, line 12, <act>``."""
     return ", ".join(part for part in (source, f"line {line}", f"<{element}>" if element else "") if part)
 
 
 def local_name(element: _Element) -> str:
-    """The name of an element without its namespace."""
+    """Return the name of an element without its namespace."""
     return str(element.tag).rpartition("}")[2]
 
 
 def line_of(element: _Element) -> int:
-    """The line on which an element begins, counted from 1."""
-    line: Any = element.sourceline  # the stubs know more kinds of it than there are
+    """Return the line on which an element begins, counted from 1."""
+    line: Any = element.sourceline  # the stubs declare a wider type
     return int(line or 1)
 
 
 def _without_doctype(data: bytes, source: str) -> bytes:
-    """The data as UTF-8 with neither byte order mark nor document type.
+    """Return the data as UTF-8 without byte order mark; raise if it has a document type.
 
-    The parser would not load external entities, but it does expand internal ones in attribute values: a document
-    type is refused before any parser sees it. The bytes are UTF-8 then, so it cannot hide in another encoding.
+    The parser would not load external entities, but it does expand internal ones in attribute values, so a document
+    type is refused before parsing. The data is decoded first, so that it cannot hide in another encoding.
     """
     try:
         data = data.decode("utf-8-sig").encode()
@@ -141,7 +141,7 @@ def _without_doctype(data: bytes, source: str) -> bytes:
 
 
 def _check_depth(root: _Element, source: str) -> None:
-    """Refuse what is nested too deep for the recursive readers that follow."""
+    """Refuse nesting too deep for the recursive readers that follow."""
     from lxml import etree
 
     depth = 0

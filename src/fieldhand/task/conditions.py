@@ -1,7 +1,7 @@
-"""Conditions: what an if/else of a plan tests.
+"""Conditions tested by an if, a repeat or a for-each.
 
-A reading is bound by the action that took it (``Act.reading``); a condition names that binding and the quantity, so a
-schema can refuse a quantity that the robot does not measure.
+An action binds a reading (``Act.reading``); a condition names that binding and the quantity, so that a schema can
+refuse quantities that the robot does not measure.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class Level:
 
 @dataclass(frozen=True, kw_only=True)
 class TreeHas:
-    """An attribute of the tree in hand, as the site file records it."""
+    """An attribute of the current tree, as the site file records it."""
 
     attribute: str
     test: Test
@@ -77,7 +77,7 @@ Condition = Compare | Between | Level | TreeHas | AllOf | AnyOf | Not
 
 
 def walk(condition: Condition) -> Iterator[Condition]:
-    """This condition and every one inside it, outermost first."""
+    """Yield this condition and all nested ones, outermost first."""
     yield condition
     match condition:
         case AllOf(conditions=inner) | AnyOf(conditions=inner):
@@ -90,5 +90,5 @@ def walk(condition: Condition) -> Iterator[Condition]:
 
 
 def readings(condition: Condition) -> frozenset[str]:
-    """The names of the readings that a condition needs."""
+    """Return the names of the readings that a condition needs."""
     return frozenset(c.reading for c in walk(condition) if isinstance(c, Compare | Between | Level))

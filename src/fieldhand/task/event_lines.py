@@ -1,4 +1,4 @@
-"""Events as the lines of an event log, and back; a log may come from anywhere, so every field is looked at."""
+"""Convert events to lines of an event log and back. Logs are untrusted, so every field is validated."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ _TYPES: dict[str, type[Event]] = {kind.event: kind for kind in get_args(Event)}
 
 
 def to_json(event: Event) -> str:
-    """An event as one line of an event log."""
+    """Return an event as one line of an event log."""
     fields = {f.name: getattr(event, f.name) for f in dataclasses.fields(event)}
     return json_text({"event": event.event, **fields})
 
 
 def from_json(line: str, *, where: str = "") -> Event | None:
-    """An event from a line of an event log; None for an event type that this version does not know.
+    """Return the event in a line of an event log; None for an event type unknown to this version.
 
     Raises:
-        TaskError: The line is not JSON, or lacks a field of its event.
+        TaskError: The line is not JSON, or a field of the event is missing or invalid.
     """
     try:
         record: dict[str, Any] = json.loads(line)
@@ -44,7 +44,7 @@ def from_json(line: str, *, where: str = "") -> Event | None:
 
 
 def _checked(kind: type[Event], record: dict[str, Any]) -> Event:
-    """An event whose fields are what they are declared to be; a log may come from anywhere."""
+    """Return an event whose fields have their declared types."""
     from pydantic import ValidationError
 
     try:

@@ -1,7 +1,6 @@
-"""Limits of a Task that a mission exceeded, found in its event log: budgets, and the charge that must be left.
+"""Find the limits of a Task that a mission exceeded: budgets, and the charge to leave in reserve.
 
-The log alone says it: the robot is not asked. Figures are compared as they stand in the log, up to the rounding of
-floating-point sums.
+Everything is computed from the event log alone. Figures are compared up to the rounding of floating-point sums.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ from fieldhand.task.results import Arrived, Driving, Event, MissionStatus, Start
 
 LimitKind = BudgetKind | Literal["reserve"]
 
-#: Relative difference that floating-point sums may make.
+#: Relative tolerance for floating-point sums.
 ROUNDING = 1e-6
 
 
@@ -27,12 +26,12 @@ class Exceeded:
     """A limit that was exceeded.
 
     Attributes:
-        kind: A budget, or ``reserve``: the charge that must be left.
-        used: Metres, seconds or percent of the battery at the end; of ``reserve`` the charge left.
-        limit: In the same unit.
-        t: Second of the mission at which the log first shows it.
-        near: Where the robot was then: "on the way to the end"; empty where the log does not say.
-        why: All of it in words.
+        kind: Kind of the budget, or ``reserve`` for the charge to leave.
+        used: Amount used at the end, in metres, seconds or percent of the battery; for ``reserve`` the charge left.
+        limit: The limit, in the same unit.
+        t: Mission time in seconds at which the log first shows it.
+        near: Location of the robot then: "on the way to the end"; empty where the log does not show it.
+        why: Explanation as a sentence.
     """
 
     kind: LimitKind
@@ -46,12 +45,12 @@ class Exceeded:
 def exceeded_limits(
     constraints: Constraints, events: Sequence[Event], reserve_percent: float | None = None
 ) -> tuple[Exceeded, ...]:
-    """Return the limits that a mission exceeded, budgets in their order, then the reserve.
+    """Return the limits that a mission exceeded: budgets in their order, then the reserve.
 
     Args:
-        constraints: The Task's.
-        events: The event log, from its beginning; it may stop anywhere.
-        reserve_percent: Charge that must be left where neither Task nor log says it.
+        constraints: Constraints of the Task.
+        events: Event log from its beginning; it may end anywhere.
+        reserve_percent: Charge to leave where neither Task nor log states one.
     """
     started = next((e for e in events if isinstance(e, Started)), None)
     if started is None:
@@ -67,23 +66,23 @@ def exceeded_limits(
 
 
 def is_exceeded(kind: LimitKind, used: float, limit: float) -> bool:
-    """Return True if that is beyond the limit by more than rounding; of ``reserve``, below it."""
+    """Return True if an amount is beyond a limit by more than rounding; for ``reserve``, below it."""
     slack = ROUNDING * max(1.0, abs(limit))
     return used < limit - slack if kind == "reserve" else used > limit + slack
 
 
 def final_status(status: MissionStatus, found: Sequence[Exceeded]) -> MissionStatus:
-    """Return the status of a mission that ended so: one that is over and beyond a limit is ``exceeded``."""
+    """Return the status of a mission: ``exceeded`` if it ended normally beyond a limit, else as given."""
     return "exceeded" if found and status in ("completed", "returned") else status
 
 
 def reason_with(found: Sequence[Exceeded], reason: str) -> str:
-    """Return why a mission was no success: the limits that it exceeded, then the reason that its end gave."""
+    """Return the reason why a mission was no success: the exceeded limits, then the reason recorded at its end."""
     return joined("; ", [*(one.why for one in found), *([reason] if reason else [])])
 
 
 def say_status(status: MissionStatus) -> str:
-    """Say how a mission ended, to follow "mission": "completed", "ended, limit exceeded"."""
+    """Return the end of a mission in words that follow "mission": "completed", "ended, limit exceeded"."""
     match status:
         case "completed":
             return message("completed", context="mission")
@@ -98,7 +97,7 @@ def say_status(status: MissionStatus) -> str:
 
 
 def say_exceeded(kind: LimitKind, used: float, limit: float, t: float, near: str) -> str:
-    """Say which limit was exceeded, when and where."""
+    """Return a sentence on which limit was exceeded, when and where."""
     amounts = {"used": _digits(used, limit), "allowed": _digits(limit, limit)}
     match kind:
         case "distance_m":
@@ -125,7 +124,7 @@ def _exceeded(kind: LimitKind, limit: float, started: Started, events: Sequence[
 
 
 def _amount(kind: LimitKind, started: Started, event: Event) -> float | None:
-    """Return how much of a limit an event shows as used; None if it does not."""
+    """Return the amount of a limit that an event shows as used; None if it shows none."""
     if kind == "duration_s":
         return event.t - started.t
     if kind == "distance_m":
@@ -136,7 +135,9 @@ def _amount(kind: LimitKind, started: Started, event: Event) -> float | None:
 
 
 def _near(event: Event, before: Sequence[Event]) -> str:
-    """Return where the robot was at an event, or on which way: an arrival shows what happened before it."""
+    """Return the location of the robot at an event: at a place, or on the way to one. An arrival reports on the drive
+    before it.
+    """
     last = next((e for e in (event, *reversed(before)) if isinstance(e, Arrived | Driving)), None)
     if last is None:
         return ""
@@ -147,7 +148,7 @@ def _near(event: Event, before: Sequence[Event]) -> str:
 
 
 def _digits(value: float, limit: float) -> str:
-    """A number with as many decimals as tell it from the limit."""
+    """Return a number with enough decimals to distinguish it from the limit."""
     for decimals in range(1, 7):
         said = f"{value:.{decimals}f}"
         if value == limit or said != f"{limit:.{decimals}f}":

@@ -1,8 +1,8 @@
-"""Words that ask for nothing wherever they stand: the only ones that a planner may leave out without a warning.
+"""Words that ask for nothing wherever they occur: the only words that a planner may ignore without a warning.
 
-The list is closed on purpose. A word that it lacks costs one confirmation; a word too many costs a wrong mission.
-So it holds no number, no side, no time, no manner, no word of what is measured, and nothing that negates or restricts
-("not", "except", "if", "instead").
+The list is deliberately small. A missing word costs one confirmation; a wrong word costs a wrong mission. So it has no
+number, side, time, manner or measured quantity, and nothing that negates or restricts ("not", "except", "if",
+"instead").
 """
 
 from __future__ import annotations
@@ -29,14 +29,14 @@ _COURTESY = _words(
     well yes
     """
 )
-#: Who is spoken to, and with what it works.
+#: Names for the robot and its equipment.
 _ADDRESSED = _words(
     """
     bot camera case equipment goal instruction instructions job machine mission missions onboard plan request
     robot robots rover sensor sensors task test thing things ugv unit vehicle
     """
 )
-#: Verbs and phrases that only lead to what is asked.
+#: Verbs and phrases that only introduce the request.
 _LEADING = _words(
     """
     able ask asked because before begin capture carry check choose collect come deploy do doing done drive driving
@@ -46,7 +46,7 @@ _LEADING = _words(
     that's there's through u use using visit want wanted wants way we'd we're what what's whats wish wishes you'd
     """
 )
-#: Words that are said of everything, and nouns that all requests are about.
+#: Words of little content, and nouns common to all requests.
 _SAYING_LITTLE = _words(
     """
     actually after again any apart approximately around basically block certain confirm consider content distance
@@ -63,5 +63,5 @@ FILLER_WORDS = FUNCTION_WORDS | _COURTESY | _ADDRESSED | _LEADING | _SAYING_LITT
 
 
 def is_filler(word: str) -> bool:
-    """Return True if a word asks for nothing wherever it stands."""
+    """Return True if a word asks for nothing wherever it occurs."""
     return word.strip().lower().replace("\u2019", "'").rstrip(".") in FILLER_WORDS

@@ -1,6 +1,7 @@
-"""The frames of IEEE 1872.1-2024: what a Task holds beside its plan.
+"""The frames of IEEE 1872.1-2024: everything in a Task beside its plan.
 
-Command (goal, state, parameter), task composition (plan, exits), results (goals' metrics), constraints and resources.
+Command (goal, state, parameter), task composition (plan, exits), results (metrics of the goals), constraints and
+resources.
 """
 
 from __future__ import annotations
@@ -19,13 +20,13 @@ BudgetKind = Literal["distance_m", "duration_s", "energy_percent"]
 
 @dataclass(frozen=True, kw_only=True)
 class Goal:
-    """A countable outcome that was asked for; its outcome is success, failure or indeterminate.
+    """A countable outcome to be evaluated as success, failure or indeterminate.
 
     Attributes:
-        node: The ``Act`` that serves it.
-        expected: Captures wanted where the request fixes their number; None where the site or a reading decides.
-        conditional: The node stands under an if or an otherwise: not reaching it is no failure.
-        optional: The budget decides how often ("as many as you can").
+        node: Id of the ``Act`` that serves it.
+        expected: Number of captures where the request fixes it; None where the site or a reading decides.
+        conditional: The node is inside an if or an otherwise, so not reaching it is no failure.
+        optional: The budget decides how many are made ("as many as you can").
     """
 
     id: str
@@ -38,7 +39,7 @@ class Goal:
 
 @dataclass(frozen=True, kw_only=True)
 class Variable:
-    """A state variable: the reading that a node binds."""
+    """A state variable: the reading bound by a node."""
 
     name: str
     quantity: str
@@ -48,12 +49,12 @@ class Variable:
 
 @dataclass(frozen=True, kw_only=True)
 class Command:
-    """What was asked: the request word for word, its goals, its state variables, what was assumed in reading it.
+    """The command frame: request, goals, state variables, and assumptions made in interpreting the request.
 
     Attributes:
-        no_part: Ranges of the request that have no part in the plan: politeness, a reason that is given.
-        read_as: The request with what was answered to questions about it; empty where nothing was asked.
-        warnings: What its planner wants confirmed before it is approved, as sentences.
+        no_part: Ranges of the request without a part in the plan, such as politeness or a reason.
+        read_as: The request with the answers to clarifying questions; empty without questions.
+        warnings: Sentences that the planner wants confirmed before approval.
     """
 
     request: str
@@ -67,7 +68,7 @@ class Command:
 
 @dataclass(frozen=True, kw_only=True)
 class FaultedExit:
-    """What to do when a fault ends the mission."""
+    """The exit to take when a fault ends the mission."""
 
     fault: Fault
     then: Then
@@ -78,7 +79,7 @@ class Composition:
     """The plan and its exits. ``nominal`` is taken when the plan is done.
 
     Attributes:
-        nominal_said: Ranges of the request that say where the robot goes then.
+        nominal_said: Ranges of the request that state the nominal exit.
     """
 
     plan: Node
@@ -94,7 +95,7 @@ class Budget:
     Attributes:
         kind: Metres driven, seconds, or percent of a full battery.
         failure_probability: Accepted chance of exceeding it (Pf), above 0 and below 1.
-        said: Ranges of the request from which it came.
+        said: Ranges of the request that state it.
     """
 
     kind: BudgetKind
@@ -108,9 +109,9 @@ class Constraints:
     """Limits of the whole mission.
 
     Attributes:
-        reserve_percent: The charge that must be left at the end; else the profile's own reserve.
-        speed_m_s: Drive no faster.
-        reserve_said: Ranges of the request that ask for the reserve.
+        reserve_percent: Charge to leave at the end; None for the profile's reserve.
+        speed_m_s: Maximum speed.
+        reserve_said: Ranges of the request that state the reserve.
     """
 
     budgets: tuple[Budget, ...] = ()
@@ -121,7 +122,7 @@ class Constraints:
 
 @dataclass(frozen=True, kw_only=True)
 class Resource:
-    """A resource that the Task was planned for, by name and SHA-256 of its source."""
+    """A resource for which the Task was planned, identified by name and the SHA-256 of its source."""
 
     kind: Literal["robot", "site"]
     name: str
@@ -130,7 +131,7 @@ class Resource:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Task:
-    """A mission as it is planned, approved, carried out and judged (level 1 of the design)."""
+    """A mission as it is planned, approved, executed and evaluated (level 1 of the design)."""
 
     id: str
     command: Command

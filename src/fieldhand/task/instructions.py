@@ -1,6 +1,6 @@
-"""What the meaning of a plan asks of whoever carries it out, and what is answered.
+"""Instructions that an executing plan yields, and the results it is sent.
 
-A place is the carrier's own: nothing here looks into one. The *place in hand* is the last that was driven to.
+Places are opaque here: their type belongs to the executor. The *current place* is the last one driven to.
 """
 
 from __future__ import annotations
@@ -20,15 +20,15 @@ if TYPE_CHECKING:
     from fieldhand.task.plan import Node
 
 OpaquePlace: TypeAlias = Any
-#: The visits of a for-each that is under way, as the carrier keeps them.
+#: The visits of a for-each under way, in a type of the executor.
 OpaqueTour: TypeAlias = Any
-#: What an action measured, by quantity.
+#: Measured values by quantity.
 Reading: TypeAlias = Mapping[str, float]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Locate:
-    """Which place a selector means now; without a selector the place in hand. Answer: the one place."""
+    """Resolve a selector now; without a selector, the current place. Result: the one place."""
 
     node: Node
     selector: Selector | None
@@ -36,7 +36,7 @@ class Locate:
 
 @dataclass(frozen=True, kw_only=True)
 class Permit:
-    """Whether work that must be done may go ahead. Answer: nothing; what forbids it is thrown in, or ends the plan."""
+    """Ask permission for mandatory work at a place. Result: none; a refusal is thrown in, or ends the plan."""
 
     node: Node
     place: OpaquePlace
@@ -44,11 +44,11 @@ class Permit:
 
 @dataclass(frozen=True, kw_only=True)
 class DriveTo:
-    """Be at a place. Answer: the place as it was reached, which now is the place in hand.
+    """Drive to a place. Result: the place as reached, now the current place.
 
     Attributes:
-        tour: The visits of which this is one; None for a drive of its own.
-        back: To the place in hand: nothing is driven, unless a drive that failed has left the robot elsewhere.
+        tour: The for-each tour that the visit belongs to; None for a drive of its own.
+        back: Return to the current place: no drive, unless a failed drive displaced the robot.
     """
 
     node: Node
@@ -59,7 +59,7 @@ class DriveTo:
 
 @dataclass(frozen=True, kw_only=True)
 class BindLabel:
-    """Let a label mean some places. Answer: nothing. An empty label binds nothing."""
+    """Bind a label to places; an empty label binds nothing. Result: none."""
 
     node: Node
     label: str
@@ -68,14 +68,14 @@ class BindLabel:
 
 @dataclass(frozen=True, kw_only=True)
 class Capture:
-    """Make the captures of an action at the place in hand. Answer: what the last of them measured."""
+    """Make the captures of an action at the current place. Result: the values measured by the last one."""
 
     node: Act
 
 
 @dataclass(frozen=True, kw_only=True)
 class ForgetReading:
-    """Nothing is known of a reading any more. Answer: nothing."""
+    """Clear a reading. Result: none."""
 
     node: Act
     reading: str
@@ -83,7 +83,7 @@ class ForgetReading:
 
 @dataclass(frozen=True, kw_only=True)
 class SetReading:
-    """Let a reading be what was measured. Answer: nothing."""
+    """Bind a reading to measured values. Result: none."""
 
     node: Act
     reading: str
@@ -92,7 +92,7 @@ class SetReading:
 
 @dataclass(frozen=True, kw_only=True)
 class Decide:
-    """Whether a condition holds now. Answer: yes or no."""
+    """Evaluate a condition now. Result: True or False."""
 
     node: Node
     condition: Condition
@@ -100,21 +100,21 @@ class Decide:
 
 @dataclass(frozen=True, kw_only=True)
 class ArrangeSteps:
-    """In which order some steps are done. Answer: the position of each, once."""
+    """Choose the order of some steps. Result: the position of each, once."""
 
     node: AnyOrder
 
 
 @dataclass(frozen=True, kw_only=True)
 class BeginVisits:
-    """The visits of a for-each: its selector is resolved now. Answer: the tour."""
+    """Resolve the selector of a for-each. Result: the tour."""
 
     node: ForEach
 
 
 @dataclass(frozen=True, kw_only=True)
 class NextVisit:
-    """Which visit of a tour comes next. Answer: its place; None where none does."""
+    """Choose the next visit of a tour. Result: its place; None where none is left."""
 
     node: ForEach
     tour: OpaqueTour
@@ -123,7 +123,7 @@ class NextVisit:
 
 @dataclass(frozen=True, kw_only=True)
 class BeginRound:
-    """Another round of a repeat begins. Answer: nothing."""
+    """Announce another round of a repeat. Result: none."""
 
     node: Repeat
     left: int
@@ -131,7 +131,7 @@ class BeginRound:
 
 @dataclass(frozen=True, kw_only=True)
 class OfferStep:
-    """Whether an optional step is done. Answer: yes or no."""
+    """Ask whether to do an optional step. Result: True or False."""
 
     node: OptionalStep
 

@@ -1,4 +1,4 @@
-"""Crossings of a limit or of a battery level, in words."""
+"""Word the crossing of a limit or of a battery level."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from fieldhand.task.results import LimitCrossed
 
 
 def say_crossing(event: LimitCrossed) -> str:
-    """Say which level or limit was crossed, and what the robot does about it."""
+    """Return a sentence on the level or limit that was crossed and the robot's response."""
     what = _cleared(event) if event.cleared else _crossed(event)
     match event.then:
         case "return":

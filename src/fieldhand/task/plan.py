@@ -1,14 +1,14 @@
 """Plan nodes: the composite and atomic tasks of a Task.
 
-Every node has an ``id`` that is unique in its Task and stays the same from planning to the report. ``said`` holds the
-character ranges of the request (start, end) from which the node came; empty where nothing in the request says it.
+Every node has an ``id`` that is unique in its Task and stays the same from planning to the report. ``said`` lists the
+character ranges of the request (start, end) from which the node came; it is empty where the request does not state it.
 
-What a plan means is said once, in the node's own file (:mod:`fieldhand.task.nodes`). Preview, robot and reader of a log
-carry that out (:class:`fieldhand.task.run.Run`), and differ only in what they answer.
+The semantics of a node are defined once, in its own file (:mod:`fieldhand.task.nodes`). Preview, robot and log reader
+all execute that definition (:class:`fieldhand.task.run.Run`) and differ only in how they answer its instructions.
 
-The budget guard may shed what is optional (:attr:`~.nodes.base.PlanNode.is_optional`), and the mission goes on: work
-that was shed did not fail. It is asked about an ``OptionalStep`` once, when that is reached, about all of it; in one
-stands nothing else that is optional.
+The budget guard may shed optional work (:attr:`~.nodes.base.PlanNode.is_optional`); the mission continues, and shed
+work did not fail. It decides about an ``OptionalStep`` once and as a whole, when the step is reached; nothing inside
+one is optional itself.
 """
 
 from __future__ import annotations
@@ -48,12 +48,12 @@ Node = InOrder | AnyOrder | ForEach | Repeat | If | Try | OptionalStep | GoTo | 
 
 
 def walk(node: Node) -> Iterator[Node]:
-    """This node and every one inside it, outermost first."""
+    """Yield this node and all nodes inside it, outermost first."""
     yield node
     for child in node.children:
         yield from walk(child)
 
 
 def acts(node: Node) -> Iterator[Act]:
-    """The actions of this node and of every one inside it, in the order in which they stand."""
+    """Yield the actions in this node and all nodes inside it, in document order."""
     return (inner.act for inner in walk(node) if inner.act is not None)

@@ -1,4 +1,4 @@
-"""What no schema can check: that the parts of a Task refer to each other rightly."""
+"""Check what no schema can: that the parts of a Task refer to each other correctly."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from fieldhand.task.plan import Node, walk
 
 
 def references(task: Task, capabilities: Capabilities | None = None) -> tuple[str, ...]:
-    """What is wrong with the references inside a Task, a sentence each with the node's id; empty if nothing is.
+    """Return the faulty references inside a Task, one sentence each with the node's id; empty if there are none.
 
-    Ids are unique; goals and state variables name actions of the plan; a place is bound before it is named; a reading
-    is taken before it is tested, by a node that can come first on some branch, and neither by an optional step, which
-    may be shed; a range has its low end first; nothing optional stands inside an optional step, nor that inside an
-    optional for-each; optional visits have no given order; nested repeats do not multiply beyond ``MAX_ROUNDS``. With
-    capabilities: each of those readings measures the quantity that is tested.
+    Rules: ids are unique; goals and state variables name actions of the plan; a label is bound before it is used; a
+    reading is taken before it is tested, by a node that can precede the test on some branch and is not inside an
+    optional step, which may be shed; ranges have their low end first; no optional work is nested in an optional step,
+    nor an optional step in an optional for-each; optional visits have no fixed order; nested repeats do not multiply
+    beyond ``MAX_ROUNDS``. With capabilities: the actions that take a tested reading measure the tested quantity.
     """
     nodes = {node.id: node for node in walk(task.composition.plan)}
     problems = [*_ids(task), *_frames(task, nodes), *_endless(task.composition.plan)]
@@ -58,12 +58,12 @@ def _frames(task: Task, nodes: Mapping[str, Node]) -> Iterator[str]:
             yield f"state variable {variable.name!r} is not the reading that {variable.node!r} binds"
 
 
-#: Rounds of nested repeats, multiplied: more than a robot makes in any mission.
+#: Maximum product of the rounds of nested repeats; no real mission needs as many.
 MAX_ROUNDS = 100_000
 
 
 def _endless(plan: Node, around: int = 1) -> Iterator[str]:
-    """Repeats whose rounds multiply beyond all use; of nested ones the outermost at which they do."""
+    """Yield a problem for each outermost repeat at which the product of rounds exceeds the maximum."""
     rounds = around * (1 if plan.rounds is None else plan.rounds)
     if rounds > MAX_ROUNDS:
         yield f"node {plan.id!r} comes to {rounds:,} rounds, with the loops around it; {MAX_ROUNDS:,} is the most"
@@ -73,7 +73,9 @@ def _endless(plan: Node, around: int = 1) -> Iterator[str]:
 
 
 def _twice_optional(node: Node, around: Node | None = None) -> Iterator[str]:
-    """Optional steps in, or around, what is optional: which of the two the guard would weigh is not said."""
+    """Yield a problem for each optional step nested in, or around, optional work: the guard could not decide which to
+    shed.
+    """
     if around is not None and node.is_optional and (node.is_optional_step or around.is_optional_step):
         yield f"node {node.id!r} is optional inside {around.id!r}, which is optional as a whole; make one of them plain"
     for child in node.children:
@@ -81,7 +83,7 @@ def _twice_optional(node: Node, around: Node | None = None) -> Iterator[str]:
 
 
 def _ordered_optional(plan: Node) -> Iterator[str]:
-    """Optional visits in a given order: the solver chooses which are made, and in which order."""
+    """Yield a problem for each for-each with optional visits in a fixed order: the solver chooses visits and order."""
     for node in walk(plan):
         if node.is_optional and node.visits_each and not node.in_any_order:
             yield (
@@ -93,7 +95,7 @@ def _ordered_optional(plan: Node) -> Iterator[str]:
 
 @dataclass(frozen=True, kw_only=True)
 class _Known:
-    """What may be bound when a node is reached: labels, and for each reading the actions that may have taken it."""
+    """Bindings possible when a node is reached: labels, and for each reading the actions that may have taken it."""
 
     labels: frozenset[str] = frozenset()
     readings: Mapping[str, frozenset[str]] = field(default_factory=dict)
@@ -102,11 +104,11 @@ class _Known:
         return _Known(labels=self.labels | {name}, readings=self.readings) if name else self
 
     def reading(self, name: str, action: str) -> _Known:
-        """A reading taken anew replaces what was bound before."""
+        """Return the bindings after a reading was taken anew, which replaces the previous one."""
         return _Known(labels=self.labels, readings={**self.readings, name: frozenset({action})}) if name else self
 
     def within(self, names: _Known) -> _Known:
-        """What is left of it where only names that were bound before count."""
+        """Return the bindings restricted to names that were bound before."""
         readings = {name: actions for name, actions in self.readings.items() if name in names.readings}
         return _Known(labels=self.labels & names.labels, readings=readings)
 
@@ -121,7 +123,7 @@ class _Known:
 class _Found:
     problems: list[str]
     capabilities: Capabilities | None
-    #: Names that optional steps bind: nobody outside can count on them.
+    #: Names bound inside optional steps, which are unreliable outside.
     shed: set[str] = field(default_factory=set)
 
     def add(self, problem: str) -> None:
@@ -131,7 +133,7 @@ class _Found:
 
 
 def _visit(node: Node, known: _Known, found: _Found) -> _Known:
-    """Check a node given what may be bound before it; returns what may be bound after it."""
+    """Check a node given the bindings possible before it, and return those possible after it."""
     _check_places(node, known, found)
     known = known.label(node.label)
     if node.act is not None:

@@ -1,8 +1,9 @@
-"""What became of each word of the request, by the ranges that a Task carries, whichever planner wrote it.
+"""Classify each word of the request by the part of the plan that it became, for any planner.
 
-Only what a Task says is believed: a word that stands in no range became nothing, unless it is one of the words that say
-nothing alone. A planner may say of words that they have no part in the plan; of a word that means something
-(:mod:`fieldhand.task.filler_words`) and stands nowhere else in the plan's words, that is not believed either.
+The classification rests only on the character ranges that the Task carries. A word outside every range counts as
+missing, unless it is a function word that asks for nothing by itself. A planner may mark words as having no part in the
+plan; a word with content (:mod:`fieldhand.task.filler_words`) that occurs nowhere else in the plan's words counts as
+missing all the same.
 """
 
 from __future__ import annotations
@@ -18,11 +19,11 @@ from fieldhand.task.filler_words import FUNCTION_WORDS, is_filler
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Span, acts, walk
 
-#: What words can become. Of two ranges that are the same, the role that stands first here is shown.
+#: Roles of words. Where two ranges coincide, the role listed first is shown.
 WordRole = Literal["condition", "limit", "end", "action", "place", "order", "no_part", "nothing", "between"]
 ROLES: tuple[WordRole, ...] = get_args(WordRole)
 
-#: How each is called; ``between`` has no name, since it is nothing to show.
+#: Display name of each role; ``between`` has none, since it is not shown.
 ROLE_NAMES: dict[WordRole, str] = {
     "action": message("action", context="role"),
     "place": message("place", context="role"),
@@ -38,12 +39,12 @@ _WORD = re.compile(r"\w+(?:['\u2019.,\-]\w+)*\s?[%\u00b0]?")
 
 @dataclass(frozen=True, kw_only=True)
 class Piece:
-    """A stretch of the request whose words became one kind of thing.
+    """A stretch of the request whose words have one role.
 
     Attributes:
-        role: ``condition``, ``limit``, ``end``, ``action``, ``place``, ``order`` (and number); ``no_part`` for what the
-            planner knows to have none; ``nothing`` for what is missing; ``between`` for words and signs that only
-            stand between others.
+        role: ``condition``, ``limit``, ``end``, ``action``, ``place``, ``order`` (also numbers); ``no_part`` for words
+            that the planner marked as having no part in the plan; ``nothing`` for words missing from the plan;
+            ``between`` for words and punctuation between the others.
     """
 
     text: str
@@ -51,7 +52,7 @@ class Piece:
 
 
 def request_pieces(task: Task) -> tuple[Piece, ...]:
-    """The request in pieces, in order; put together they are the request."""
+    """Return the request as pieces in order; concatenated, they give the request."""
     request = task.command.request
     roles: list[WordRole] = ["between"] * len(request)
     for start, end, role in _words(task):
@@ -67,12 +68,12 @@ def request_pieces(task: Task) -> tuple[Piece, ...]:
 
 
 def has_ranges(task: Task) -> bool:
-    """Whether a Task says of any words what became of them."""
+    """Return True if the Task carries any range of the request."""
     return any(True for _ in _ranges(task))
 
 
 def _words(task: Task) -> Iterator[tuple[int, int, WordRole]]:
-    """Every word of the request that says something alone, with its role: that of the shortest range around it."""
+    """Yield start, end and role of every word with content; the shortest range around a word decides its role."""
     ranges = sorted(_ranges(task), key=lambda found: (found[0][1] - found[0][0], ROLES.index(found[1])))
     found: list[tuple[str, int, int, WordRole]] = []
     for word in _WORD.finditer(task.command.request):
@@ -95,7 +96,7 @@ def _stem(word: str) -> str:
 
 
 def _ranges(task: Task) -> Iterator[tuple[Span, WordRole]]:
-    """Every range of a Task with what it became."""
+    """Yield every range of a Task with its role."""
     for node in walk(task.composition.plan):
         yield from ((span, node.role) for span in node.said)
         yield from ((span, "place") for span in node.at_said)

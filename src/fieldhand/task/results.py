@@ -1,9 +1,9 @@
-"""The results frame: what happened, as events, and what came of each goal, as outcomes.
+"""The results frame: events during a mission, and the outcome of each goal.
 
-An event log is one JSON object a line (:mod:`fieldhand.task.event_lines`), in the order in which things happened:
-``event`` names the type, the other keys are the fields below. Execution writes events; evaluation reads them; other
-programs may, too. Every event has ``t`` (seconds since the mission began) and ``node`` (id of the plan node, empty
-where none is meant). Degrees are WGS 84.
+An event log has one JSON object per line (:mod:`fieldhand.task.event_lines`), in chronological order: ``event`` names
+the type, the other keys are the fields below. Execution writes events; evaluation and other programs read them. Every
+event has ``t`` (seconds since the mission began) and ``node`` (id of the plan node, or empty). Coordinates are degrees,
+WGS 84.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ Crossing = Literal["warn", "return", "stop", "reserve", "limit", "way_home", "ou
 
 @dataclass(frozen=True, kw_only=True)
 class Started:
-    """The mission begins. ``seed`` is None where the robot is real.
+    """The mission begins. ``seed`` is None for a real robot.
 
-    ``at`` is the wall clock's time then (ISO 8601, UTC), empty where there is none: ``at`` and ``t`` give any event's
-    own, whatever is done to the wall clock meanwhile. ``reserve_percent`` is the charge that must be left at the end;
-    None in logs of earlier versions.
+    ``at`` is the wall-clock time (ISO 8601, UTC), empty without a clock; ``at`` plus ``t`` gives the time of any event,
+    even if the wall clock is set meanwhile. ``reserve_percent`` is the charge to leave at the end; None in logs of
+    earlier versions.
     """
 
     event: ClassVar[str] = "started"
@@ -43,7 +43,7 @@ class Started:
 
 @dataclass(frozen=True, kw_only=True)
 class Visiting:
-    """A for-each has resolved its selector: the ids of its places in the order planned."""
+    """A for-each resolved its selector: ids of its places in the planned order."""
 
     event: ClassVar[str] = "visiting"
     t: float
@@ -54,7 +54,7 @@ class Visiting:
 
 @dataclass(frozen=True, kw_only=True)
 class Driving:
-    """A drive begins; ``path`` holds its corners as (lat, lon), ``speed_m_s`` how fast the robot was told to drive."""
+    """A drive begins. ``path`` lists its corners as (lat, lon), ``speed_m_s`` is the commanded speed."""
 
     event: ClassVar[str] = "drive"
     t: float
@@ -68,7 +68,7 @@ class Driving:
 
 @dataclass(frozen=True, kw_only=True)
 class Arrived:
-    """A drive is done: where the robot is, what the leg cost and what was driven in all."""
+    """A drive ended: position of the robot, length of the leg and total distance."""
 
     event: ClassVar[str] = "arrive"
     t: float
@@ -84,9 +84,9 @@ class Arrived:
 
 @dataclass(frozen=True, kw_only=True)
 class Acted:
-    """An action is done or has failed. ``lat``/``lon`` are those of the tree or point that it was done at.
+    """An action was done or failed. ``lat``/``lon`` are those of the tree or point where it was done.
 
-    ``readings`` holds the value of each quantity measured, in the unit of the profile. ``count`` is 1: every capture is
+    ``readings`` maps each measured quantity to its value, in the unit of the profile. ``count`` is 1: every capture is
     an event of its own.
     """
 
@@ -109,9 +109,9 @@ class Acted:
 
 @dataclass(frozen=True, kw_only=True)
 class InDoubt:
-    """A capture was in the air when the power was cut: nobody knows whether it was made.
+    """A capture was in progress when the power failed; it is unknown whether it was made.
 
-    ``then`` says what follows: it is made again (``repeat``), or taken as it is, without readings (``skip``).
+    ``then`` is the response: capture again (``repeat``), or accept it without readings (``skip``).
     """
 
     event: ClassVar[str] = "in_doubt"
@@ -133,7 +133,9 @@ class InDoubt:
 
 @dataclass(frozen=True, kw_only=True)
 class Resumed:
-    """The mission goes on after a power cut, where the robot is now. The time without power does not count."""
+    """The mission continues after a power failure from the robot's present position. The time without power does not
+    count.
+    """
 
     event: ClassVar[str] = "resumed"
     t: float
@@ -145,7 +147,7 @@ class Resumed:
 
 @dataclass(frozen=True, kw_only=True)
 class Paused:
-    """A person told the robot to wait; it stands still as soon as the capture in hand is made."""
+    """An operator paused the mission; the robot stops once the current capture is made."""
 
     event: ClassVar[str] = "paused"
     t: float
@@ -164,7 +166,7 @@ class Continued:
 
 @dataclass(frozen=True, kw_only=True)
 class Decided:
-    """A condition was tested; ``why`` says it in words ("canopy_temperature 31.2 degC is below 33 degC")."""
+    """A condition was tested; ``why`` explains the result ("canopy_temperature 31.2 degC is below 33 degC")."""
 
     event: ClassVar[str] = "condition"
     t: float
@@ -175,7 +177,7 @@ class Decided:
 
 @dataclass(frozen=True, kw_only=True)
 class Shed:
-    """Work was given up, to stay inside the budget or because no way leads to it: which places, and why."""
+    """Work was dropped, to stay within the budget or because no way leads to it: the places, and the reason."""
 
     event: ClassVar[str] = "shed"
     t: float
@@ -189,10 +191,10 @@ class Shed:
 
 @dataclass(frozen=True, kw_only=True)
 class Obstructed:
-    """Something stands in the way to a place, or what stood there is taken as gone (``free``) and will be tried again.
+    """An obstacle blocks the way to a place, or (``free``) a blocked area is assumed clear and will be tried again.
 
-    ``blocked`` is all that the robot will not drive over from now on, each area as its corners (lat, lon).
-    ``unreachable`` are the trees to which no way leads any more from where it stands, of those to which one led before.
+    ``blocked`` lists every area that the robot avoids from now on by its corners (lat, lon). ``unreachable`` lists
+    trees that could be reached before and no longer can.
     """
 
     event: ClassVar[str] = "obstacle"
@@ -211,9 +213,9 @@ class Obstructed:
 
 @dataclass(frozen=True, kw_only=True)
 class Waited:
-    """The robot stood still for what may come right by itself: a way, or knowing where it is.
+    """The robot waited for a problem to resolve itself: a blocked way, or a lost position.
 
-    ``over``: it knows where it is again; there is a way that it will try again.
+    ``over``: the position is known again, or there is a way to try.
     """
 
     event: ClassVar[str] = "wait"
@@ -227,15 +229,15 @@ class Waited:
 
 @dataclass(frozen=True, kw_only=True)
 class LimitCrossed:
-    """A limit, or a level of the battery, was crossed while the robot drove, worked or stood; each once.
+    """A limit or battery level was crossed; reported once each.
 
-    ``level``: ``warn``, ``return`` and ``stop`` of the battery; ``reserve``: less charge is left than must be;
-    ``limit``: more was used of ``quantity`` than a budget allows; ``way_home``: ``value``, which is left of
-    ``quantity`` (of the charge, above the reserve), only just lasts for the way home, which takes ``threshold`` on
-    average; ``out_of_reach``: the charge above the stop level does not last for it. Of the others ``value`` is what was
-    read and ``threshold`` the level.
+    ``level``: ``warn``, ``return`` and ``stop`` of the battery; ``reserve``: less charge is left than required;
+    ``limit``: more of ``quantity`` was used than a budget allows; ``way_home``: ``value``, the rest of ``quantity`` (of
+    the charge, above the reserve), barely suffices for the way home, which takes ``threshold`` on average;
+    ``out_of_reach``: the charge above the stop level does not suffice for it. For the other levels ``value`` is the
+    reading and ``threshold`` the level.
 
-    ``then``: what the robot does about it; ``end``: its mission is over where it stands, as no way home was reserved.
+    ``then``: response of the robot; ``end`` ends the mission where the robot is, as no way home was reserved.
     ``cleared``: the charge is well above the level again.
     """
 
@@ -256,7 +258,7 @@ class LimitCrossed:
 
 @dataclass(frozen=True, kw_only=True)
 class ClockSet:
-    """Somebody set the wall clock, by so many seconds forward or back. ``t`` does not know of it."""
+    """The wall clock was set by so many seconds, forward or back; ``t`` is not affected."""
 
     event: ClassVar[str] = "clock"
     t: float
@@ -266,7 +268,7 @@ class ClockSet:
 
 @dataclass(frozen=True, kw_only=True)
 class Faulted:
-    """Something failed for good, or was retried and worked around (``handled``)."""
+    """Something failed for good, or was retried or worked around (``handled``)."""
 
     event: ClassVar[str] = "fault"
     t: float
@@ -278,7 +280,7 @@ class Faulted:
 
 @dataclass(frozen=True, kw_only=True)
 class Exited:
-    """The plan is over and the mission takes an exit; ``node`` is the ``Stop`` that ended the plan, if one did."""
+    """The plan is over and the mission takes an exit; ``node`` is the ``StopMission`` that ended the plan, if any."""
 
     event: ClassVar[str] = "exit"
     t: float
@@ -290,11 +292,11 @@ class Exited:
 
 @dataclass(frozen=True, kw_only=True)
 class Ended:
-    """The mission is over: where the robot is and what was used.
+    """The mission is over: position of the robot and resources used.
 
-    ``completed``: the plan was done and its exit taken. ``returned``: the robot came home before the plan was done, so
-    that a limit would be kept. ``exceeded``: either of these, beyond a limit (:mod:`fieldhand.task.exceeded`).
-    ``faulted``: a fault ended it. ``aborted``: a person did.
+    ``completed``: the plan was done and its exit taken. ``returned``: the robot came home early to keep a limit.
+    ``exceeded``: either of these, beyond a limit (:mod:`fieldhand.task.exceeded`). ``faulted``: a fault ended it.
+    ``aborted``: an operator did.
     """
 
     event: ClassVar[str] = "mission"
@@ -332,12 +334,12 @@ Event = (
 
 @dataclass(frozen=True, kw_only=True)
 class GoalOutcome:
-    """What came of a goal.
+    """The outcome of a goal.
 
     Attributes:
-        done: Captures that succeeded.
-        wanted: Captures that were asked for on the branch that was taken; None where it is not known (cut off before).
-        why: In words.
+        done: Number of successful captures.
+        wanted: Number of captures required on the branch taken; None where unknown (the mission was cut off before).
+        why: Explanation in words.
     """
 
     goal: str

@@ -1,4 +1,4 @@
-"""A plan under way: which nodes are in hand, one inside the other, and how far each of them is."""
+"""Execution state of a plan: the stack of active nodes, and the progress of each."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ if TYPE_CHECKING:
 
 Outcome = Literal["done", "failed", "cut"]
 
-#: What takes its time: it yields until it is done.
+#: A generator that yields while it waits, and returns when done.
 Steps = Generator[None, None, None]
 
 
 @dataclass(kw_only=True)
 class StackFrame:
-    """A node in hand.
+    """An active node.
 
     Attributes:
-        left: Steps of it that come after the one in hand, in their order; of a repeat the rounds that are left.
+        left: Steps that follow the active one, in order; of a repeat the remaining rounds.
         tour: The visits of a for-each.
-        made: How many visits of it were made.
-        instead: What is done if the node inside fails; empty where the failure goes on outwards.
+        made: Number of visits made.
+        instead: Nodes executed if the active child fails; empty where the failure propagates.
     """
 
     node: Node
@@ -37,19 +37,19 @@ class StackFrame:
 
 
 def _unheard(*_: object) -> None:
-    """Nobody is told."""
+    """Do nothing: the default listener."""
 
 
 class Run:
-    """One time through a plan.
+    """One execution of a plan.
 
     Args:
-        plan: The root.
+        plan: Root node.
 
     Attributes:
-        frames: The nodes in hand, outermost first.
-        entered, left: Told of every node that is reached and that is over; ``cut`` where it was given up or the plan
-            ended inside it.
+        frames: The active nodes, outermost first.
+        entered, left: Listeners called when a node begins and ends; the outcome is ``cut`` where it was abandoned or
+            the plan ended inside it.
     """
 
     def __init__(self, plan: Node) -> None:
@@ -59,11 +59,11 @@ class Run:
         self.left: Callable[[Node, Outcome], None] = _unheard
 
     def program(self) -> Program:
-        """The meaning of the whole plan."""
+        """Return the program of the whole plan."""
         return self.do(self.plan)
 
     def do(self, node: Node) -> Program:
-        """Carry out one node inside the one in hand."""
+        """Execute a node inside the active one."""
         self.frames.append(StackFrame(node=node))
         depth = len(self.frames)
         outcome: Outcome = "cut"
@@ -83,35 +83,35 @@ class Run:
 
     @property
     def frame(self) -> StackFrame:
-        """The innermost node in hand."""
+        """The innermost active node."""
         return self.frames[-1]
 
     def outwards(self) -> Iterator[StackFrame]:
-        """The frames, innermost first."""
+        """Return the stack frames, innermost first."""
         return reversed(self.frames)
 
     @property
     def optional(self) -> StackFrame | None:
-        """The optional visit or step in hand; there is at most one."""
+        """The active optional visit or step; there is at most one."""
         return next((frame for frame in self.outwards() if frame.node.is_optional), None)
 
     @property
     def is_caught(self) -> bool:
-        """Return True if a ``Try`` goes on when the node in hand fails."""
+        """Return True if an enclosing ``Try`` continues when the active node fails."""
         return any(frame.instead for frame in self.frames)
 
 
 def carry_out(program: Program, answer: Callable[[Instruction], Any]) -> None:
-    """Carry a plan out to its end.
+    """Execute a program to its end.
 
     Args:
-        program: The meaning of a node.
-        answer: Answers each request, or raises :class:`Failed`, :class:`GivenUp` or :class:`Cut`, which is thrown into
-            the program. Whatever else it raises ends the program and comes out of here.
+        program: Program of a node.
+        answer: Returns the result of each instruction, or raises :class:`Failed`, :class:`GivenUp` or :class:`Cut`,
+            which are thrown into the program. Any other exception ends the program and propagates.
 
     Raises:
         Failed: Nothing in the plan catches the failure.
-        Stopped: The plan came to a ``Stop``.
+        Stopped: The plan reached a ``StopMission``.
     """
     try:
         request = next(program, None)
@@ -127,11 +127,11 @@ def carry_out(program: Program, answer: Callable[[Instruction], Any]) -> None:
 
 
 def carry_out_in_steps(program: Program, perform: Callable[[Instruction], Generator[None, None, Any]]) -> Steps:
-    """:func:`carry_out` by somebody whose answers take their time: it yields whenever an answer is waited for.
+    """Execute a program like :func:`carry_out`, but yield whenever a result has to be waited for.
 
     Args:
-        program: The meaning of a node.
-        perform: Gives the answer to a request in steps, or raises as there.
+        program: Program of a node.
+        perform: Generator that returns the result of an instruction, or raises as in :func:`carry_out`.
     """
     try:
         request = next(program, None)
@@ -147,7 +147,7 @@ def carry_out_in_steps(program: Program, perform: Callable[[Instruction], Genera
 
 
 def _sent(program: Program, found: Any) -> Instruction | None:
-    """The next request; None where there is none."""
+    """Send a result and return the next instruction; None at the end."""
     try:
         return program.send(found)
     except StopIteration:

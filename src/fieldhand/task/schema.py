@@ -1,9 +1,9 @@
-"""The schema of Task documents for one robot: XSD 1.0, generated from what the robot can do.
+"""Schema of the Task documents for one robot: XSD 1.0, generated from its capabilities.
 
-An action, a measured quantity, a level word or a parameter that the robot lacks, a unit that is not the quantity's and
-a parameter out of its bounds are not valid. XSD 1.0 cannot let one attribute depend on another, so each action and each
-quantity is an element of its own, with its own attributes. All else is derived from :mod:`.codec_shapes`, so schema and
-codec cannot drift apart. What no schema can say (a reading is tested before it is taken) stands in :mod:`.references`.
+Documents with an action, quantity, level word or parameter that the robot lacks, a wrong unit, or a parameter out of
+bounds are invalid. In XSD 1.0 one attribute cannot depend on another, so each action and each quantity is an element of
+its own with its own attributes. Everything else is derived from :mod:`.codec_shapes`, so schema and codec cannot
+diverge. Rules that no schema can express (a reading is taken before it is tested) are in :mod:`.references`.
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ if TYPE_CHECKING:
 
 __all__ = ["SchemaProblem", "require_valid", "schema_xsd", "validate", "vocabulary"]
 
-#: A compiled schema keeps what it found last: two threads must not ask it at once.
+#: A compiled schema stores its last error log, so only one thread may use it at a time.
 _ALONE = threading.Lock()
 
 
 def schema_xsd(capabilities: Capabilities, *, draft: bool = False) -> bytes:
-    """The schema of the Task documents that a robot can carry out, as a UTF-8 XSD 1.0 document.
+    """Return the schema of the Task documents that a robot can execute, as a UTF-8 XSD 1.0 document.
 
     Args:
-        capabilities: What the robot can do.
-        draft: The form that a language model writes: whatever ``task.build.make_task`` derives (ids, request, goals,
-            state, resources) may be left out.
+        capabilities: Capabilities of the robot.
+        draft: Give the form that a language model writes, which may omit whatever ``task.build.make_task`` derives
+            (ids, request, goals, state, resources).
     """
     from lxml import etree
 
@@ -48,9 +48,9 @@ def schema_xsd(capabilities: Capabilities, *, draft: bool = False) -> bytes:
 
 
 def validate(document: bytes, capabilities: Capabilities, *, draft: bool = False) -> tuple[SchemaProblem, ...]:
-    """What is wrong with a document by the schema of a robot, in the order of its lines; empty if it is valid.
+    """Return the schema violations of a document in the order of its lines; empty if it is valid.
 
-    A document that is not well-formed, or that is refused before it is read (entities, size), has that one problem.
+    A document that is not well-formed, or is refused before parsing (entities, size), has that one problem.
     """
     try:
         root = parse_xml(document)
@@ -67,7 +67,7 @@ def validate(document: bytes, capabilities: Capabilities, *, draft: bool = False
 
 
 class _Key:
-    """Capabilities as the key of a cache: by their value and its order, which is that of the schema."""
+    """Capabilities as a cache key: by value, and by order, which is the order of the schema."""
 
     def __init__(self, capabilities: Capabilities) -> None:
         self.capabilities = capabilities
@@ -89,16 +89,16 @@ def _compiled(key: _Key, draft: bool) -> XMLSchema:
 
 
 def require_valid(document: bytes, capabilities: Capabilities, *, source: str = "", draft: bool = False) -> None:
-    """Raise what is wrong with a document as one error; return if it is valid.
+    """Raise one error with the schema violations of a document; return if it is valid.
 
     Args:
-        document: The bytes of a Task document.
-        capabilities: What the robot can do.
-        source: What to call the document in the message.
+        document: Bytes of a Task document.
+        capabilities: Capabilities of the robot.
+        source: Name of the document in the message.
         draft: The document is a draft.
 
     Raises:
-        TaskError: It is not valid; the first three problems with line and element, and how many more there are.
+        TaskError: Invalid; the message has the first three problems with line and element, and the number of others.
     """
     problems = validate(document, capabilities, draft=draft)
     if problems:
@@ -108,7 +108,7 @@ def require_valid(document: bytes, capabilities: Capabilities, *, source: str = 
 
 
 def vocabulary(capabilities: Capabilities, *, draft: bool = False) -> Vocabulary:
-    """Which elements and attributes may stand in which element, for messages."""
+    """Return the elements and attributes allowed in each element, for messages."""
     schema = SchemaBuilder(capabilities=capabilities, draft=draft)
     made = Vocabulary()
     for shape in schema.shapes:
@@ -135,7 +135,7 @@ def vocabulary(capabilities: Capabilities, *, draft: bool = False) -> Vocabulary
 
 
 def _head_attributes(shape: Shape, head: str, capabilities: Capabilities) -> list[str]:
-    """The attributes of the element of an action or a quantity."""
+    """Return the attributes of the element of an action or a quantity."""
     if shape.head is None or shape.head.of == "action":
         return list(capabilities.actions[head].parameters)
     return [a.name for a in shape.head.attributes]

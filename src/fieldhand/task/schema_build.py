@@ -1,4 +1,4 @@
-"""Build the schema of Task documents from the shapes of the dataclasses and what one robot can do."""
+"""Build the schema of Task documents from the shapes of the dataclasses and a robot's capabilities."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 _XS = "http://www.w3.org/2001/XMLSchema"
 
-#: What the type of a field does not say of its value: XSD facets by field name, in whatever class it stands.
+#: Restrictions beyond the type of a field: XSD facets by field name, for every class.
 _FACETS: dict[str, dict[str, str]] = {
     "count": {"minInclusive": "1", "maxInclusive": "1000"},
     "times": {"minInclusive": "1", "maxInclusive": "1000"},
@@ -59,16 +59,16 @@ class SchemaBuilder:
 
     @cached_property
     def shapes(self) -> tuple[Shape, ...]:
-        """Every class that this robot has a use for: one that tests a level needs a quantity that has one."""
+        """Return the shapes of every class that this robot can use: testing a level needs a quantity that has one."""
         return tuple(s for s in all_shapes().values() if s.head is None or self.heads(s))
 
     def usable(self, options: Iterable[type]) -> list[type]:
-        """Those of some classes that this robot has a use for."""
+        """Return those classes that this robot can use."""
         known = {s.cls for s in self.shapes}
         return [o for o in options if shape_of(o).cls in known]
 
     def heads(self, shape: Shape) -> list[str]:
-        """The actions or quantities that may stand in an element."""
+        """Return the actions or quantities allowed in an element."""
         if shape.head is None:
             return []
         if shape.head.of == "action":
@@ -77,7 +77,7 @@ class SchemaBuilder:
         return [name for name, q in self.capabilities.quantities.items() if q.levels or not needs_level]
 
     def root(self) -> _Element:
-        """The whole schema."""
+        """Return the whole schema."""
         from lxml import etree
 
         nsmap = {"xs": _XS, "f": NAMESPACE}
@@ -95,7 +95,7 @@ class SchemaBuilder:
         return schema
 
     def task_element(self, schema: _Element) -> None:
-        """The root element: ids are unique, and goals and state variables name nodes that there are."""
+        """Add the root element: ids are unique, and goals and state variables name existing nodes."""
         task = _xs(schema, "element", name="task", type="f:Task")
         nodes = "|".join(f".//f:{element_name(n)}" for n in self.usable(get_args(Node)))
         for name, selector in (("node-id", nodes), ("goal-id", ".//f:goal")):
@@ -109,7 +109,7 @@ class SchemaBuilder:
             _xs(keyref, "field", xpath="@node")
 
     def complex_type(self, schema: _Element, shape: Shape) -> None:
-        """The type of the element of one class."""
+        """Add the type of the element of one class."""
         made = _xs(schema, "complexType", name=type_name(shape.cls))
         documented = _xs(_xs(made, "annotation"), "documentation")
         documented.text = " ".join((inspect.getdoc(shape.cls) or "").replace("``", "'").split())
@@ -125,13 +125,13 @@ class SchemaBuilder:
             self.attribute(made, shape.cls, attribute)
 
     def attributes(self, shape: Shape) -> tuple[Attribute, ...]:
-        """The attributes of an element. A draft quotes words of the request where a Task holds ranges of it."""
+        """Return the attributes of an element. A draft quotes words of the request where a Task has ranges."""
         quotes = Attribute(field=QUOTES, name=QUOTES, kind="text", default="")
         quotable = self.draft and any(a.kind == "spans" for a in shape.attributes)
         return (*shape.attributes, quotes) if quotable else shape.attributes
 
     def head_content(self, made: _Element, shape: Shape) -> None:
-        """One action or quantity; what stands beside it (``at``) may come before or after."""
+        """Add one action or quantity; its sibling ``at`` may come before or after."""
         if not shape.children:
             self.head_choice(made, shape)
             return
@@ -145,7 +145,7 @@ class SchemaBuilder:
         self.head_choice(before, shape)
 
     def head_choice(self, parent: _Element, shape: Shape) -> None:
-        """An element for each action or quantity, with what belongs to it."""
+        """Add an element for each action or quantity, with the attributes that depend on it."""
         choice = _xs(parent, "choice")
         for name in self.heads(shape):
             made = _xs(_xs(choice, "element", name=name), "complexType")
@@ -159,7 +159,7 @@ class SchemaBuilder:
                 _parameter(_xs(made, "attribute", name=key), parameter)
 
     def child(self, content: _Element, shape: Shape, child: Child, *, required: bool = False) -> None:
-        """The element of a field that holds other parts."""
+        """Add the element of a field with other parts."""
         must = required or self.required(shape.cls, child.field, child.default)
         least = {} if must else {"minOccurs": "0"}
         if child.kind == "text":
@@ -172,7 +172,7 @@ class SchemaBuilder:
             self.parts(made, child)
 
     def parts(self, made: _Element, child: Child) -> None:
-        """What may stand inside an element that holds one part or several."""
+        """Add the content of an element with one part or several."""
         must = child.default is MISSING or (child.kind == "one" and not child.direct)
         occurs = {
             "minOccurs": "1" if must else "0",
@@ -188,14 +188,14 @@ class SchemaBuilder:
                 _xs(inside, "element", name=element_name(option), type=f"f:{type_name(option)}", **occurs)
 
     def required(self, cls: type, field: str, default: object) -> bool:
-        """Whether a field must stand."""
+        """Return True if a field is required."""
         derived = self.draft and (field in DRAFT_DEFAULTS or (cls, field) in DRAFT_DEFAULTS)
         return default is MISSING and not derived
 
     def attribute(
         self, made: _Element, cls: type, attribute: Attribute, *, words: tuple[str, ...] | None = None
     ) -> None:
-        """The attribute of a plain field."""
+        """Add the attribute of a plain field."""
         use = {"use": "required"} if self.required(cls, attribute.field, attribute.default) else {}
         words = words or attribute.choices
         if attribute.field == "action":
@@ -218,7 +218,7 @@ class SchemaBuilder:
             _enumeration(_xs(made, "attribute", name=f"{attribute.name}-as"), ("text",))
 
     def simple_types(self, schema: _Element) -> None:
-        """The types of plain values. Numbers are finite: XSD's own would let INF and NaN in."""
+        """Add the types of plain values. Numbers must be finite, whereas XSD's own types allow INF and NaN."""
         for name, base, facets in (
             ("text", "xs:string", {"minLength": "1"}),
             ("value", "xs:string", {}),

@@ -1,4 +1,4 @@
-"""What a schema validator says, in words for the person (or the language model) that has to put it right."""
+"""Turn the log of a schema validator into messages for the person or language model that corrects the document."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from fieldhand.task.codec_xml import local_name
 if TYPE_CHECKING:
     from lxml.etree import _Element
 
-#: More problems than this help no one.
+#: Maximum number of problems reported.
 MOST = 50
 
 
 @dataclass(frozen=True, kw_only=True)
 class SchemaProblem:
-    """One thing that makes a document invalid.
+    """One violation of the schema.
 
     Attributes:
-        line: Counted from 1.
-        element: Name of the element; empty if the document could not be read at all.
-        message: What is wrong and what would be right, one line.
+        line: Line number, from 1.
+        element: Name of the element; empty if the document could not be parsed.
+        message: What is wrong and what would be right, on one line.
     """
 
     line: int
@@ -39,13 +39,13 @@ class SchemaProblem:
 
 @dataclass(frozen=True, kw_only=True)
 class Vocabulary:
-    """What may stand where.
+    """Elements and attributes allowed in each element.
 
     Attributes:
-        children: Names of the elements that may stand in an element.
-        required: Names of those that must.
+        children: Names of the child elements allowed in an element.
+        required: Names of those required.
         attributes: Names of the attributes, by (parent, element) where the parent decides, else by ("", element).
-        kinds: Kind of value of an attribute, by (element, attribute); what is not among them is a number.
+        kinds: Kind of an attribute's value, by (element, attribute); those not listed are numbers.
     """
 
     children: dict[str, list[str]] = field(default_factory=dict)
@@ -54,14 +54,14 @@ class Vocabulary:
     kinds: dict[tuple[str, str], AttributeKind] = field(default_factory=dict)
 
     def attributes_of(self, parent: str, element: str) -> list[str]:
-        """The attributes that an element may have."""
+        """Return the attributes allowed on an element."""
         return self.attributes.get((parent, element), self.attributes.get(("", element), []))
 
 
 def explain(root: _Element, log: Any, vocabulary: Vocabulary) -> tuple[SchemaProblem, ...]:
-    """The entries of a validator's log as problems, one for each thing that is wrong, in the order of lines."""
-    entries = [e for e in log if "Not all fields of key" not in e.message]  # said already: an attribute is missing
-    # Nodes inside what is invalid do not count as nodes, so references say something only once all else is right.
+    """Return the entries of a validator's log as problems, one per cause, sorted by line."""
+    entries = [e for e in log if "Not all fields of key" not in e.message]  # reported already as a missing attribute
+    # Nodes inside invalid content are not recognised, so broken references mean something only if all else is valid.
     entries = [e for e in entries if "No match found" not in e.message] or entries
     found: dict[tuple[int, str, str], SchemaProblem] = {}
     for entry in entries:
@@ -80,19 +80,19 @@ def explain(root: _Element, log: Any, vocabulary: Vocabulary) -> tuple[SchemaPro
 
 
 def _element_at(root: _Element, path: str | None) -> _Element | None:
-    """The element that a log entry is about."""
+    """Return the element that a log entry refers to."""
     if not path:
         return None
     prefixes = {str(k): str(v) for k, v in root.nsmap.items() if k}
     try:
         found: Any = root.getroottree().xpath(path, namespaces=prefixes)
-    except Exception:  # noqa: BLE001  a prefix declared further in: the message then does without the element
+    except Exception:  # noqa: BLE001  a prefix declared further in: the message then omits the element
         return None
     return found[0] if found else None
 
 
 def _message(raw: str, name: str, parent: str, vocabulary: Vocabulary, present: tuple[str, ...]) -> str:
-    """One log message in words; the message itself without its namespaces if it is of a kind not known here."""
+    """Return a log message in words; a message of unknown kind is returned without its namespaces."""
     attribute = re.search(r"attribute '([^']*)'", raw)
     if "No matching global declaration" in raw:
         return f'is not a Task document: the outermost element is <task xmlns="{NAMESPACE}">'
@@ -127,7 +127,7 @@ _BOUNDS = {"minInclusive": "at least", "minExclusive": "above", "maxInclusive": 
 
 
 def _bad_value(raw: str, attribute: str, kind: AttributeKind) -> str:
-    """A value that an attribute may not have."""
+    """Return the message for an invalid attribute value."""
     value = re.search(r"The value '(.*?)' (?:is|has|does|must)|: '(.*?)' is not a valid", raw, re.DOTALL)
     given = (value[1] if value[1] is not None else value[2]) if value else ""
     shown = f'{attribute}="{given}"'
@@ -151,7 +151,7 @@ def _lacks_one(name: str, vocabulary: Vocabulary) -> str:
 
 
 def _not_expected(raw: str, name: str, parent: str, vocabulary: Vocabulary) -> str:
-    """An element that stands where it may not: unknown there, one too many, or in the wrong place."""
+    """Return the message for a misplaced element: unknown there, one too many, or in the wrong order."""
     known = vocabulary.children.get(parent, [])
     if name not in known:
         return f"is not known inside <{parent}>{_instead(name, known)}"

@@ -1,1 +1,1 @@
-"""The kinds of plan nodes: one file each with its data, its meaning and its words."""
+"""The kinds of plan nodes, one file each with data, execution and wording."""

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 class Act(PlanNode):
     """One action of the robot.
 
-    It drives to its place, which the selector must give alone, binds that, and makes its captures there. Without a
-    place of its own it is work at the place in hand: a robot that a failed drive left elsewhere drives back there.
-    What an earlier round read is forgotten first, so that it decides nothing if this one fails.
+    The robot drives to the place, which the selector must name alone, binds the label to it and makes the captures
+    there. Without a selector the action is done at the current place; a robot displaced by a failed drive first drives
+    back there. The reading of an earlier round is cleared first, so that it decides nothing if this action fails.
 
     Attributes:
         at: Where; else the place in hand.

@@ -1,4 +1,4 @@
-"""Steps in whatever order drives least."""
+"""Steps in the order with the shortest drive."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 class AnyOrder(PlanNode):
     """Steps in whatever order drives least; each step starts with a place of its own.
 
-    The order is decided once, when the node is reached. It fails as soon as a step does.
+    The order is decided once, when the node is reached. The node fails as soon as a step does.
     """
 
     id: str = ""
@@ -59,5 +59,5 @@ class AnyOrder(PlanNode):
         return True
 
     def flow(self, known: K, visit: Callable[[Node, K], K], test: Callable[[Node, K], None]) -> K:  # noqa: ARG002
-        # Any of the steps may be the first, so none may count on another.
+        # Any step may come first, so none may depend on another.
         return reduce(or_, [visit(step, known) for step in self.steps], known)

@@ -1,12 +1,12 @@
-"""What every kind of node says of itself.
+"""The base class of plan nodes, and the exceptions that end one.
 
-The *meaning* of a node is a generator. It yields requests (:mod:`fieldhand.task.instructions`) to whoever carries the
-plan out, is sent the answers, and returns when the node is done. What goes wrong is thrown in:
+A node is executed as a generator. It yields instructions (:mod:`fieldhand.task.instructions`) to the executor, receives
+the results, and returns when the node is done. Failures are thrown into it:
 
-* :class:`Failed`: an action, a drive or a place failed for good. The nearest ``Try`` around goes on with its otherwise;
-  where there is none, the plan has failed.
-* :class:`GivenUp`: a visit of a for-each, or an optional step, is given up half-way. That node goes on behind it.
-* :class:`Cut`: a log does not tell what came of a node. What comes behind that node goes on.
+* :class:`Failed`: an action, a drive or a place failed for good. The nearest enclosing ``Try`` continues with its
+  otherwise; without one the plan has failed.
+* :class:`GivenUp`: a visit of a for-each, or an optional step, was abandoned. Execution continues after it.
+* :class:`Cut`: a log does not show how a node ended. Execution continues after that node.
 
 A ``StopMission`` raises :class:`Stopped`, which nothing catches: the plan is over.
 """
@@ -27,25 +27,25 @@ if TYPE_CHECKING:
     from fieldhand.task.plan import Node
     from fieldhand.task.run import Run
 
-#: A range of characters of the request: first, and one behind the last.
+#: A range of characters of the request: start, and end (exclusive).
 Span: TypeAlias = tuple[int, int]
 
-#: What the words of the request that a node came from are about.
+#: Role of the words of the request that a node came from.
 Role: TypeAlias = Literal["condition", "limit", "end", "action", "place", "order"]
 
-#: Requests, the answers to them, and nothing at the end.
+#: A generator of instructions that is sent their results and returns nothing.
 Program: TypeAlias = "Generator[Instruction, Any, None]"
 
-#: Says a selector in a few words.
+#: Returns a selector in a few words.
 SayPlace: TypeAlias = "Callable[[Selector], str]"
 
 
 class Failed(Exception):
-    """A node failed for good. Thrown into a meaning; it unwinds to the nearest ``Try``."""
+    """A node failed for good. Thrown into the program; it unwinds to the nearest ``Try``."""
 
 
 class GivenUp(Exception):
-    """A visit or an optional step is given up. Thrown into a meaning; it unwinds to that node.
+    """A visit or an optional step was abandoned. Thrown into the program; it unwinds to that node.
 
     Args:
         node: Id of the for-each or the optional step.
@@ -57,7 +57,7 @@ class GivenUp(Exception):
 
 
 class Cut(Exception):
-    """Nobody knows what is left of a node. Thrown into a meaning; that node is over, and what comes behind it goes on.
+    """The rest of a node is unknown. Thrown into the program, which continues after that node.
 
     Args:
         node: Id of the node.
@@ -82,11 +82,11 @@ class Stopped(Exception):
 
 @dataclass(frozen=True, kw_only=True)
 class ChildNode:
-    """A node inside another, and how often it is done whenever the other is.
+    """A node inside another, with the number of times it is executed each time the other is.
 
     Attributes:
-        times: The number of times, if all goes well; None where the site, a reading or the budget decides.
-        certain: Whether it is come to at all if all goes well; else a test, a failure or the budget decides.
+        times: Number of times if all goes well; None where the site, a reading or the budget decides.
+        certain: False if a test, a failure or the budget decides whether it is reached.
     """
 
     node: Node
@@ -95,7 +95,7 @@ class ChildNode:
 
 
 class Known(Protocol):
-    """The knowledge at some point of a plan; ``|`` joins that of two ways that meet."""
+    """What is known at a point of a plan; ``|`` merges two branches."""
 
     def __or__(self, other: Self, /) -> Self: ...
 
@@ -104,10 +104,10 @@ K = TypeVar("K", bound=Known)
 
 
 class PlanNode(ABC):
-    """A node of a plan; its fields are those of the dataclass that it is.
+    """A node of a plan; concrete nodes are dataclasses.
 
-    The properties below are all that other modules ask of a node without carrying it out. Their defaults are those of a
-    node that drives nowhere, does nothing and holds no other.
+    The properties below describe a node without executing it. Their defaults fit a node that does not drive, does no
+    work and has no children.
     """
 
     id: str
@@ -115,44 +115,44 @@ class PlanNode(ABC):
 
     @abstractmethod
     def execute(self, run: Run) -> Program:
-        """Carry the node out: yield what it needs, be sent what happened.
+        """Execute the node: yield instructions and receive their results.
 
         Args:
-            run: The plan that is under way; it carries out nodes inside this one (:meth:`Run.do`).
+            run: The plan under way, which executes child nodes (:meth:`Run.do`).
         """
 
     @abstractmethod
     def say(self, place: SayPlace) -> str:
-        """Return what the node does, in a few words."""
+        """Return a few words on what the node does."""
 
     @property
     @abstractmethod
     def role(self) -> Role:
-        """The subject of the words that it came from."""
+        """The role of the words of the request that it came from."""
 
     # --- the nodes inside --------------------------------------------------------------------------------------------
 
     @property
     def parts(self) -> tuple[ChildNode, ...]:
-        """The nodes directly inside, in the order in which they stand, each with how often it is done."""
+        """The direct children in document order, each with the number of times it is executed."""
         return ()
 
     @property
     def children(self) -> tuple[Node, ...]:
-        """The nodes directly inside, in the order in which they stand."""
+        """The direct children in document order."""
         return tuple(part.node for part in self.parts)
 
     def with_children(self, children: Sequence[Node]) -> Self:  # noqa: ARG002
-        """Return the node with others in place of its children, as many as it has."""
+        """Return a copy of the node with other children, as many as before."""
         return self
 
     @property
     def is_series(self) -> bool:
-        """True if it is nothing but its children, all of them."""
+        """True if executing it means executing all its children and nothing else."""
         return False
 
     def goes_on_after(self, child: Node) -> bool:  # noqa: ARG002
-        """Return True if something inside the node can come after this child of it, another round of it included."""
+        """Return True if another child, or another round of this one, can follow this child."""
         return False
 
     @property
@@ -162,12 +162,12 @@ class PlanNode(ABC):
 
     @property
     def keeps_order(self) -> bool:
-        """True if it has several steps or visits, and the plan says in which order they come."""
+        """True if it has several steps or visits in an order fixed by the plan."""
         return False
 
     @property
     def is_choice(self) -> bool:
-        """True if one of its children is done at most, by what it tests."""
+        """True if it tests a condition and executes at most one child."""
         return False
 
     @property
@@ -176,19 +176,19 @@ class PlanNode(ABC):
         return ()
 
     def flow(self, known: K, visit: Callable[[Node, K], K], test: Callable[[Node, K], None]) -> K:  # noqa: ARG002
-        """Follow what is known through the nodes inside, on every branch at once.
+        """Propagate what is known through the children, on every branch at once.
 
         Args:
             known: What may be known when the node is reached.
             visit: Given a child and what may be known before it, returns what may be known after it.
-            test: Given the node and what may be known when it tests its condition.
+            test: Called with the node and what may be known when it tests its condition.
 
         Returns:
-            What may be known after the nodes inside.
+            What may be known after the children.
         """
         return known
 
-    # --- what the node itself does -----------------------------------------------------------------------------------
+    # --- the node itself ---------------------------------------------------------------------------------------------
 
     @property
     def act(self) -> Act | None:
@@ -197,7 +197,7 @@ class PlanNode(ABC):
 
     @property
     def selector(self) -> Selector | None:
-        """The selector that the node itself names places with."""
+        """The node's own selector, if it has one."""
         return None
 
     @property
@@ -212,22 +212,22 @@ class PlanNode(ABC):
 
     @property
     def visits_each(self) -> bool:
-        """True if it visits all that its selector gives, else the selector must give one place."""
+        """True if it visits every place of its selector, else the selector must name one place."""
         return False
 
     @property
     def at_most(self) -> int | None:
-        """The number of visits after which it is over; None for all."""
+        """The maximum number of visits; None for all."""
         return None
 
     @property
     def rewarded_by(self) -> str:
-        """The attribute of trees that visits are worth."""
+        """The attribute of a tree that is the reward of visiting it; empty for 1 each."""
         return ""
 
     @property
     def rounds(self) -> int | None:
-        """The number of rounds that a repeat has at most; None for what is no repeat."""
+        """The maximum number of rounds of a repeat; None for other nodes."""
         return None
 
     @property
@@ -237,25 +237,25 @@ class PlanNode(ABC):
 
     @property
     def label(self) -> str:
-        """The label that it binds to its place; empty for none."""
+        """The label that it binds; empty for none."""
         return ""
 
     @property
     def reading(self) -> str:
-        """The reading that it takes; empty for none."""
+        """The reading that it binds; empty for none."""
         return ""
 
     @property
     def is_optional(self) -> bool:
-        """True if the budget guard may shed the node, or visits of it, and the mission goes on."""
+        """True if the budget guard may shed the node, or visits of it, while the mission continues."""
         return False
 
     @property
     def is_optional_step(self) -> bool:
-        """True if it is shed as a whole; of what else is optional visits are."""
+        """True if it is shed as a whole, not visit by visit."""
         return False
 
     @property
     def ends_plan(self) -> bool:
-        """True if nothing comes after it."""
+        """True if nothing can follow it."""
         return False

@@ -1,4 +1,4 @@
-"""Something at each place of a selector."""
+"""A node executed at each place of a selector."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ class ForEach(PlanNode):
     """``body`` at each place of a selector.
 
     The selector is resolved once, when the node is reached. Then, until no visit is left, ``at_most`` are made, or
-    ``until`` holds after one: drive to the next place, bind it, do the body. A visit that is given up does not count.
-    Afterwards the label means every place that was visited.
+    ``until`` holds after one: drive to the next place, bind the label to it, execute the body. An abandoned visit does
+    not count. Afterwards the label means every place that was visited.
 
     Attributes:
         label: Names the place for ``Bound(label=...)`` in ``body``.

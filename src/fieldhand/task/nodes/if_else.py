@@ -1,4 +1,4 @@
-"""One of two things, by a condition."""
+"""One of two branches, chosen by a condition."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 class If(PlanNode):
     """``then`` where the condition holds, else ``otherwise`` (nothing if absent). It is tested once, when reached.
 
-    What cannot be known (a reading that was not taken) does not hold.
+    A condition on a reading that was not taken does not hold.
     """
 
     id: str = ""

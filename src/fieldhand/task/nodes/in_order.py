@@ -1,4 +1,4 @@
-"""Steps in their order."""
+"""Steps in a fixed order."""
 
 from __future__ import annotations
 

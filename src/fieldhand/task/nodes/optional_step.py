@@ -1,4 +1,4 @@
-"""Something as a whole, if the budget allows."""
+"""A step that is done as a whole or not at all, if the budget allows."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class OptionalStep(PlanNode):
     """``body`` as a whole, if the budget allows. What it binds is known inside it alone.
 
-    It is offered once, when it is reached. Not to do it, or to give it up half-way, is no failure.
+    The budget guard decides once, when it is reached. Skipping it, or abandoning it half-way, is no failure.
 
     Attributes:
         reward: What it is worth.

@@ -1,4 +1,4 @@
-"""Something a number of times."""
+"""A node executed a number of times."""
 
 from __future__ import annotations
 

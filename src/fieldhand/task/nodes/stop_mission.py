@@ -1,4 +1,4 @@
-"""The end of a mission, as the plan has it."""
+"""The end of the mission as a step of the plan."""
 
 from __future__ import annotations
 

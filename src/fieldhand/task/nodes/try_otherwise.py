@@ -1,4 +1,4 @@
-"""Something, and if that fails something else."""
+"""A node with an alternative to execute if it fails."""
 
 from __future__ import annotations
 
