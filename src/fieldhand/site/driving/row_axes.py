@@ -88,11 +88,11 @@ class RowAxes:
                     kept &= ~self._part(axes[:, None], one.at[some, None], to.at[there])
             i, j = np.nonzero(kept)
             i, j = some[i], there[j]
-            for rank in range(one.near.shape[1]):
-                clear = ~self._part(one.near[i, rank], one.at[i], to.at[j])
-                i, j = i[clear], j[clear]
-                clear = ~self._part(to.near[j, rank], one.at[i], to.at[j])
-                i, j = i[clear], j[clear]
+            for ranks in (slice(0, 2), slice(2, None)):  # the rows on either side leave few pairs for the others
+                for points, which in ((one, 0), (to, 1)):
+                    near = points.near[(i, j)[which], ranks].T
+                    clear = ~self._part(near, one.at[i], to.at[j]).any(axis=0)
+                    i, j = i[clear], j[clear]
             yield i, j
 
     def _part(self, axes: Indices, one: Complex, two: Complex) -> NDArray[np.bool_]:
