@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from command import fieldhand, in_background
 from ros2.conftest import LOOPBACK
+from support.processes.command import fieldhand, in_background
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [ROOT / "README.md", ROOT / "benchmarks" / "README.md", *sorted((ROOT / "docs").glob("*.md"))]

@@ -18,8 +18,8 @@ from fieldhand.delivery.depot import Depot
 from fieldhand.errors import FieldhandError, JournalError
 from fieldhand.execution.journal import store
 from fieldhand.folders import FolderLock, FolderTaken, Unguarded, is_locked, require_guarded
-from kept_missions import inputs
-from signed import KEY, NOW
+from support.missions.kept import inputs
+from support.missions.signed import KEY, NOW
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="rights are lists there")
 as_root = pytest.mark.skipif(sys.platform == "win32" or os.geteuid() != 0, reason="only root can give files away")

@@ -22,7 +22,7 @@ from fieldhand.site.model import Site
 from fieldhand.strict_yaml import YamlFault, read_yaml
 from fieldhand.task.codec import decode, encode
 from fieldhand.task.frames import Task
-from signed import good, manifest_of, members_of, opened, signed_with
+from support.missions.signed import good, manifest_of, members_of, opened, signed_with
 
 HIDDEN = (
     "\x9b",

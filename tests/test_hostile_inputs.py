@@ -11,7 +11,6 @@ from typing import Any
 import pytest
 import yaml
 
-from examples import examples
 from fieldhand import mission
 from fieldhand.approval.bundle.container import MANIFEST
 from fieldhand.approval.keys.public import parse_public
@@ -26,9 +25,10 @@ from fieldhand.robot.loader import load_robot, parse_profile, profile_bytes
 from fieldhand.site.formats.files import SiteFiles
 from fieldhand.site.geojson import load_demo, parse_site, site_of
 from fieldhand.task.codec import decode, encode
-from hostile import HIDDEN, each_text, require_visible, texts_of
-from signed import KEY, manifest_of, members_of, opened, signed_with
-from signed import good as good_bundle
+from support.examples import examples
+from support.hostile import HIDDEN, each_text, require_visible, texts_of
+from support.missions.signed import KEY, manifest_of, members_of, opened, signed_with
+from support.missions.signed import good as good_bundle
 
 SITE, HUSKY = load_demo(), load_robot("husky")
 CAPABILITIES = capabilities_of(HUSKY)

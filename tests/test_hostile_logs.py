@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from command import fieldhand
+from support.processes.command import fieldhand
 from test_visible import hidden
 
 HOSTILE = "\x1b[2J\x9b3A\u202etxt\u2066\u200b\u2028\x85\r\n=1+1[red]:warning:$x$"

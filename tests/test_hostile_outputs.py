@@ -23,8 +23,6 @@ import pytest
 import yaml
 from mcap.reader import make_reader
 
-from browser import browser, corner_warnings, corner_xml
-from command import Run, fieldhand
 from fieldhand.approval.authorize import EveryWarning, approve
 from fieldhand.approval.bundle.opening import unseal
 from fieldhand.approval.bundle.packing import pack
@@ -41,7 +39,7 @@ from fieldhand.task.build import make_task
 from fieldhand.task.codec import encode
 from fieldhand.task.frames import Resource
 from fieldhand.task.plan import Act, ForEach, InOrder
-from hostile import (
+from support.hostile import (
     FORMULA,
     SEEN,
     UNSEEN,
@@ -53,7 +51,9 @@ from hostile import (
     require_visible,
     require_xml,
 )  # fmt: skip
-from signed import signing_key
+from support.missions.signed import signing_key
+from support.processes.browser import browser, corner_warnings, corner_xml
+from support.processes.command import Run, fieldhand
 from test_hostile_inputs import orchard
 
 #: Names that a plan and a site give; a log that has others is not one of this mission.

@@ -13,8 +13,6 @@ from pathlib import Path
 import httpx
 import pytest
 
-from certificates import certificate
-from crowds import SENT, crowd, is_closed, served, until
 from fieldhand import missions
 from fieldhand.api.connections import Connections
 from fieldhand.approval.bundle.opening import unseal
@@ -22,8 +20,10 @@ from fieldhand.delivery.link import RobotLink
 from fieldhand.delivery.verified import sha256_of
 from fieldhand.delivery.wire import LONGEST_WAIT_S
 from fieldhand.errors import DeliveryError
-from signed import good
-from stations import TOKEN, Station, other_mission
+from support.missions.signed import good
+from support.processes.certificates import certificate
+from support.processes.crowds import SENT, crowd, is_closed, served, until
+from support.processes.stations import TOKEN, Station, other_mission
 
 #: More than the agent has room for from one address.
 MANY = 150

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from fieldhand.api.gates import SECURITY_HEADERS
-from signed import good
-from stations import Station
+from support.missions.signed import good
+from support.processes.stations import Station
 
 WRONG = {"Authorization": "Bearer wrong"}
 

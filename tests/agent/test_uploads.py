@@ -11,14 +11,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from examples import examples
 from fieldhand import missions
 from fieldhand.agent.uploads import Uploads
 from fieldhand.approval.bundle.opening import unseal
 from fieldhand.delivery import arriving
 from fieldhand.delivery.verified import sha256_of
-from signed import KEY, NOW, good, opened, orchard_files, pack_mission, signing_key
-from stations import Station, other_mission
+from support.examples import examples
+from support.missions.signed import KEY, NOW, good, opened, orchard_files, pack_mission, signing_key
+from support.processes.stations import Station, other_mission
 
 
 def test_a_whole_mission_is_acknowledged_with_what_was_verified_and_waits(tmp_path: Path) -> None:

@@ -9,10 +9,10 @@ import httpx
 import pytest
 from starlette.responses import Response
 
-from crowds import SENT, crowd, served
 from fieldhand.api.app import create_app
 from fieldhand.api.gates import BodyGate, BodyTime
 from fieldhand.mission import make_planner
+from support.processes.crowds import SENT, crowd, served
 
 #: More than the server has room for.
 MANY = 270

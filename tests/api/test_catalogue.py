@@ -5,8 +5,8 @@ from __future__ import annotations
 from importlib import resources
 from pathlib import Path
 
-from browser import browser
 from fieldhand.robot.loader import builtin_names, load_robot
+from support.processes.browser import browser
 
 
 def test_every_built_in_robot_is_listed_and_can_be_asked_for() -> None:

@@ -13,11 +13,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from browser import Browser, Says, browser
 from fieldhand.api.gates import SECURITY_HEADERS
 from fieldhand.api.problems import Turned
 from fieldhand.api.work import Limits, Workers
-from patience import LONG_S
+from support.processes.browser import Browser, Says, browser
+from support.processes.patience import LONG_S
 
 SMALL = Limits(body_bytes=1000)
 

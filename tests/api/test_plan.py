@@ -8,7 +8,6 @@ from typing import Any
 
 import pytest
 
-from browser import Says, browser, corner_xml, task_of
 from fieldhand.places.selectors import TreeIs
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Planned, Reason, Refused
@@ -17,6 +16,7 @@ from fieldhand.site.geojson import load_demo
 from fieldhand.site.model import Site
 from fieldhand.task.codec import decode
 from fieldhand.task.plan import Act, walk
+from support.processes.browser import Says, browser, corner_xml, task_of
 
 
 @pytest.fixture(scope="module")

@@ -8,12 +8,12 @@ from typing import Any
 
 import pytest
 
-from browser import Says, browser, corner_warnings, corner_xml
 from fieldhand import mission
 from fieldhand.api.work import Limits
 from fieldhand.planning.planner import Reason, Refused
 from fieldhand.robot.loader import load_robot
 from fieldhand.task.event_lines import from_json
+from support.processes.browser import Says, browser, corner_warnings, corner_xml
 
 XML = corner_xml()
 

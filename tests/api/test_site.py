@@ -10,9 +10,9 @@ from typing import Any
 import pytest
 import shapely
 
-from browser import browser
 from fieldhand.site.geojson import demo_path, load_demo, parse_site
 from fieldhand.site.orchards import random_orchard
+from support.processes.browser import browser
 
 
 def point(lon: float, lat: float, **properties: object) -> dict[str, Any]:

@@ -23,9 +23,20 @@ from fieldhand.site.formats.files import SiteFiles, read_files
 from fieldhand.site.geojson import site_files, site_of
 from fieldhand.task.codec import encode
 from fieldhand.testing.small_orchard import at
-from gisfiles import kml, placemark, write_layer
-from signed import KEY, NOW, WHEN, good, manifest_of, members_of, opened, orchard_files, pack_mission, signing_key
-from sites import collection, point
+from support.missions.signed import (
+    KEY,
+    NOW,
+    WHEN,
+    good,
+    manifest_of,
+    members_of,
+    opened,
+    orchard_files,
+    pack_mission,
+    signing_key,
+)
+from support.sites.gisfiles import kml, placemark, write_layer
+from support.sites.points import collection, point
 
 
 def test_what_comes_out_is_what_was_approved() -> None:

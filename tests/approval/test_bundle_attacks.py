@@ -16,7 +16,17 @@ import pytest
 
 from fieldhand.approval.bundle.container import MANIFEST, MAX_BYTES, ROBOT, SIGNATURE, TASK, read_bundle_file
 from fieldhand.errors import BundleError, InputError, NotTrustedError, TaskError
-from signed import NOW, archive_of, good, known, manifest_of, members_of, opened, orchard_files, signed_with
+from support.missions.signed import (
+    NOW,
+    archive_of,
+    good,
+    known,
+    manifest_of,
+    members_of,
+    opened,
+    orchard_files,
+    signed_with,
+)
 
 
 def refused(data: bytes) -> str:

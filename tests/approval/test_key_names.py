@@ -16,7 +16,6 @@ from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PublicKey
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from examples import examples
 from fieldhand.approval.bundle.container import MANIFEST, SIGNATURE, wrap
 from fieldhand.approval.bundle.opening import unseal
 from fieldhand.approval.keys.curve import is_sound
@@ -24,7 +23,8 @@ from fieldhand.approval.keys.names import clean_name, look_alike
 from fieldhand.approval.keys.public import PublicKey, parse_public
 from fieldhand.approval.keys.trust import TrustStore
 from fieldhand.errors import BundleError, KeyFileError
-from signed import good, members_of, signing_key
+from support.examples import examples
+from support.missions.signed import good, members_of, signing_key
 
 NOW = datetime(2026, 5, 1, tzinfo=UTC)
 _P = 2**255 - 19

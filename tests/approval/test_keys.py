@@ -19,7 +19,7 @@ from fieldhand.approval.keys.signing import SigningKeys
 from fieldhand.approval.keys.trust import TrustStore
 from fieldhand.approval.production import in_production, require_unsigned_allowed
 from fieldhand.errors import InputError, KeyFileError, NotTrustedError, OutputError
-from signed import signing_key
+from support.missions.signed import signing_key
 
 NOW = datetime(2026, 5, 1, tzinfo=UTC)
 names = st.from_regex(r"[A-Za-zÀ-ÖØ-öø-ÿ][A-Za-z0-9_.,'()&-]{0,28}[a-z0-9)]", fullmatch=True)

@@ -11,14 +11,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from examples import examples
 from fieldhand.approval.keys.signing import SigningKeys
 from fieldhand.approval.keys.trust import TrustStore
 from fieldhand.approval.memory import ApprovalMemory
 from fieldhand.cli.approve import parse_validity
 from fieldhand.errors import InputError, KeyFileError, NotApprovedError
 from fieldhand.testing.fixed_clock import FixedClock
-from signed import KEY, NOW, good, opened, pack_mission, signing_key, undated
+from support.examples import examples
+from support.missions.signed import KEY, NOW, good, opened, pack_mission, signing_key, undated
 
 DAY = timedelta(days=1)
 

@@ -13,7 +13,6 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 
-from english_requests import PLANNED
 from fieldhand import mission
 from fieldhand.approval.sentences import write_lines
 from fieldhand.language import Message, open_language
@@ -24,6 +23,7 @@ from fieldhand.site.geojson import load_demo
 from fieldhand.task.codec import decode, encode
 from fieldhand.testing.generated.tasks import ROVER, Parts
 from fieldhand.testing.small_orchard import husky, orchard
+from support.requests.english import PLANNED
 
 SPANISH = open_language("es")
 DEMO = load_demo()

@@ -19,8 +19,8 @@ from fieldhand_bench.missions.ground import load_ground
 from fieldhand_bench.missions.judge import judge
 from fieldhand_bench.missions.log import read_log
 from fieldhand_bench.missions.trial import Range, try_all
-from outside_referee import HERE, SHARED, ground, referee
-from tampered import tampered
+from support.missions.outside_referee import HERE, SHARED, ground, referee
+from support.missions.tampered import tampered
 
 BUILT_IN = load_cases([BUILTIN])
 FILES = sorted({case.source for case in BUILT_IN})

@@ -17,7 +17,7 @@ from fieldhand_bench.missions.ground import Ground
 from fieldhand_bench.missions.judge import judge
 from fieldhand_bench.missions.log import read_log
 from fieldhand_bench.missions.places import Place, Positions
-from tampered import tampered
+from support.missions.tampered import tampered
 
 ROWS, COLUMNS = 4, 5
 

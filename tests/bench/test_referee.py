@@ -8,7 +8,6 @@ from functools import cache
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from examples import examples
 from fieldhand.execution.world import ActionFails, Spot, World
 from fieldhand.places.selectors import TreeIs, Trees, Union
 from fieldhand.task.frames import Budget, Constraints, Task
@@ -17,7 +16,8 @@ from fieldhand.task.results import Acted, Arrived, Decided, Ended, Event, Exited
 from fieldhand_bench.draw import Draft
 from fieldhand_bench.fly import fly
 from fieldhand_bench.referee import Ruling, judge
-from rig import BudgetOf, Rig, husky, of_type, orchard, task_for
+from support.examples import examples
+from support.missions.rig import BudgetOf, Rig, husky, of_type, orchard, task_for
 
 PICTURE = Act(id="", action="take_thermal_picture")
 THREE = ("r0c0", "r2c3", "r3c1")

@@ -12,7 +12,7 @@ from fieldhand.cli.aboard import connection_again, connection_of
 from fieldhand.cli.app import assemble
 from fieldhand.errors import ExecutionError, FieldhandError, InputError
 from fieldhand.execution.vehicle import Connection
-from kept_missions import inputs
+from support.missions.kept import inputs
 
 RUN = ("run", "Measure CO2 at tree 5.", "--site", "demo", "--yes")
 

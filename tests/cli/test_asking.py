@@ -10,7 +10,6 @@ from pathlib import Path
 
 import pytest
 
-from command import fieldhand
 from fieldhand.cli import asking, show
 from fieldhand.cli.asking import MOST_QUESTIONS, Replies, plan_and_ask
 from fieldhand.cli.inputs import Ground
@@ -21,6 +20,7 @@ from fieldhand.site.geojson import open_site
 from fieldhand.site.model import Site
 from fieldhand.task.build import make_task
 from fieldhand.task.plan import StopMission
+from support.processes.command import fieldhand
 
 GROUND = Ground(site=open_site("demo"), robot=load_robot("husky"))
 PLANNED = Planned(task=make_task(request="go", plan=StopMission(id=""), measures={}), planner="asks")

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from command import Run, fieldhand
 from fieldhand.approval.keys.signing import SigningKeys
 from fieldhand.errors import KeyFileError
+from support.processes.command import Run, fieldhand
 
 
 def is_one_clear_line(run: Run, *words: str) -> bool:

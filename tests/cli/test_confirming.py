@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from command import fieldhand
 from fieldhand import mission
 from fieldhand.cli import approving, flight
 from fieldhand.cli.inputs import open_ground
@@ -17,6 +16,7 @@ from fieldhand.execution.world import World
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.task.codec import encode
+from support.processes.command import fieldhand
 
 GROUND = open_ground("demo", "husky")
 REQUEST = "Take 2 pictures of tree 4."

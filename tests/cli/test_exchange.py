@@ -12,7 +12,6 @@ import pytest
 import typer
 from mcap.reader import make_reader
 
-from exchange_missions import STRAIGHT, flight, task_of
 from fieldhand.cli.export import export
 from fieldhand.cli.import_tree import import_tree
 from fieldhand.cli.replay import replay
@@ -21,6 +20,7 @@ from fieldhand.errors import InputError
 from fieldhand.task.codec import encode
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.results import Started
+from support.missions.exported import STRAIGHT, flight, task_of
 
 Command = Callable[..., None]
 

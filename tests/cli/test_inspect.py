@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from command import fieldhand
+from cli.terminal import screen
 from fieldhand.approval.authorize import EveryWarning, approve
 from fieldhand.approval.bundle.container import MANIFEST, SIGNATURE, wrap
 from fieldhand.approval.bundle.packing import pack
@@ -22,8 +22,8 @@ from fieldhand.site.geojson import site_of
 from fieldhand.task.codec import decode, encode
 from fieldhand.task.plan import Act
 from fieldhand.testing.small_orchard import task_for
-from signed import WHEN, manifest_of, members_of, orchard_files, signing_key
-from terminal import screen
+from support.missions.signed import WHEN, manifest_of, members_of, orchard_files, signing_key
+from support.processes.command import fieldhand
 from test_visible import hidden
 
 OURS = ("Signature", "fieldhand: ", "m.mission would", "SHA-256", "What m.mission")

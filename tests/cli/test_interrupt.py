@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from patience import LONG_S
 from ros2.sim_robots import patient
+from support.processes.patience import LONG_S
 
 
 def as_usual() -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from command import fieldhand
+from support.processes.command import fieldhand
 
 REQUEST = "Take pictures of the 3 northernmost trees."
 

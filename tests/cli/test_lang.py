@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 
-from command import fieldhand
+from support.processes.command import fieldhand
 
 REQUEST = "Take a picture of tree 4."
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from command import Run, fieldhand
 from fieldhand.planning.llm.scripted import ScriptedEndpoint
 from fieldhand.planning.llm.transcript import read_transcript
+from support.processes.command import Run, fieldhand
 
 REQUEST = "Kindly portray the leafiest specimen."
 ANSWER = """<task xmlns="urn:fieldhand:task:1"><task-composition><plan>

@@ -12,11 +12,11 @@ import pytest
 import typer
 from typer.models import OptionInfo
 
-from command import fieldhand
 from fieldhand.cli.app import assemble
 from fieldhand.cli.outputs import require_folder
 from fieldhand.errors import OutputError
 from fieldhand_bench.commands.app import bench
+from support.processes.command import fieldhand
 
 #: Each asks for what needs a plan, a mission or a log, none of which is there.
 COMMANDS: dict[str, tuple[str, ...]] = {

@@ -7,9 +7,9 @@ import os
 
 import pytest
 
-from command import fieldhand
-from driven import mission
 from fieldhand.task.event_lines import to_json
+from support.missions.measured import mission
+from support.processes.command import fieldhand
 
 WORDS = ("run", "Take a picture of the middle tree.", "--site", "demo", "--planner", "english", "--yes")
 

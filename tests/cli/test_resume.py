@@ -14,10 +14,10 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from command import Run
 from fieldhand.cli.app import assemble
 from fieldhand.errors import FieldhandError
-from patience import LONG_S
+from support.processes.command import Run
+from support.processes.patience import LONG_S
 
 MISSION = ("run", "Take a thermal picture at every tree of row 2.", "--site", "demo", "--yes", "--confirm")
 

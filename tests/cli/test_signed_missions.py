@@ -18,8 +18,7 @@ from typing import Any
 import pytest
 from typer.main import get_command
 
-from browser import browser, corner_warnings, corner_xml
-from command import Run
+from cli.opened import read_files_under
 from fieldhand import missions
 from fieldhand.approval.keys.signing import SigningKeys
 from fieldhand.approval.keys.trust import TrustStore
@@ -30,8 +29,9 @@ from fieldhand.robot.loader import profile_bytes
 from fieldhand.site.geojson import demo_path
 from fieldhand.task.codec import encode
 from fieldhand.task.results import Acted
-from opened import read_files_under
-from signed import pack_mission, signing_key
+from support.missions.signed import pack_mission, signing_key
+from support.processes.browser import browser, corner_warnings, corner_xml
+from support.processes.command import Run
 
 REQUEST = "Read CO2 at tree 4."
 Command = Callable[..., Run]

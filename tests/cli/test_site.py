@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from command import fieldhand
 from fieldhand.site.orchards import random_orchard
+from support.processes.command import fieldhand
 
 
 def test_a_grower_reads_rows_aisles_and_what_can_be_reached() -> None:

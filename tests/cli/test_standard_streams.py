@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from command import fieldhand
 from fieldhand.robot.loader import profile_bytes
+from support.processes.command import fieldhand
 
 REQUEST = "Read CO2 at tree 4."
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from command import fieldhand
-from terminal import screen
+from cli.terminal import screen
+from support.processes.command import fieldhand
 
 WORDS = ("plan", "Read CO2 at tree 4.", "--site", "demo")
 

@@ -14,7 +14,7 @@ import pytest
 from fieldhand import missions
 from fieldhand.errors import JournalError
 from fieldhand.task.results import Acted, Ended
-from patience import LONG_S
+from support.processes.patience import LONG_S
 
 FIELDHAND = [sys.executable, "-u", "-m", "fieldhand"]
 

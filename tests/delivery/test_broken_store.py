@@ -8,8 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from broken_disk import KINDS, Disk, broken
-from examples import examples
 from fieldhand import missions
 from fieldhand.approval.keys.trust import TrustStore
 from fieldhand.delivery.depot import Depot
@@ -17,8 +15,10 @@ from fieldhand.delivery.outbox import Entry, Outbox
 from fieldhand.delivery.verified import acceptance, sha256_of
 from fieldhand.errors import FieldhandError, StoreError
 from fieldhand.robot.loader import load_robot
-from kept_missions import inputs
-from signed import KEY, NOW, good
+from support.broken_disk import KINDS, Disk, broken
+from support.examples import examples
+from support.missions.kept import inputs
+from support.missions.signed import KEY, NOW, good
 
 Use = Callable[[], object]
 

@@ -18,9 +18,9 @@ from fieldhand.delivery.standing import Standing
 from fieldhand.delivery.verified import sha256_of
 from fieldhand.errors import ExecutionError, FieldhandError, InputError, OutputError, StoreError
 from fieldhand.execution.journal import store
-from patience import LONG_S, until
-from signed import NOW, good
-from stations import Station, fly, other_mission, patient
+from support.missions.signed import NOW, good
+from support.processes.patience import LONG_S, until
+from support.processes.stations import Station, fly, other_mission, patient
 
 
 @pytest.fixture(autouse=True)

@@ -12,7 +12,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from examples import examples
 from fieldhand.approval.bundle.opening import unseal
 from fieldhand.delivery.following import follow
 from fieldhand.delivery.link import RobotLink
@@ -24,9 +23,10 @@ from fieldhand.delivery.verified import Sendable, require_sendable, sha256_of
 from fieldhand.delivery.wire import EventLine
 from fieldhand.errors import DeliveryError, InputError, KeyFileError, NotTrustedError, StoreError, UnreachableError
 from fieldhand.execution.journal import store
-from patience import LONG_S
-from signed import NOW, good, known
-from stations import Station, other_mission
+from support.examples import examples
+from support.missions.signed import NOW, good, known
+from support.processes.patience import LONG_S
+from support.processes.stations import Station, other_mission
 
 
 @pytest.fixture(autouse=True)

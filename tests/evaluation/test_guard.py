@@ -23,7 +23,7 @@ from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, InOrder, Repeat
 from fieldhand.task.results import Shed
 from fieldhand.testing.small_orchard import block, husky, orchard, task_for
-from paper import Paper
+from support.missions.paper import Paper
 
 ROBOT = husky()
 CERTAIN = replace(ROBOT, leg_cost=replace(ROBOT.leg_cost, alpha=1.0))

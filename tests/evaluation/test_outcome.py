@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from event_logs import HOT, Paper, random_plan, task_of
+from evaluation.event_logs import HOT, Paper, random_plan, task_of
 from fieldhand.evaluation.outcome import judge
 from fieldhand.places.selectors import Corners, Half, TreeIs, Trees
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Repeat, StopMission, Try

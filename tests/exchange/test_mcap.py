@@ -15,13 +15,13 @@ from hypothesis import HealthCheck, given, settings
 from mcap.reader import make_reader
 from mcap.writer import CompressionType, Writer
 
-from exchange_missions import flight
 from fieldhand.errors import FieldhandError, InputError, OutputError, TaskError
 from fieldhand.exchange.mcap import McapLog, is_mcap, read_mcap
 from fieldhand.exchange.mcap.reading import MAGIC, MAX_RECORD
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.results import Acted, Arrived, Event
 from fieldhand.testing.generated.events import events as random_events
+from support.missions.exported import flight
 
 
 def written(path: Path, events: tuple[Event, ...], **more: object) -> Path:

@@ -13,12 +13,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from exchange_missions import flight
 from fieldhand.errors import InputError, OutputError
 from fieldhand.exchange.replay import film_of, page_of, save_animation
 from fieldhand.exchange.routes.route import driven
 from fieldhand.site.geojson import load_demo
 from fieldhand.task.results import Acted, Arrived, Driving, Ended, Started
+from support.missions.exported import flight
 
 
 def test_the_robot_is_where_the_log_says_when_it_says_so() -> None:

@@ -13,7 +13,6 @@ import pytest
 from lxml import etree
 from shapely.geometry import LineString, Point, shape
 
-from exchange_missions import PARTING, driven_route, flight, planned_route
 from fieldhand.exchange.routes.geojson import write_geojson
 from fieldhand.exchange.routes.ground_station import write_plan
 from fieldhand.exchange.routes.kml import write_kml
@@ -21,6 +20,7 @@ from fieldhand.exchange.routes.route import Route
 from fieldhand.exchange.routes.table import write_csv
 from fieldhand.site.geojson import load_demo
 from fieldhand.task.results import Acted, Arrived
+from support.missions.exported import PARTING, driven_route, flight, planned_route
 
 KML = "{http://www.opengis.net/kml/2.2}"
 #: Elements of each kind of object in the order of the schema of KML 2.2.

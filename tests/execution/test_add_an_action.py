@@ -12,7 +12,7 @@ from fieldhand.places.selectors import First
 from fieldhand.robot.loader import parse_profile
 from fieldhand.task.plan import Act
 from fieldhand.task.results import Acted
-from rig import Rig, of_type
+from support.missions.rig import Rig, of_type
 
 
 def test_the_action_of_the_docs_is_carried_out() -> None:

@@ -18,7 +18,7 @@ from fieldhand.robot.loader import load_robot, parse_profile, profile_bytes
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.plan import Act, ForEach
 from fieldhand.task.results import Acted, LimitCrossed
-from rig import Rig, husky, of_type
+from support.missions.rig import Rig, husky, of_type
 
 HOLD_S, FASTEST = 3.0, 0.15
 LEVELS = (30.0, 20.0, 10.0)

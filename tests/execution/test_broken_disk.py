@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from broken_disk import KINDS, broken
-from examples import examples
+from execution.journalled import PICTURE, Cut, Field
 from fieldhand.errors import FieldhandError
 from fieldhand.execution import mission_clock
 from fieldhand.execution.drivers.protocol import ActionGoal
@@ -16,8 +15,9 @@ from fieldhand.places.selectors import TreeIs
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.plan import Act, InOrder
 from fieldhand.task.results import InDoubt, Resumed
-from journalled import PICTURE, Cut, Field
-from rig import captured, of_type
+from support.broken_disk import KINDS, broken
+from support.examples import examples
+from support.missions.rig import captured, of_type
 
 PLAN = InOrder(
     id="",

@@ -50,8 +50,8 @@ from fieldhand.task.results import (
     Waited,
 )
 from fieldhand.testing.driver_contract import finish
-from planted_sites import upright
-from rig import Rig, approved, captured, husky, of_type, orchard, task_for
+from support.missions.rig import Rig, approved, captured, husky, of_type, orchard, task_for
+from support.sites.planted import upright
 
 CO2 = "read_co2"
 

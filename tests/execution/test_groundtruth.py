@@ -23,7 +23,7 @@ from fieldhand.execution.world import (
     WorldFault,
 )
 from fieldhand.site.model import Place
-from rig import husky, orchard
+from support.missions.rig import husky, orchard
 
 SITE, ROBOT = orchard(), husky()
 TREES = {t.place.id: t.place for t in SITE.trees}

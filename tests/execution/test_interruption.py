@@ -20,7 +20,7 @@ from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import FaultedExit
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Repeat, Try
 from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event, Exited
-from rig import Rig, authorized, captured, husky, of_type, task_for
+from support.missions.rig import Rig, authorized, captured, husky, of_type, task_for
 
 PICTURE = "take_thermal_picture"
 PLAN = InOrder(

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from execution.journalled import PICTURE, Field, PowerCut
 from fieldhand.clock import SimulatedClock
 from fieldhand.errors import JournalError
 from fieldhand.evaluation.outcome import judge
@@ -22,8 +23,7 @@ from fieldhand.places.selectors import TreeIs
 from fieldhand.task.event_lines import from_json, to_json
 from fieldhand.task.plan import Act
 from fieldhand.task.results import Acted, Continued, Ended, Exited, InDoubt, Paused, Resumed, Shed
-from journalled import PICTURE, Field, PowerCut
-from rig import BudgetOf, captured, husky, of_type, orchard, task_for
+from support.missions.rig import BudgetOf, captured, husky, of_type, orchard, task_for
 
 
 @pytest.fixture(autouse=True)

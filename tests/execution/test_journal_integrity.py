@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from execution.journalled import Field, PowerCut
 from fieldhand.errors import JournalError
 from fieldhand.execution import mission_clock
 from fieldhand.execution.journal import store
@@ -19,8 +20,7 @@ from fieldhand.execution.mission_runner import Result
 from fieldhand.execution.orders import OrderFile
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.results import Resumed
-from journalled import Field, PowerCut
-from rig import captured, of_type
+from support.missions.rig import captured, of_type
 
 
 @pytest.fixture(autouse=True)

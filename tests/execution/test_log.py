@@ -12,7 +12,7 @@ from fieldhand.execution.log import EventLog, read_events
 from fieldhand.places.selectors import Half, TreeIs
 from fieldhand.task.plan import Act, ForEach
 from fieldhand.task.results import Ended
-from rig import Rig
+from support.missions.rig import Rig
 
 PLAN = ForEach(id="", select=Half(side="north"), body=Act(id="", action="take_thermal_picture"), optional=True)
 

@@ -13,7 +13,7 @@ from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
 from fieldhand.places.selectors import TreeIs, Union
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, InOrder, Node, OptionalStep, Repeat, StopMission, Try
 from fieldhand.task.results import Exited, Faulted, Shed
-from rig import BudgetOf, Rig, captured, husky, of_type, task_for
+from support.missions.rig import BudgetOf, Rig, captured, husky, of_type, task_for
 
 PICTURE = "take_thermal_picture"
 

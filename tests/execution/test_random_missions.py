@@ -8,7 +8,6 @@ from itertools import count, pairwise
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from examples import examples
 from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.world import (
     ActionFails,
@@ -29,7 +28,8 @@ from fieldhand.task.frames import Task
 from fieldhand.task.plan import walk
 from fieldhand.task.results import Acted, Arrived, Ended, Exited, Shed, Started
 from fieldhand.testing.generated.tasks import Parts
-from rig import Rig, husky, of_type, orchard
+from support.examples import examples
+from support.missions.rig import Rig, husky, of_type, orchard
 
 TASKS = Parts(capabilities_of(husky())).tasks()
 TREES = st.sampled_from([t.place.id for t in orchard().trees]).map(lambda i: Spot(id=i))

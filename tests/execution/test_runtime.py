@@ -48,7 +48,7 @@ from fieldhand.task.results import (
     Started,
     Waited,
 )
-from rig import BudgetOf, Rig, authorized, captured, husky, of_type, orchard, task_for
+from support.missions.rig import BudgetOf, Rig, authorized, captured, husky, of_type, orchard, task_for
 
 PICTURE, CO2 = "take_thermal_picture", "read_co2"
 SITE = orchard()

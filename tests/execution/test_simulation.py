@@ -15,7 +15,7 @@ from fieldhand.execution.world import ActionFails, BatteryDrains, Blocked, Local
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.testing.driver_contract import DriverContract, drive_goal, finish
-from rig import husky, orchard
+from support.missions.rig import husky, orchard
 
 SITE = orchard()
 FAR = SITE.trees[-1].place

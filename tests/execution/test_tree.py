@@ -26,7 +26,7 @@ from fieldhand.places.selectors import (
 from fieldhand.task.conditions import Compare, TreeHas
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Node, Repeat, StopMission, Try, walk
 from fieldhand.task.results import Acted, Arrived, Decided, Driving, Faulted, Visiting
-from rig import BudgetOf, Rig, captured, husky, of_type, orchard, task_for
+from support.missions.rig import BudgetOf, Rig, captured, husky, of_type, orchard, task_for
 
 PICTURE, CO2, AIR = "take_thermal_picture", "read_co2", "read_ambient_temperature"
 HOT = Compare(reading="r", quantity="canopy_temperature", test="gt", value=33, unit="degC")

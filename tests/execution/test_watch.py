@@ -25,7 +25,7 @@ from fieldhand.task.frames import Budget, Constraints, FaultedExit
 from fieldhand.task.limit_words import say_crossing
 from fieldhand.task.plan import Act, ForEach
 from fieldhand.task.results import Acted, Driving, Ended, Event, Exited, LimitCrossed, Shed, Started
-from rig import Rig, husky, of_type, orchard, task_for
+from support.missions.rig import Rig, husky, of_type, orchard, task_for
 
 PLAN = ForEach(id="", select=Trees(), body=Act(id="", action="read_co2"))
 
@@ -125,7 +125,7 @@ def flown_with_lookout(world: World, robot: RobotProfile, tree: str = "r3c4") ->
     from fieldhand.clock import SimulatedClock
     from fieldhand.execution.guard import NoGuard
     from fieldhand.execution.mission_runner import run
-    from rig import authorized
+    from support.missions.rig import authorized
 
     task = task_for(Act(id="", action="read_co2", at=TreeIs(tree=tree)), nominal="return_to_start")
     task = replace(

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from execution.journalled import Cut, PowerCut
 from fieldhand.clock import SimulatedClock
 from fieldhand.evaluation.drain import Drain
 from fieldhand.evaluation.failsafe import BudgetFailsafe
@@ -23,8 +24,7 @@ from fieldhand.places.selectors import TreeIs, Trees
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.plan import Act, ForEach, InOrder
 from fieldhand.task.results import Event, LimitCrossed, Resumed
-from journalled import Cut, PowerCut
-from rig import authorized, captured, husky, of_type, orchard, task_for
+from support.missions.rig import authorized, captured, husky, of_type, orchard, task_for
 
 PLAN = InOrder(
     id="",

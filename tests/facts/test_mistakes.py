@@ -8,8 +8,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-import english_requests
-import row_requests
+from facts.plan_mutants import mutants
 from fieldhand.facts import mismatches
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.planner import EnglishPlanner
@@ -20,7 +19,8 @@ from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
 from fieldhand.task.frames import Task
 from fieldhand.testing.generated.tasks import ROVER, Parts
-from plan_mutants import mutants
+from support.requests import english as english_requests
+from support.requests import rows as row_requests
 
 DEMO = open_site("demo")
 ROBOTS = {name: load_robot(name) for name in ("husky", "amiga")}

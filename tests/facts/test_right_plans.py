@@ -12,8 +12,6 @@ from typing import Any
 import pytest
 import yaml
 
-import english_requests
-import row_requests
 from fieldhand.facts import mismatches
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.planner import EnglishPlanner
@@ -31,7 +29,9 @@ from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
 from fieldhand.task.codec import TaskDraft
 from fieldhand.task.frames import Task
-from site_grids import grid
+from support.requests import english as english_requests
+from support.requests import rows as row_requests
+from support.sites.grids import grid
 
 ROOT = Path(__file__).resolve().parents[2]
 MISSIONS = ROOT.parent / "shared" / "data" / "missions" / "orchard.yaml"

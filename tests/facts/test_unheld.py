@@ -12,7 +12,7 @@ from fieldhand.robot.loader import load_robot
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
-from sites import point, read
+from support.sites.points import point, read
 
 HUSKY = load_robot("husky")
 

@@ -13,7 +13,7 @@ from fieldhand.robot.loader import load_robot
 from fieldhand.site.model import Site
 from fieldhand.task.build import make_task
 from fieldhand.task.codec import TaskDraft
-from sites import point, read
+from support.sites.points import point, read
 
 LON, LAT = -122.2869, 38.2989
 HUSKY = load_robot("husky")

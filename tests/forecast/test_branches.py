@@ -22,7 +22,7 @@ from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, If, InOrder, Node, OptionalStep, Repeat, StopMission, Try
 from fieldhand.task.results import Acted, Decided
 from fieldhand.testing.small_orchard import block, husky, orchard, task_for
-from rig import Rig
+from support.missions.rig import Rig
 
 SITE, ROBOT = orchard(), husky()
 LOW = Level(reading="r", quantity="canopy_temperature", level="low")

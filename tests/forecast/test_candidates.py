@@ -26,7 +26,7 @@ from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach
 from fieldhand.testing.small_orchard import husky, orchard, task_for
 from fieldhand_bench.site.orchard import benchmark_orchard
-from paper import Paper
+from support.missions.paper import Paper
 
 ROBOT = load_robot("husky")
 MADE = parse_site(benchmark_orchard(120, 3), name="made")

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from fieldhand.forecast.conditions import Facts, evaluate
 from fieldhand.task.conditions import AllOf, AnyOf, Between, Compare, Condition, Level, Not, TreeHas
 from fieldhand.terms import Test, Value
-from rig import husky, orchard
+from support.missions.rig import husky, orchard
 
 SITE = orchard()
 KERMAN = SITE.by_id["r0c1"].place

@@ -20,7 +20,7 @@ from fieldhand.task.conditions import Level
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, If, InOrder, Repeat
 from fieldhand.testing.small_orchard import husky, orchard, task_for
-from paper import frames_at
+from support.missions.paper import frames_at
 
 SITE = orchard()
 ROBOT = husky()

@@ -18,8 +18,8 @@ from fieldhand.task import plan as p
 from fieldhand.task.conditions import TreeHas
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, OptionalStep, Repeat, StopMission
-from paper import frames_at
-from rig import husky, orchard, task_for
+from support.missions.paper import frames_at
+from support.missions.rig import husky, orchard, task_for
 
 SITE, ROBOT = orchard(), husky()
 DRIVES = drives_for(SITE, ROBOT)

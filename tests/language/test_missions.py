@@ -7,12 +7,12 @@ from collections.abc import Iterator
 
 import pytest
 
-from faulted_flights import Flown, fly
 from fieldhand.evaluation.outcome import judge_end
 from fieldhand.evaluation.standing import standing
 from fieldhand.evaluation.telling import Teller, goal_names
 from fieldhand.language import kept_in_log, open_language
-from silent_language import silent_language
+from language.silent_language import silent_language
+from support.missions.faulted_flights import Flown, fly
 
 SPANISH = open_language("es")
 SEEDS = range(16)

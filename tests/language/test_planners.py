@@ -6,9 +6,6 @@ from collections.abc import Iterator
 
 import pytest
 
-import english_requests
-import planted
-import row_requests
 from fieldhand.language import open_language, recalled
 from fieldhand.mission import make_planner
 from fieldhand.planning.english.planner import EnglishPlanner
@@ -17,7 +14,10 @@ from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.geojson import load_demo
 from fieldhand.site.model import Site
-from silent_language import silent_language, words_left, words_of
+from language.silent_language import silent_language, words_left, words_of
+from support.requests import english as english_requests
+from support.requests import orchards as planted
+from support.requests import rows as row_requests
 
 SILENT, SPANISH = silent_language(), open_language("es")
 DEMO = load_demo()

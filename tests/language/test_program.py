@@ -17,7 +17,7 @@ import pytest
 from fieldhand.cli.demo import REQUEST as WARNED
 from fieldhand.language import catalogue
 from fieldhand.program import main
-from silent_language import silent_po, words_left, words_of
+from language.silent_language import silent_po, words_left, words_of
 
 #: Names of the built-in orchard and robots, of options' values, units and kinds of file.
 KNOWN = {

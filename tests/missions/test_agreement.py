@@ -5,8 +5,8 @@ from __future__ import annotations
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agreement import disagreements, simulated
-from examples import examples
+from missions.agreement import disagreements, simulated
+from support.examples import examples
 
 
 @settings(max_examples=examples(25, thorough=3000), deadline=None)

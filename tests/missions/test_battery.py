@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import pytest
 
-import battery_flights
-from faulted_flights import Flown
+from missions import battery_flights
+from support.missions.faulted_flights import Flown
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from examples import examples
 from fieldhand import mission, missions
 from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.errors import ExecutionError, FieldhandError, JournalError, NotApprovedError
@@ -26,8 +25,9 @@ from fieldhand.site.geojson import open_site
 from fieldhand.site.model import Site
 from fieldhand.task.plan import Act, ForEach
 from fieldhand.task.results import Acted, Event, Resumed
-from kept_missions import inputs
-from rig import husky, orchard, task_for
+from support.examples import examples
+from support.missions.kept import inputs
+from support.missions.rig import husky, orchard, task_for
 
 BY = Connection(transport="dds", domain=7, namespace="/east")
 ROBOT = husky()

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-import faulted_flights
+from support.missions import faulted_flights
 
 
 @pytest.fixture(scope="module")

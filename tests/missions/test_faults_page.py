@@ -18,7 +18,7 @@ from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
-from rig import approved
+from support.missions.rig import approved
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 EXAMPLE = re.compile(r"```yaml\n# (.*?)\n(.*?)```\n\n```text\n(.*?)```", re.DOTALL)

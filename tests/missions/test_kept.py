@@ -16,7 +16,7 @@ from fieldhand.execution.world import World
 from fieldhand.robot.loader import parse_profile
 from fieldhand.site.geojson import site_of
 from fieldhand.task.results import Event
-from kept_missions import inputs
+from support.missions.kept import inputs
 
 
 @pytest.fixture(autouse=True)

@@ -13,7 +13,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from typer.testing import CliRunner
 
-from command import Run
 from fieldhand import missions
 from fieldhand.cli.app import assemble
 from fieldhand.errors import JournalError
@@ -21,7 +20,8 @@ from fieldhand.execution.journal import store
 from fieldhand.folders import FolderLock
 from fieldhand.missions.listing import Entry, listed, older_than, removable, remove
 from fieldhand.task.results import Event
-from kept_missions import inputs
+from support.missions.kept import inputs
+from support.processes.command import Run
 
 NOW = datetime(2026, 5, 1, 12, tzinfo=UTC)
 

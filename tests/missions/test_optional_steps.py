@@ -16,7 +16,7 @@ from fieldhand.task.frames import Budget, Constraints, Task
 from fieldhand.task.plan import Act, AnyOrder, ForEach, InOrder, Node, OptionalStep
 from fieldhand.task.results import Acted, Shed
 from fieldhand.testing.small_orchard import husky, orchard, task_for
-from flights import Flight, fly_request, fly_task
+from support.missions.flights import Flight, fly_request, fly_task
 
 SITE, ROBOT = orchard(rows=5, columns=6), husky()
 PICTURE = "take_thermal_picture"

@@ -17,7 +17,7 @@ from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach
 from fieldhand.task.results import Acted, Shed
 from fieldhand.testing.small_orchard import husky, orchard, task_for
-from flights import fly_task
+from support.missions.flights import fly_task
 
 PICTURE = Act(id="", action="take_thermal_picture")
 

@@ -27,9 +27,9 @@ from fieldhand_bench.missions.cases import Expected
 from fieldhand_bench.missions.ground import load_ground
 from fieldhand_bench.missions.judge import judge
 from fieldhand_bench.missions.log import read_log
-from flights import fly_request, fly_task
-from outside_referee import CASES, HERE, ground, referee
-from tampered import tampered
+from support.missions.flights import fly_request, fly_task
+from support.missions.outside_referee import CASES, HERE, ground, referee
+from support.missions.tampered import tampered
 
 ROOT = Path(__file__).resolve().parents[2]
 TRANSCRIPTS = ROOT / "tests" / "data" / "transcripts"

@@ -16,7 +16,6 @@ from hypothesis import strategies as st
 from shapely.geometry import LineString, Point, Polygon, box
 from shapely.ops import unary_union
 
-from examples import examples
 from fieldhand.execution.world import Blocked, Spot, World
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import (
@@ -39,7 +38,8 @@ from fieldhand.site.orchards import make_orchard, random_shapes
 from fieldhand.site.projection import Projection
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, InOrder, Node, Try
 from fieldhand.task.results import Arrived, Driving, Ended, Faulted
-from rig import Rig, husky, of_type
+from support.examples import examples
+from support.missions.rig import Rig, husky, of_type
 
 HOME = Projection(37.0, -120.0)
 

@@ -5,12 +5,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from examples import examples
 from fieldhand.orienteering.costs import Gamma, Lognormal
 from fieldhand.orienteering.decision import DecisionSearch, SearchEffort
 from fieldhand.orienteering.prepared_problem import prepare_problem
 from fieldhand.orienteering.problem import Limit, Problem
-from graphs import euclidean, problem
+from support.examples import examples
+from support.graphs import euclidean, problem
 
 
 def search(given_, here, left, state=1):

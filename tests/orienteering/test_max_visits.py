@@ -13,7 +13,7 @@ from fieldhand.orienteering.policy import Policy, State, solve
 from fieldhand.orienteering.problem import Limit, Problem, remaining_problem
 from fieldhand.orienteering.route import StoppingCriterion
 from fieldhand.orienteering.simulated_mission import simulate_mission
-from graphs import problem
+from support.graphs import problem
 
 FEW = StoppingCriterion(rounds=2000)
 

@@ -14,7 +14,7 @@ from fieldhand.orienteering.costs import Deterministic, Empirical, Gamma, Lognor
 from fieldhand.orienteering.policy import Policy, State, solve
 from fieldhand.orienteering.problem import Limit, Problem, remaining_problem
 from fieldhand.orienteering.simulated_mission import simulate_mission
-from graphs import begun, mission, problem
+from support.graphs import begun, mission, problem
 
 MISSIONS = 25
 GRAPHS = (0, 1, 4)

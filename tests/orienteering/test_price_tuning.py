@@ -10,7 +10,7 @@ from fieldhand.orienteering.policy import Policy, State
 from fieldhand.orienteering.price_tuning import tune_price
 from fieldhand.orienteering.problem import Limit, Problem
 from fieldhand.orienteering.simulated_mission import simulate_mission
-from graphs import problem
+from support.graphs import problem
 
 
 def driven(given_, policy, seeds, *, foreseen):

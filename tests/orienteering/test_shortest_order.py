@@ -11,7 +11,7 @@ from fieldhand.errors import ProblemError
 from fieldhand.orienteering import shortest_order as order_module
 from fieldhand.orienteering.prepared_problem import NO_LENGTHS
 from fieldhand.orienteering.shortest_order import COMPILED_FROM, EXACT, shortest_order
-from graphs import euclidean
+from support.graphs import euclidean
 
 seeds = st.integers(0, 2**32 - 1)
 

@@ -12,7 +12,7 @@ from fieldhand.errors import ProblemError
 from fieldhand.orienteering.overrun import overrun_probability
 from fieldhand.orienteering.policy import StoppingCriterion, solve
 from fieldhand.orienteering.problem import Limit, Problem
-from graphs import euclidean, problem
+from support.graphs import euclidean, problem
 
 seeds = st.integers(0, 10_000)
 BRIEF = StoppingCriterion(rounds=4000)

@@ -17,7 +17,7 @@ from fieldhand.places.picks.ordered import Order
 from fieldhand.places.resolution import resolve
 from fieldhand.places.saying import say_selector
 from fieldhand.terms import AnySide, CountedFrom, Side, Towards
-from sites import at_start, orchard, place_at, planted, site_of, without_rows
+from support.sites.points import at_start, orchard, place_at, planted, site_of, without_rows
 
 sides = st.sampled_from(get_args(Side))
 counts = st.integers(1, 4)

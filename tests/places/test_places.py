@@ -58,8 +58,8 @@ from fieldhand.places.selectors import (
 )
 from fieldhand.site.describe import describe
 from fieldhand.site.model import Site, Zone
-from sites import at_start, grid, orchard, place_at, planted, point, read, site_of, without_rows
-from sites import sites as inferred_sites
+from support.sites.points import at_start, grid, orchard, place_at, planted, point, read, site_of, without_rows
+from support.sites.points import sites as inferred_sites
 
 LON, LAT = -120.42, 37.26
 SIDES = ("north", "east", "south", "west")

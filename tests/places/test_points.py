@@ -16,7 +16,7 @@ from fieldhand.places.explanation import explain
 from fieldhand.places.resolution import resolve
 from fieldhand.places.selectors import Here, Marker, PointsIn, Rows, Spaced, TreeIs
 from fieldhand.site.model import Place, Site
-from sites import at_start, place_at, planted, site_of, without_rows
+from support.sites.points import at_start, place_at, planted, site_of, without_rows
 
 ORCHARD = [(f"{c + 1}", [(6.0 * c, -4.0 * k) for k in range(11)]) for c in range(4)]
 

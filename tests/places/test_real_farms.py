@@ -38,7 +38,7 @@ from fieldhand.places.selectors import (
 )
 from fieldhand.site.geojson import load_site
 from fieldhand.site.model import Place, Site, Tree
-from sites import at_start
+from support.sites.points import at_start
 
 SHARED = Path(__file__).parents[3] / "shared"
 FARMS = sorted((SHARED / "data" / "farms").glob("*.geojson"))

@@ -20,7 +20,7 @@ from fieldhand.places.explanation import explain
 from fieldhand.places.picks.ordered import Order
 from fieldhand.places.resolution import resolve
 from fieldhand.site.model import Place, Site
-from sites import at_start, place_at, planted, point, read, site_of, without_rows
+from support.sites.points import at_start, place_at, planted, point, read, site_of, without_rows
 
 COMPASS = {"north": (0, 1), "east": (1, 0), "south": (0, -1), "west": (-1, 0)}
 OLD = {"attribute": "age", "test": "gt", "value": 2.0}

@@ -25,9 +25,9 @@ from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
-from patience import LONG_S
-from signed import KEY, NOW, good
-from stations import fly, other_mission
+from support.missions.signed import KEY, NOW, good
+from support.processes.patience import LONG_S
+from support.processes.stations import fly, other_mission
 
 BY = Connection(transport="dds", domain=3)
 

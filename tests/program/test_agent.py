@@ -18,12 +18,12 @@ from pathlib import Path
 
 import pytest
 
-from certificates import certificate
-from command import Run, fieldhand
 from fieldhand.delivery.verified import sha256_of
 from fieldhand.evaluation.calibration.history import kept
-from patience import LONG_S, until
-from signed import good
+from support.missions.signed import good
+from support.processes.certificates import certificate
+from support.processes.command import Run, fieldhand
+from support.processes.patience import LONG_S, until
 
 TOKEN = "a-token-that-nobody-guesses-0123456789"
 

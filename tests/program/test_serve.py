@@ -12,9 +12,9 @@ from contextlib import contextmanager
 
 import pytest
 
-from command import fieldhand
 from fieldhand.api.serving import hosts_for, is_loopback
-from patience import LONG_S, until
+from support.processes.command import fieldhand
+from support.processes.patience import LONG_S, until
 
 
 def free_port() -> int:

@@ -10,11 +10,11 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from command import fieldhand
 from fieldhand.errors import ProfileError
 from fieldhand.robot.bindings import ActionBinding, CallBinding, Datum, FieldBinding, NextMessage, Ros2Bindings
 from fieldhand.robot.loader import builtin_names, load_robot, parse_profile, profile_bytes
 from fieldhand.robot.units import conversion, known_units
+from support.processes.command import fieldhand
 
 PROBE = "string place\nfloat64 depth\n---\nbool ok\nstring why\nfloat64 value\n---\nfloat32 progress\n"
 ROVER = {

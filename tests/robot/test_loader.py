@@ -11,11 +11,11 @@ from pathlib import Path
 import pytest
 import yaml
 
-from command import fieldhand
 from fieldhand.errors import ProfileError
 from fieldhand.robot.fields import Keyed
 from fieldhand.robot.loader import MAX_BYTES, builtin_names, load_robot, parse_profile, profile_bytes
 from fieldhand.robot.model import Level, Parameter
+from support.processes.command import fieldhand
 
 ROVER = {
     "name": "rover",

@@ -33,11 +33,11 @@ from fieldhand.robot.model import Patience, RobotProfile
 from fieldhand.site.geojson import open_site
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Act, Node, walk
-from patience import until
-from rig import authorized, husky, task_for
 from ros2.conftest import LOOPBACK
 from ros2.robot_process import ALL, FROM_ROBOT, NUMBER, TO_ROBOT
 from ros2.scripted_robot import SITE, SPEED, TICK_S, bindings, interfaces
+from support.missions.rig import authorized, husky, task_for
+from support.processes.patience import until
 
 _FASTER = 5.0
 _LEASE = "<Discovery><LeaseDuration>2s</LeaseDuration></Discovery></Domain>"

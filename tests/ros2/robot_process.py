@@ -21,9 +21,9 @@ from fieldhand.execution.drivers.ros2.transport import QosProfile
 from fieldhand.execution.world import World
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
-from patience import until
 from ros2.scripted import Script, ScriptedAction
 from ros2.scripted_robot import INTERFACES, Robot, bindings, interfaces
+from support.processes.patience import until
 
 NUMBER, TO_ROBOT, FROM_ROBOT, ALL = "std_msgs/msg/Int32", "/to_robot", "/from_robot", QosProfile(depth=10)
 

@@ -29,9 +29,9 @@ from fieldhand.robot.bindings import (
 )
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.projection import Projection
-from rig import husky, orchard
 from ros2.in_memory import Graph, Node
 from ros2.scripted import Script, ScriptedAction
+from support.missions.rig import husky, orchard
 
 SITE = orchard()
 TICK_S = 0.1

@@ -15,10 +15,10 @@ from typing import Any
 
 import yaml
 
-from command import in_background
 from fieldhand.execution.vehicle import Connection
 from fieldhand.robot.loader import profile_bytes
-from patience import until
+from support.processes.command import in_background
+from support.processes.patience import until
 
 _NUMBERS = itertools.count(1)
 

@@ -18,8 +18,8 @@ from fieldhand.execution.drivers.simulation_state import SimulationState
 from fieldhand.execution.world import World
 from fieldhand.robot.bindings import Distro, NavigationBinding, Ros2Bindings
 from fieldhand.robot.model import RobotProfile
-from rig import husky, orchard
 from ros2.in_memory import Graph
+from support.missions.rig import husky, orchard
 
 SITE = orchard()
 STEP_S = 0.1

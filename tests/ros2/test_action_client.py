@@ -9,12 +9,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from examples import examples
 from fieldhand.clock import SimulatedClock
 from fieldhand.execution.drivers.ros2.action_client import CANCEL_S, RESULT_AGAIN_S, ActionClient
 from fieldhand.execution.drivers.ros2.goal_outcome import GoalOutcome
 from ros2.in_memory import Disturbed, Graph, Node
 from ros2.scripted import Script, ScriptedAction, Served
+from support.examples import examples
 
 NAME, TYPE = "/navigate", "nav2_msgs/action/NavigateToPose"
 ACCEPT_S, QUIET_S, NOTICED_S = 5.0, 8.0, 10.0

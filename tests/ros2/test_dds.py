@@ -17,8 +17,8 @@ from fieldhand.execution.drivers.ros2.dds import names, open_dds, services
 from fieldhand.execution.drivers.ros2.dds.transport import DdsTransport
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.transport import SENSOR_QOS, STATUS_QOS, QosProfile
-from patience import until
 from ros2.other_process import SUM
+from support.processes.patience import until
 
 RELIABLE, MANY = QosProfile(), QosProfile(depth=1000)
 

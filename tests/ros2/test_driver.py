@@ -11,7 +11,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from examples import examples
 from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver
@@ -20,10 +19,11 @@ from fieldhand.execution.drivers.ros2.driver import LOST_S, Ros2Driver
 from fieldhand.execution.drivers.ros2.telemetry import JUMPED_S, Telemetry
 from fieldhand.site.model import Place, Site
 from fieldhand.testing.driver_contract import DriverContract, drive_goal, finish
-from rig import husky
 from ros2.in_memory import Disturbed, Graph
 from ros2.scripted import Script, ScriptedAction
 from ros2.scripted_robot import ACTIONS, SAMPLED, SITE, World, bindings, navigating, world
+from support.examples import examples
+from support.missions.rig import husky
 
 NEAR, FAR = SITE.trees[0].place, SITE.trees[-1].place
 

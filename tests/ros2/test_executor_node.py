@@ -17,12 +17,12 @@ import pytest
 from lxml import etree
 
 import fieldhand
-from command import fieldhand as command
 from fieldhand.delivery.crew import ORDERS
 from fieldhand.execution.drivers.ros2.rclpy import open_rclpy
 from fieldhand.execution.drivers.ros2.transport import QosProfile, Transport
-from patience import LONG_S, until
 from ros2.sourced import goals, graph, rclpy_robot, sourced, standard_husky
+from support.processes.command import fieldhand as command
+from support.processes.patience import LONG_S, until
 
 PACKAGE = Path(__file__).parents[2] / "ros2/fieldhand_ros"
 #: What each transition of lifecycle_msgs/msg/Transition is called by.

@@ -20,11 +20,11 @@ from fieldhand.places.selectors import TreeIs
 from fieldhand.task.plan import Act, GoTo, InOrder, Node
 from fieldhand.task.results import Acted, Driving, Faulted, Waited
 from fieldhand.testing.driver_contract import drive_goal, finish
-from patience import until
-from rig import captured, of_type
 from ros2.other_vendor import OtherVendor
 from ros2.robot_in_process import Meeting, RobotInProcess
 from ros2.scripted_robot import READ, SITE, bindings, navigating
+from support.missions.rig import captured, of_type
+from support.processes.patience import until
 
 NEAR, FAR = SITE.trees[0].place, SITE.trees[-1].place
 NAVIGATION = "/husky/navigate_to_pose"

@@ -8,9 +8,9 @@ import pyproj
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from examples import examples
 from fieldhand.execution.drivers.ros2.map_frame import degrees_to_map
 from fieldhand.robot.bindings import Datum
+from support.examples import examples
 
 GEOD = pyproj.Geod(ellps="WGS84")
 

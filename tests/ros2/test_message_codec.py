@@ -13,12 +13,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rosbags.typesys.store import Typestore
 
-from examples import examples
 from fieldhand.execution.drivers.ros2.dds import message_codec as codec_module
 from fieldhand.execution.drivers.ros2.dds.message_codec import Header, MessageCodec, Unreadable
 from fieldhand.execution.drivers.ros2.dds.names import UserData, ros_type, wire_type
 from fieldhand.execution.drivers.ros2.interfaces import FieldType, Interfaces
 from fieldhand.execution.drivers.ros2.interfaces.definitions import INTEGERS, to_rosbags
+from support.examples import examples
 
 INTERFACES = Interfaces.of(
     "kilted",

@@ -20,7 +20,6 @@ import pytest
 import yaml
 from typer.testing import CliRunner
 
-from command import fieldhand, in_background
 from fieldhand import mission, missions
 from fieldhand.approval.authorize import EveryWarning
 from fieldhand.cli.app import assemble
@@ -42,11 +41,12 @@ from fieldhand_bench.missions.case_file import load_cases
 from fieldhand_bench.missions.ground import load_ground
 from fieldhand_bench.missions.judge import judge
 from fieldhand_bench.missions.log import read_log
-from outside_referee import CASES, HERE, ground, referee
-from patience import until
-from rig import of_type
 from ros2.robot_in_process import connected_simulated_robot
 from ros2.sim_robots import SimRobot, patient, sim_robot
+from support.missions.outside_referee import CASES, HERE, ground, referee
+from support.missions.rig import of_type
+from support.processes.command import fieldhand, in_background
+from support.processes.patience import until
 
 pytest.importorskip("cyclonedds")
 

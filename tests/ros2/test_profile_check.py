@@ -9,7 +9,6 @@ from dataclasses import replace
 
 import pytest
 
-from command import fieldhand
 from fieldhand.errors import ProfileError
 from fieldhand.execution.drivers.ros2.dds import open_dds
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
@@ -18,8 +17,9 @@ from fieldhand.execution.drivers.ros2.transport import SENSOR_QOS, STATUS_QOS, M
 from fieldhand.robot.bindings import FieldBinding
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
-from patience import LONG_S
 from ros2.in_memory import Graph
+from support.processes.command import fieldhand
+from support.processes.patience import LONG_S
 
 HUSKY = load_robot("husky")
 INTERFACES = Interfaces.of("humble", bindings_of(HUSKY).interfaces)

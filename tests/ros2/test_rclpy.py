@@ -18,9 +18,9 @@ import pytest
 from fieldhand.errors import InputError, Ros2Error
 from fieldhand.execution.drivers.ros2.rclpy import open_rclpy
 from fieldhand.execution.drivers.ros2.transport import MOST_BYTES, SENSOR_QOS, STATUS_QOS, QosProfile, Transport
-from patience import until
 from ros2.other_end import SEND, TO_MAP, opened
 from ros2.sourced import NOT_CYCLONE, graph, sourced
+from support.processes.patience import until
 
 RELIABLE = QosProfile()
 

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from command import fieldhand, in_background
 from fieldhand import missions
 from fieldhand.site.geojson import open_site
-from patience import until
 from ros2.sourced import NOT_CYCLONE, goals, graph, rclpy_robot, sourced, standard_husky
+from support.processes.command import fieldhand, in_background
+from support.processes.patience import until
 
 pytestmark = sourced
 

@@ -16,7 +16,6 @@ from typing import Any
 import pytest
 import yaml
 
-from command import fieldhand
 from fieldhand.execution.drivers.protocol import ActionGoal
 from fieldhand.execution.drivers.ros2.dds import open_dds
 from fieldhand.execution.drivers.ros2.driver import Ros2Driver
@@ -24,9 +23,10 @@ from fieldhand.execution.drivers.ros2.ros_clock import RosClock
 from fieldhand.robot.loader import load_robot, profile_bytes
 from fieldhand.site.geojson import open_site
 from fieldhand.testing.driver_contract import drive_goal
-from patience import LONG_S, until
 from ros2.sim_robots import patient
 from ros2.simulated_robot_rig import interfaces_of
+from support.processes.command import fieldhand
+from support.processes.patience import LONG_S, until
 
 WORLD = {
     "readings": {"co2": 377},

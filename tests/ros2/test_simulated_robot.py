@@ -12,7 +12,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from examples import examples
 from fieldhand.errors import InputError, OutputError
 from fieldhand.execution.drivers.ros2.map_frame import degrees_to_map, map_to_degrees
 from fieldhand.execution.drivers.ros2.simulated_robot.state_file import Identity, read_state, write_state
@@ -30,8 +29,9 @@ from fieldhand.execution.world import (
 from fieldhand.robot.bindings import Datum, FieldBinding
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.projection import Projection
-from rig import husky
 from ros2.simulated_robot_rig import SITE, STEP_S, SimulatedRobotRig, bindings, pose, reached_by
+from support.examples import examples
+from support.missions.rig import husky
 
 TO_POSE, THROUGH, GPS = (
     f"nav2_msgs/action/{name}" for name in ("NavigateToPose", "NavigateThroughPoses", "FollowGPSWaypoints")

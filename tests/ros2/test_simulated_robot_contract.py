@@ -26,10 +26,10 @@ from fieldhand.site.geojson import open_site
 from fieldhand.site.model import Site
 from fieldhand.task.results import Acted
 from fieldhand.testing.driver_contract import DriverContract, drive_goal, finish
-from patience import until
-from rig import Rig, authorized, husky, of_type
 from ros2.in_memory import Graph
 from ros2.simulated_robot_rig import SITE, interfaces_of, reached_by
+from support.missions.rig import Rig, authorized, husky, of_type
+from support.processes.patience import until
 
 DEMO = open_site("demo")
 FAR = SITE.trees[-1].place

@@ -14,9 +14,9 @@ from fieldhand.places.selectors import TreeIs
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.plan import Act
 from fieldhand.task.results import Acted, Ended, LimitCrossed
-from rig import authorized, husky, of_type, task_for
 from ros2.simulated_robot_rig import SITE
 from ros2.test_simulated_robot_contract import OverSimulatedRobot
+from support.missions.rig import authorized, husky, of_type, task_for
 
 
 def small_battery() -> RobotProfile:

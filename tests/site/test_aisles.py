@@ -19,8 +19,8 @@ from fieldhand.errors import DriveFault
 from fieldhand.site.drives import Drive, Drives
 from fieldhand.site.model import Gate, Site
 from fieldhand.site.planting import Planting
-from planted_sites import generated, planted, upright
-from sites import place_at, site_of
+from support.sites.planted import generated, planted, upright
+from support.sites.points import place_at, site_of
 
 CLEARANCE, STANDOFF = 0.35, 1.5
 

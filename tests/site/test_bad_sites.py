@@ -11,7 +11,7 @@ import pytest
 from fieldhand.errors import SiteError
 from fieldhand.site.geojson import load_site, parse_site
 from fieldhand.site.model import Site
-from sites import area, collection, point, read, square
+from support.sites.points import area, collection, point, read, square
 
 LON, LAT = -120.42, 37.26
 TREES = [point(LON + k * 1e-4, LAT) for k in range(3)]

@@ -10,7 +10,7 @@ import pytest
 from fieldhand.site.describe import describe, report_lines, report_record, row_table, summary_lines
 from fieldhand.site.describe.rows import direction_words
 from fieldhand.site.geojson import open_site
-from sites import grid, orchard, site_of
+from support.sites.points import grid, orchard, site_of
 
 
 def test_the_figures_of_a_rectangular_orchard_are_the_known_ones():

@@ -25,7 +25,7 @@ from fieldhand.site.drawing.colours import NO_ROW, ROWS
 from fieldhand.site.drives import Drives
 from fieldhand.site.geojson import open_site, parse_site
 from fieldhand.site.orchards import random_orchard
-from sites import grid, orchard, site_of, sites
+from support.sites.points import grid, orchard, site_of, sites
 
 #: Linear RGB as people see it who lack one kind of cone (Machado, Oliveira and Fernandes 2009, severity 1).
 CONES = {

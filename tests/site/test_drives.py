@@ -16,7 +16,7 @@ from shapely.geometry import LineString, Point, Polygon, box
 
 from fieldhand.errors import DriveFault
 from fieldhand.site.drives import Drive, Drives
-from sites import place_at, site_of
+from support.sites.points import place_at, site_of
 
 POND = [(-10, -10), (10, -10), (10, 10), (-10, 10)]
 #: A bay that opens to the west.

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from fieldhand.errors import DriveFault
 from fieldhand.site.drives import Drives
-from gisfiles import degrees, line
-from sites import area, point, read
+from support.sites.gisfiles import degrees, line
+from support.sites.points import area, point, read
 
 LON, LAT = -120.42, 37.26
 

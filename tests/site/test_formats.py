@@ -18,8 +18,8 @@ from hypothesis import strategies as st
 from fieldhand.errors import SiteError
 from fieldhand.site.geojson import load_demo, load_site
 from fieldhand.site.model import Site
-from gisfiles import kml, placemark, write_layer, zipped
-from sites import collection, point, read, square
+from support.sites.gisfiles import kml, placemark, write_layer, zipped
+from support.sites.points import collection, point, read, square
 
 LON, LAT = -120.42, 37.26
 UTM = "EPSG:32610"

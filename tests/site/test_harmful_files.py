@@ -12,12 +12,12 @@ import shapely
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from examples import examples
 from fieldhand.errors import SiteError
 from fieldhand.site.formats.confined import Allowance, allowance_for, read_confined
 from fieldhand.site.geojson import load_site
-from gisfiles import kml, write_layer, zipped
-from sites import collection, point, square
+from support.examples import examples
+from support.sites.gisfiles import kml, write_layer, zipped
+from support.sites.points import collection, point, square
 
 LON, LAT = -120.42, 37.26
 TREES = [point(LON + k * 1e-4, LAT) for k in range(3)]

@@ -7,10 +7,10 @@ from typing import Any
 
 import pytest
 
-from command import fieldhand
 from fieldhand.site.geojson import load_site, parse_site
 from fieldhand.site.model import Site
-from sites import collection, point, read
+from support.processes.command import fieldhand
+from support.sites.points import collection, point, read
 
 LON, LAT = -120.42, 37.26
 TREES = [point(LON + k * 1e-4, LAT) for k in range(3)]

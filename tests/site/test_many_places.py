@@ -21,8 +21,8 @@ from fieldhand.site.driving.roads import Roads
 from fieldhand.site.driving.visibility import Visibility
 from fieldhand.site.model import Site
 from fieldhand.testing.generated.orchards import orchard_sites
-from planted_sites import generated, planted, scattered, upright
-from sites import place_at
+from support.sites.planted import generated, planted, scattered, upright
+from support.sites.points import place_at
 
 CLEARANCE, STANDOFF = 0.35, 1.5
 

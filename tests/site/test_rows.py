@@ -17,7 +17,7 @@ from fieldhand.site.model import Site
 from fieldhand.site.orchards import BlockShape, make_orchard, random_orchard
 from fieldhand.site.planting import Planting
 from fieldhand.testing.generated.orchards import block_shapes, made_orchards, seeds, site_of_made
-from sites import grid, orchard, site_of
+from support.sites.points import grid, orchard, site_of
 
 FARMS = Path(__file__).parents[3] / "shared" / "data" / "farms"
 real = pytest.mark.skipif(not FARMS.exists(), reason="the farms of the shared folder are not here")

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from fieldhand.site.formats.document import site_document
 from fieldhand.site.generate import to_text
 from fieldhand.site.geojson import load_demo, parse_site
-from gisfiles import degrees, line
-from sites import area, point, read, square
+from support.sites.gisfiles import degrees, line
+from support.sites.points import area, point, read, square
 
 LON, LAT = -120.42, 37.26
 

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from fieldhand.web.page import assets
-from patience import LONG_S
+from support.processes.patience import LONG_S
 
 NODE = shutil.which("node")
 pytestmark = pytest.mark.skipif(NODE is None, reason="no node is installed here")

@@ -9,10 +9,10 @@ from importlib import resources
 import pytest
 from fastapi import FastAPI
 
-from browser import Browser
 from fieldhand.api.gates import SECURITY_HEADERS
 from fieldhand.program.serve import compose
 from fieldhand.web.page import assets, page_router
+from support.processes.browser import Browser
 
 SCRIPTS = {name: asset.data.decode() for name, asset in assets().items() if name.endswith(".js")}
 REPLAY = (resources.files("fieldhand.exchange.replay") / "page.js").read_text(encoding="utf-8")

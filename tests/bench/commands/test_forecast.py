@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from command import fieldhand
+from support.processes.command import fieldhand
 
 REQUEST = "Take thermal pictures of as many trees as you can without driving more than 100 meters."
 

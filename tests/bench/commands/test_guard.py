@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from command import fieldhand
+from support.processes.command import fieldhand
 
 
 def test_the_record_holds_the_figures_and_every_mission() -> None:

@@ -10,12 +10,12 @@ from typing import Any
 
 import pytest
 
-from command import Run, fieldhand
 from fieldhand.planning.llm.scripted import ScriptedAnswer, ScriptedEndpoint
 from fieldhand.program import main
 from fieldhand_bench.missions.case_file import load_cases
 from fieldhand_bench.missions.published import published
-from outside_referee import CASES, HERE
+from support.missions.outside_referee import CASES, HERE
+from support.processes.command import Run, fieldhand
 
 RIGHT = """<task xmlns="urn:fieldhand:task:1"><task-composition><plan>
 <act><take_thermal_picture/><at><tree-is tree="7"/></at></act>

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from command import fieldhand
+from support.processes.command import fieldhand
 
 
 @pytest.fixture(scope="module")

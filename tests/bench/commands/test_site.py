@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from command import fieldhand
+from support.processes.command import fieldhand
 
 
 @pytest.fixture(scope="module")

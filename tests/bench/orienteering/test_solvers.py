@@ -14,7 +14,7 @@ from fieldhand_bench.orienteering.bound import with_perfect_information
 from fieldhand_bench.orienteering.certain import compare
 from fieldhand_bench.orienteering.milp import solve_milp
 from fieldhand_bench.orienteering.solvers import NAMES, Options, prepare
-from graphs import problem
+from support.graphs import problem
 
 SOLVERS = [name for name in NAMES if name != "perfect"]
 QUICK = Options(milp_s=5.0, missions=12, simulations=300)

@@ -9,7 +9,6 @@ from datetime import UTC, datetime, timedelta
 
 import pytest
 
-from driven import PROFILE, TRUE, mission
 from fieldhand import past
 from fieldhand.errors import InputError, OutputError, ProfileError, TaskError
 from fieldhand.evaluation.calibration import history
@@ -19,6 +18,7 @@ from fieldhand.robot.loader import builtin_names, load_robot, parse_profile, pro
 from fieldhand.robot.rewrite import figure, with_figures
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.results import Arrived, Driving, Faulted
+from support.missions.measured import PROFILE, TRUE, mission
 
 NOW = datetime(2026, 5, 1, tzinfo=UTC)
 

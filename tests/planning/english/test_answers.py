@@ -11,7 +11,7 @@ from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Refuse
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
 from fieldhand.task.plan import Act, ForEach, walk
-from outlines import outline
+from planning.english.outlines import outline
 
 SITE, HUSKY = open_site("demo"), load_robot("husky")
 

@@ -12,7 +12,7 @@ from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Planned, Refused
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
-from outlines import outline
+from planning.english.outlines import outline
 
 DEMO, HUSKY = open_site("demo"), load_robot("husky")
 SENSORS = {"a CO2 sample": "co2", "an air temperature reading": "air", "a thermal picture": "picture"}

@@ -11,7 +11,7 @@ from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Planned
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
-from outlines import outline
+from planning.english.outlines import outline
 
 PAGE = Path(__file__).resolve().parents[3] / "docs" / "english.md"
 EXAMPLES = re.findall(r"^> (.+)\n  (plan|asks|refuses): (.+)$", PAGE.read_text(encoding="utf-8"), re.MULTILINE)

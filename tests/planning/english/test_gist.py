@@ -10,7 +10,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from english_requests import PLANNED
 from fieldhand.planning.english.draft import shape
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.english.tokens import words_of
@@ -19,7 +18,8 @@ from fieldhand.planning.english.wording import _compiled, _rules, _text
 from fieldhand.planning.planner import Clarify, Planned, Refused
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
-from outlines import outline
+from planning.english.outlines import outline
+from support.requests.english import PLANNED
 
 DEMO = open_site("demo")
 HUSKY, AMIGA = load_robot("husky"), load_robot("amiga")

@@ -23,7 +23,7 @@ from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Outcome, Planned, Refused
 from fieldhand.robot.loader import load_robot
 from fieldhand.task.plan import walk
-from vineyards import ALONG, ROWS, Vine, vines, vineyard
+from planning.english.vineyards import ALONG, ROWS, Vine, vines, vineyard
 
 HUSKY = load_robot("husky")
 BY_ID = {vine.id: vine for vine in vines()}

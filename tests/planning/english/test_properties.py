@@ -7,9 +7,6 @@ import contextlib
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import row_requests
-from english_requests import PLANNED
-from examples import examples
 from fieldhand.errors import RequestError
 from fieldhand.planning.english.arrange import arrange, without_filler
 from fieldhand.planning.english.faults import Question, Unclear
@@ -24,6 +21,9 @@ from fieldhand.site.geojson import open_site
 from fieldhand.task.codec import encode
 from fieldhand.task.references import references
 from fieldhand.task.schema import validate
+from support.examples import examples
+from support.requests import rows as row_requests
+from support.requests.english import PLANNED
 
 SITE, HUSKY = open_site("demo"), load_robot("husky")
 CAPABILITIES = capabilities_of(HUSKY)

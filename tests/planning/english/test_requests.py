@@ -6,7 +6,6 @@ from functools import cache
 
 import pytest
 
-from english_requests import ASKED, PLANNED, REFUSED, WARNED
 from fieldhand.approval.account import unaccounted
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Outcome, Planned, Refused
@@ -17,7 +16,8 @@ from fieldhand.task.codec import decode, encode
 from fieldhand.task.plan import walk
 from fieldhand.task.references import references
 from fieldhand.task.schema import validate
-from outlines import outline
+from planning.english.outlines import outline
+from support.requests.english import ASKED, PLANNED, REFUSED, WARNED
 
 SITE = open_site("demo")
 ROBOTS = {name: load_robot(name) for name in ("husky", "amiga")}

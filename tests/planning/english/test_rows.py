@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-import planted
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Outcome, Planned, Refused
 from fieldhand.robot.capabilities import capabilities_of
@@ -13,8 +12,9 @@ from fieldhand.site.geojson import open_site
 from fieldhand.task.codec import decode, encode
 from fieldhand.task.references import references
 from fieldhand.task.schema import validate
-from outlines import outline
-from row_requests import ASKED, ELSEWHERE, PLANNED, REFUSED
+from planning.english.outlines import outline
+from support.requests import orchards as planted
+from support.requests.rows import ASKED, ELSEWHERE, PLANNED, REFUSED
 
 DEMO = open_site("demo")
 ROBOTS = {name: load_robot(name) for name in ("husky", "amiga")}

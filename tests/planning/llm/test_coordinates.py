@@ -16,7 +16,7 @@ from fieldhand.site.model import Site
 from fieldhand.task.codec import TaskDraft
 from fieldhand.task.codec_shapes import all_shapes
 from fieldhand.testing.scripted_chat import ScriptedChat, planner_of, task_document
-from site_grids import grid
+from support.sites.grids import grid
 
 HUSKY = load_robot("husky")
 ABLE = capabilities_of(HUSKY)

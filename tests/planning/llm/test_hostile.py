@@ -22,7 +22,7 @@ from fieldhand.site.model import Site, Zone
 from fieldhand.task.codec import decode, encode
 from fieldhand.testing.scripted_chat import ScriptedChat, planner_of, task_document
 from fieldhand.visible import visible
-from site_grids import grid
+from support.sites.grids import grid
 
 HUSKY = load_robot("husky")
 REQUEST = "Take a picture of tree 4."

@@ -20,7 +20,7 @@ from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Refuse
 from fieldhand.robot.loader import load_robot
 from fieldhand.task.codec import decode, encode
 from fieldhand.task.plan import Act, walk
-from site_grids import grid
+from support.sites.grids import grid
 
 SITE, HUSKY = grid(4, 6), load_robot("husky")
 REQUEST = "Take a picture at  the corners,\nand come home. Use at most 50 % of the battery."

@@ -21,8 +21,8 @@ from fieldhand.robot.loader import builtin_names, load_robot
 from fieldhand.site.model import Site
 from fieldhand.task.codec import TaskDraft
 from fieldhand.testing.scripted_chat import ScriptedChat, planner_of
-from site_grids import LAT, LON, grid
-from sites import area, point, read
+from support.sites.grids import LAT, LON, grid
+from support.sites.points import area, point, read
 
 REQUEST = "Take a picture at each corner."
 

@@ -13,7 +13,7 @@ from fieldhand.planning.llm.scripted import ScriptedEndpoint
 from fieldhand.planning.llm.transcript import Session, read_transcript
 from fieldhand.planning.planner import Outcome, Planned
 from fieldhand.robot.loader import load_robot
-from site_grids import grid
+from support.sites.grids import grid
 
 SITE, HUSKY = grid(4, 6), load_robot("husky")
 REQUEST = "Take a picture of the first tree."

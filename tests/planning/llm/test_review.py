@@ -17,7 +17,7 @@ from fieldhand.task.codec import TaskDraft, encode
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import walk
 from fieldhand.testing.generated.tasks import ROVER, Parts
-from site_grids import grid
+from support.sites.grids import grid
 
 SITE = grid(4, 6)
 AMIGA = capabilities_of(load_robot("amiga"))

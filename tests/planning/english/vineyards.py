@@ -8,7 +8,7 @@ from functools import cache
 from typing import Any
 
 from fieldhand.site.model import Site
-from sites import area, point, read, square
+from support.sites.points import area, point, read, square
 
 ROWS, ALONG = 14, 24
 #: Metres between rows, and between vines along them.

@@ -27,7 +27,7 @@ from fieldhand.site.formats.files import SiteFiles
 from fieldhand.site.geojson import site_of
 from fieldhand.task.plan import Act
 from fieldhand.testing.small_orchard import at, task_for
-from sites import collection, point
+from support.sites.points import collection, point
 
 WHEN = "2026-05-01T08:00:00+02:00"
 NOW = datetime(2026, 5, 1, 12, tzinfo=UTC)

@@ -19,7 +19,7 @@ from fieldhand.places.selectors import Half, Take, TreeIs
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.conditions import Compare
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Node, Repeat, Try
-from rig import authorized, husky, orchard, task_for
+from support.missions.rig import authorized, husky, orchard, task_for
 
 PICTURE = "take_thermal_picture"
 PLAN = InOrder(

@@ -25,8 +25,8 @@ from fieldhand.delivery.link import RobotLink
 from fieldhand.delivery.verified import acceptance, sha256_of
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.model import Site
-from patience import LONG_S
-from signed import KEY, NOW, orchard_files, pack_mission
+from support.missions.signed import KEY, NOW, orchard_files, pack_mission
+from support.processes.patience import LONG_S
 
 TOKEN = "a-token-that-nobody-guesses-0123456789"
 HEADERS = {"Authorization": f"Bearer {TOKEN}", "Host": "localhost"}

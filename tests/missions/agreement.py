@@ -1,6 +1,6 @@
 """A mission carried out four ways: previewed, simulated, replayed from its log, and as a tree of BehaviorTree.CPP.
 
-``python tests/agreement.py COUNT [FIRST]`` compares so many random missions and prints what came of them
+``python tests/missions/agreement.py COUNT [FIRST]`` compares so many random missions and prints what came of them
 (docs/plans.md). Every one agrees on the places, their order, and the captures.
 """
 
@@ -56,7 +56,7 @@ from fieldhand.task.plan import (
     InOrder as Steps,
 )
 from fieldhand.task.results import Acted, Arrived, Decided, Ended, Event, Exited, Visiting
-from rig import approved, husky, orchard, task_for
+from support.missions.rig import approved, husky, orchard, task_for
 
 #: What happens: kind ("drive", "capture", "failure"), id of the node, id of the place.
 Trace = list[tuple[str, str, str]]

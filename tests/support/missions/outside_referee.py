@@ -8,7 +8,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-SHARED = Path(__file__).resolve().parents[2] / "shared"
+SHARED = Path(__file__).resolve().parents[4] / "shared"
 CASES = SHARED / "data" / "missions" / "orchard.yaml"
 _PROGRAM = SHARED / "tools" / "referee.py"
 HERE = _PROGRAM.exists() and CASES.exists()

@@ -1,6 +1,7 @@
 """Missions with random faults, and a judge of their logs that asks nothing of the product.
 
-``python tests/faulted_flights.py COUNT [FIRST]`` flies so many and prints what came of them (docs/faults.md).
+``python tests/support/missions/faulted_flights.py COUNT [FIRST]`` flies so many and prints what came of them
+(docs/faults.md).
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import FaultedExit, Task
 from fieldhand.task.plan import Act, ForEach, GoTo, InOrder, Node, OptionalStep, Repeat, Try, walk
 from fieldhand.task.results import Event
-from rig import approved
+from support.missions.rig import approved
 
 #: Metres within which a robot is at an exit.
 AT_EXIT_M = 1.0

@@ -11,7 +11,7 @@ from shapely.geometry import LineString, MultiPoint, Point, box
 
 from fieldhand.site.model import Gate, Site
 from fieldhand.site.planting import Block, Planting, Row
-from sites import place_at, site_of
+from support.sites.points import place_at, site_of
 
 
 def planted(blocks: Sequence[tuple[float, Sequence[Sequence[tuple[float, float]]]]], *, lone=(), **more) -> Site:

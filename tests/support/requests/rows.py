@@ -1361,7 +1361,7 @@ REFUSED = [
     ("husky", "take a picture at each", "'take a picture at each': which places are meant?"),
 ]
 
-#: (site of tests/planted.py, request, what becomes of it)
+#: (site of support/requests/orchards.py, request, what becomes of it)
 ELSEWHERE = [
     ("blocks", "take a picture of every tree in row 3", "asks 'row 3': of which block?"),
     ("blocks", "take a picture of tree 4 of row 3 of block B", "picture @ InRow(4, 4, of Rows(3, 3, of InBlock(B)))"),

@@ -10,7 +10,7 @@ from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import load_demo
 from fieldhand.task.frames import Task
-from flights import Flight, fly_task
+from support.missions.flights import Flight, fly_task
 
 #: Every branch drives the same ways; at each corner hangs one capture on a reading.
 STRAIGHT = "Take a thermal picture of each corner tree. If it is below 33 C, read the CO2 there."

@@ -113,7 +113,7 @@ def _at_start(env: dict[str, str]) -> dict[str, str]:
 def _first() -> subprocess.Popen[str]:
     """The process that is copied; it ends when these tests do."""
     made = subprocess.Popen(
-        [sys.executable, str(Path(__file__).with_name("copied.py"))],
+        [sys.executable, str(Path(__file__).with_name("command_server.py"))],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,

@@ -1,6 +1,7 @@
 """Missions in which battery, distance or time runs out, and a judge of their logs.
 
-``python tests/battery_flights.py COUNT [FIRST]`` carries so many out and prints what came of them (docs/faults.md).
+``python tests/missions/battery_flights.py COUNT [FIRST]`` carries out so many and prints what came of them
+(docs/faults.md).
 The judge reads the limits from Task and profile and everything else from the lines of the log.
 """
 
@@ -15,8 +16,6 @@ from typing import Any
 
 import numpy as np
 
-import faulted_flights
-from faulted_flights import Flown, random_plan, small_site
 from fieldhand import mission
 from fieldhand.execution.world import BatteryDrains, Blocked, Spot, World, WorldFault
 from fieldhand.places.selectors import TreeIs, Trees
@@ -27,7 +26,9 @@ from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, InOrder, Node
 from fieldhand.task.results import Event
-from rig import approved
+from support.missions import faulted_flights
+from support.missions.faulted_flights import Flown, random_plan, small_site
+from support.missions.rig import approved
 
 #: What floating-point sums may differ by.
 SUMS = 1e-6
