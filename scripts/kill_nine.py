@@ -48,7 +48,7 @@ from fieldhand.execution.drivers.simulation import SimulatedDriver
 from fieldhand.execution.journal.store import Journal, create
 from fieldhand.execution.mission_runner import run
 from fieldhand.execution.world import ActionFails, BatteryDrains, Blocked, SensorSilent, Spot, World, WorldFault
-from fieldhand.forecast.routes import drives_for
+from fieldhand.forecast.visit_order import drives_for
 from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.event_lines import from_json
 from fieldhand.task.results import Acted, Ended, InDoubt, Started

@@ -10,8 +10,8 @@ from shapely.geometry import Point, box
 
 from fieldhand.approval.branch_checks import driven_through
 from fieldhand.approval.checks import check, examine
-from fieldhand.forecast.routes import drives_for
-from fieldhand.forecast.walk import walk as walk_through
+from fieldhand.forecast.visit_order import drives_for
+from fieldhand.forecast.walk_branch import walk_branch as walk_through
 from fieldhand.places.selectors import Bound, Corners, InZone, Marker, Other, Take, TreeIs, Trees, Where
 from fieldhand.site.drives import Drive
 from fieldhand.site.model import Zone

@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 
 from fieldhand.evaluation.telling import Teller
 from fieldhand.execution.guard import Guard
-from fieldhand.forecast.routes import drives_for, visits_in_order
-from fieldhand.forecast.state import Spent, Visit
-from fieldhand.forecast.walk import walk
+from fieldhand.forecast.mission_state import Spent, Visit
+from fieldhand.forecast.visit_order import drives_for, visits_in_order
+from fieldhand.forecast.walk_branch import walk_branch
 from fieldhand.orienteering.overrun import overrun_probability
 from fieldhand.places.selectors import TreeIs, Trees
 from fieldhand.site.geojson import load_site
@@ -264,7 +264,7 @@ def test_work_allowed_with_a_visit_is_not_asked_for_again_but_what_follows_the_l
 def test_where_only_so_many_visits_may_be_made_the_robot_makes_those_of_the_preview(at_most, limit):
     node = replace(MANY, at_most=at_most, reward="reward")
     task = task_for(SITE, node, constraints=limited(limit))
-    walked = walk(task, SITE, CERTAIN, holds=lambda _: True)
+    walked = walk_branch(task, SITE, CERTAIN, holds=lambda _: True)
     (shown,) = [[p.id for p in s.places] for s in walked.steps if s.kind == "visit-list"]
     paper, _ = optional_mission(SITE, 0, limited(limit), robot=CERTAIN, node=node)
     assert len(shown) == at_most
@@ -323,7 +323,7 @@ def test_the_guard_is_what_execution_asks_for():
 def test_the_robot_sets_out_along_the_order_that_was_forecast(seed):
     site = orchard(6, 12)
     task = task_for(site, MANY, constraints=limited(150.0), nominal="return_to_end")
-    forecast = next(s for s in walk(task, site, ROBOT, holds=lambda _: False).steps if s.kind == "visit-list")
+    forecast = next(s for s in walk_branch(task, site, ROBOT, holds=lambda _: False).steps if s.kind == "visit-list")
     paper, _ = optional_mission(site, seed, limited(150.0))
     shown = [p.id for p in forecast.places]
     # A place that is as likely as one that is shown may come between.

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fieldhand.evaluation.threshold import Threshold
-from fieldhand.forecast.state import Visit
+from fieldhand.forecast.mission_state import Visit
 from fieldhand.orienteering.costs import ShiftedExponential
 from fieldhand.orienteering.overrun import overrun_probability
 from fieldhand.site.model import Place

@@ -220,7 +220,7 @@ def test_an_otherwise_stands_in_for_work_out_of_reach() -> None:
 
 
 def test_what_was_found_blocked_can_be_taken_up_again_from_the_log() -> None:
-    from fieldhand.forecast.routes import drives_for
+    from fieldhand.forecast.visit_order import drives_for
 
     site = upright(4, 8)
     ids = [t.place.id for t in site.trees]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import pytest
@@ -9,7 +10,7 @@ import pytest
 from fieldhand.evaluation.outcome import judge
 from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.world import ActionFails, World
-from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
+from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
 from fieldhand.places.selectors import TreeIs, Union
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, InOrder, Node, OptionalStep, Repeat, StopMission, Try
 from fieldhand.task.results import Exited, Faulted, Shed
@@ -47,13 +48,13 @@ class Sheds(NoGuard):
         candidates: list[Visit],
         *,
         at_most: int | None = None,
-        still_to_come: InOrder[Visit] = (),
-    ) -> Choice:
+        still_to_come: Sequence[Visit] = (),
+    ) -> VisitChoice:
         (visit,) = candidates
         self.asked.append((state.node, visit))
         if self.turns is None or len(self.asked) - 1 in self.turns:
-            return Choice(index=None, shed=(0,), reason="too little left", chance_short=0.3)
-        return Choice(index=0)
+            return VisitChoice(index=None, shed=(0,), reason="too little left", chance_short=0.3)
+        return VisitChoice(index=0)
 
 
 def places(result) -> list[str]:

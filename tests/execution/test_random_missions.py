@@ -21,7 +21,7 @@ from fieldhand.execution.world import (
     Spot,
     World,
 )
-from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
+from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.task.event_lines import from_json, to_json
 from fieldhand.task.frames import Task
@@ -69,11 +69,11 @@ class Moody(NoGuard):
         *,
         at_most: int | None = None,
         still_to_come: Sequence[Visit] = (),
-    ) -> Choice:
+    ) -> VisitChoice:
         mood = self._mood()
         if mood == 0:
-            return Choice(index=None, reason="in a mood")
-        return Choice(index=mood % len(candidates), shed=tuple(range(min(mood // 5, len(candidates)))))
+            return VisitChoice(index=None, reason="in a mood")
+        return VisitChoice(index=mood % len(candidates), shed=tuple(range(min(mood // 5, len(candidates)))))
 
 
 @settings(max_examples=examples(40, thorough=120), deadline=None, suppress_health_check=[HealthCheck.too_slow])

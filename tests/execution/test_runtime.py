@@ -28,7 +28,7 @@ from fieldhand.execution.world import (
     Spot,
     World,
 )
-from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
+from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import Half, TreeIs, Trees, Union
 from fieldhand.task.conditions import Compare
@@ -406,11 +406,11 @@ def test_the_guard_chooses_among_optional_visits_and_sheds_some() -> None:
             *,
             at_most: int | None = None,
             still_to_come: Sequence[Visit] = (),
-        ) -> Choice:
+        ) -> VisitChoice:
             rewards = [c.reward for c in candidates]
             best = rewards.index(max(rewards))
             worthless = tuple(i for i, r in enumerate(rewards) if r == 0.0)
-            return Choice(index=best, shed=worthless, reason="worth nothing")
+            return VisitChoice(index=best, shed=worthless, reason="worth nothing")
 
     plan = each("r0c0", "r0c1", "r0c2", "r0c3", optional=True, reward="reward")
     result = Rig(guard=LastFirst(99)).fly(plan)
@@ -430,7 +430,7 @@ def test_the_guard_is_told_how_many_optional_visits_may_still_be_made() -> None:
             *,
             at_most: int | None = None,
             still_to_come: Sequence[Visit] = (),
-        ) -> Choice:
+        ) -> VisitChoice:
             told.append(at_most)
             return super().choose(state, candidates)
 

@@ -15,7 +15,7 @@ from fieldhand.evaluation.drain import Drain
 from fieldhand.evaluation.failsafe import BudgetFailsafe
 from fieldhand.evaluation.telling import Teller
 from fieldhand.execution.world import BatteryDrains, World
-from fieldhand.forecast.state import Spent
+from fieldhand.forecast.mission_state import Spent
 from fieldhand.language import open_language
 from fieldhand.places.selectors import TreeIs, Trees
 from fieldhand.robot.model import RobotProfile

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from fieldhand.approval.checks import check, examine
 from fieldhand.forecast import branches as exploration
-from fieldhand.forecast import walker
+from fieldhand.forecast import request_handler
 from fieldhand.forecast.branches import branches
 from fieldhand.forecast.estimate import estimate
 from fieldhand.places.selectors import Bound, Here, Nearest, Other, Take, TreeIs, Trees
@@ -219,7 +219,7 @@ def test_what_is_tried_fails_on_the_way_and_at_its_work_with_all_its_retries():
 def test_an_optional_step_is_explored_done_and_left_out():
     plan = line(picture("1"), OptionalStep(id="", body=picture("20")))
     found = branches(task_for(SITE, plan), SITE, ROBOT)
-    done = {any(s.kind == "act" and s.places[0].id == "20" for s in w.steps) for w in found.told}
+    done = {any(s.kind == "act" and s.places[0].id == "20" for s in w.steps) for w in found.optional_walks}
     assert done == {True, False}
 
 
@@ -280,7 +280,7 @@ def test_a_problem_names_node_words_and_place():
     ids=["times", "rounds", "steps", "empty", "unread"],
 )
 def test_what_no_robot_could_do_is_a_line(plan: Node, said: str, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(walker, "MAX_NODES", 1000)
+    monkeypatch.setattr(request_handler, "MAX_NODES", 1000)
     found = errors(plan)
     assert found
     assert all(said in str(error) and "\n" not in str(error) for error in found)

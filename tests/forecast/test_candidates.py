@@ -13,11 +13,11 @@ from fieldhand.errors import ProblemError
 from fieldhand.evaluation import choosing
 from fieldhand.forecast import expected
 from fieldhand.forecast.candidates import MOST_CANDIDATES, cheapest
-from fieldhand.forecast.legs import legs_between
-from fieldhand.forecast.rest import Rest
-from fieldhand.forecast.routes import beginning, drives_for, standing
-from fieldhand.forecast.state import Visit
-from fieldhand.forecast.walk import walk
+from fieldhand.forecast.mission_state import Visit
+from fieldhand.forecast.remaining_work import RemainingWork
+from fieldhand.forecast.visit_distances import visit_distances
+from fieldhand.forecast.visit_order import drives_for, start_place, with_stands
+from fieldhand.forecast.walk_branch import walk_branch
 from fieldhand.orienteering import table
 from fieldhand.places.selectors import Trees
 from fieldhand.robot.loader import load_robot
@@ -31,8 +31,10 @@ from support.missions.paper import Paper
 ROBOT = load_robot("husky")
 MADE = parse_site(benchmark_orchard(120, 3), name="made")
 DRIVES = drives_for(MADE, ROBOT)
-HERE = beginning(DRIVES)
-VISITS = [Visit(place=p) for p in standing(DRIVES, HERE, [t.place for t in MADE.trees if not DRIVES.problem(t.place)])]
+HERE = start_place(DRIVES)
+VISITS = [
+    Visit(place=p) for p in with_stands(DRIVES, HERE, [t.place for t in MADE.trees if not DRIVES.problem(t.place)])
+]
 (HOME,) = DRIVES.stands((MADE.home("return_to_end", HERE),))
 METRES = [DRIVES.between(HERE, v.place).length_m + DRIVES.between(v.place, HOME).length_m for v in VISITS]
 
@@ -50,13 +52,13 @@ def test_a_table_has_room_for_the_candidates_the_place_in_hand_and_the_end() -> 
 
 def test_what_is_kept_is_not_refused_and_one_more_would_be(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(table, "MOST", FEW + 2)
-    rest = Rest(stops=(HOME,))
+    rest = RemainingWork(stops=(HOME,))
     kept = [VISITS[k] for k in cheapest(HERE, VISITS, rest, DRIVES, FEW)]
-    found = legs_between(HERE, kept, rest, DRIVES, table=3).table
+    found = visit_distances(HERE, kept, rest, DRIVES, table=3).table
     assert found is not None
     assert found.size == table.MOST
     with pytest.raises(ProblemError, match="more than"):
-        legs_between(HERE, VISITS[: FEW + 1], rest, DRIVES, table=3)
+        visit_distances(HERE, VISITS[: FEW + 1], rest, DRIVES, table=3)
 
 
 @settings(deadline=None, max_examples=60)
@@ -64,19 +66,19 @@ def test_what_is_kept_is_not_refused_and_one_more_would_be(monkeypatch: pytest.M
 def test_all_are_kept_up_to_the_limit_and_of_more_the_cheapest_in_their_order(chosen: set[int], most: int) -> None:
     order = sorted(chosen)
     visits = [VISITS[k] for k in order]
-    kept = cheapest(HERE, visits, Rest(stops=(HOME,)), DRIVES, most)
+    kept = cheapest(HERE, visits, RemainingWork(stops=(HOME,)), DRIVES, most)
     assert list(kept) == sorted(set(kept))
     assert len(kept) == min(most, len(visits))
     metres = np.array([METRES[k] for k in order])
     left = np.delete(metres, list(kept))
     assert not len(left) or metres[list(kept)].max() <= left.min() + 2e-3
-    assert kept == cheapest(HERE, visits, Rest(stops=(HOME,)), DRIVES, most)
+    assert kept == cheapest(HERE, visits, RemainingWork(stops=(HOME,)), DRIVES, most)
 
 
 @settings(deadline=None, max_examples=20)
 @given(shuffled=st.permutations(range(len(VISITS))), most=st.integers(1, len(VISITS)))
 def test_the_order_of_the_visits_decides_only_between_equal_ones(shuffled: list[int], most: int) -> None:
-    rest = Rest(stops=(HOME,))
+    rest = RemainingWork(stops=(HOME,))
     one = sorted(round(METRES[k], 2) for k in cheapest(HERE, VISITS, rest, DRIVES, most))
     kept = cheapest(HERE, [VISITS[k] for k in shuffled], rest, DRIVES, most)
     assert sorted(round(METRES[shuffled[k]], 2) for k in kept) == one
@@ -84,7 +86,7 @@ def test_the_order_of_the_visits_decides_only_between_equal_ones(shuffled: list[
 
 def test_where_nothing_follows_only_the_way_there_counts() -> None:
     there = [DRIVES.between(HERE, v.place).length_m for v in VISITS]
-    kept = cheapest(HERE, VISITS, Rest(), DRIVES, 12)
+    kept = cheapest(HERE, VISITS, RemainingWork(), DRIVES, 12)
     assert max(there[k] for k in kept) <= min(m for k, m in enumerate(there) if k not in kept) + 2e-3
 
 
@@ -92,35 +94,35 @@ def test_a_visit_that_ends_elsewhere_counts_the_way_home_from_there() -> None:
     near, *others = (VISITS[k] for k in np.argsort(METRES, kind="stable")[:3])
     home = [DRIVES.between(v.place, HOME).length_m for v in VISITS]
     moved = Visit(place=near.place, leaves=VISITS[int(np.argmax(home))].place)
-    assert 0 in cheapest(HERE, [near, *others], Rest(stops=(HOME,)), DRIVES, 2)
-    assert cheapest(HERE, [moved, *others], Rest(stops=(HOME,)), DRIVES, 2) == (1, 2)
+    assert 0 in cheapest(HERE, [near, *others], RemainingWork(stops=(HOME,)), DRIVES, 2)
+    assert cheapest(HERE, [moved, *others], RemainingWork(stops=(HOME,)), DRIVES, 2) == (1, 2)
 
 
 def test_straight_drives_need_no_table_and_keep_all() -> None:
     site = orchard(zones=[])
     drives = drives_for(site, ROBOT)
-    here = beginning(drives)
-    visits = [Visit(place=p) for p in standing(drives, here, [t.place for t in site.trees])]
+    here = start_place(drives)
+    visits = [Visit(place=p) for p in with_stands(drives, here, [t.place for t in site.trees])]
     home = site.home("return_to_end", here)
     straight = drives.are_straight([here, *(v.place for v in visits), home])
     assert straight == drives.roads([here, *(v.place for v in visits), home]).straight
-    kept = cheapest(here, visits, Rest(stops=(home,)), drives, 3)
+    kept = cheapest(here, visits, RemainingWork(stops=(home,)), drives, 3)
     assert len(kept) == (len(visits) if straight else 3)
 
 
 def test_the_forecast_counts_what_is_left_out_and_expects_no_visit_there(monkeypatch: pytest.MonkeyPatch) -> None:
     task = task_for(MADE, MANY, constraints=limited(150.0))
-    free = walk(task, MADE, husky(), holds=lambda _: True)
+    free = walk_branch(task, MADE, husky(), holds=lambda _: True)
     monkeypatch.setattr(expected, "cheapest", partial(cheapest, most=FEW))
-    few = walk(task, MADE, husky(), holds=lambda _: True)
+    few = walk_branch(task, MADE, husky(), holds=lambda _: True)
     (all_, kept) = (next(s for s in found.steps if s.kind == "visit-list") for found in (free, few))
-    assert kept.outlook is not None
-    assert all_.outlook is not None
-    assert set(kept.outlook.chances) == set(all_.outlook.chances)
+    assert kept.visit_forecast is not None
+    assert all_.visit_forecast is not None
+    assert set(kept.visit_forecast.chances) == set(all_.visit_forecast.chances)
     assert {p.id for p in (*kept.places, *kept.shed)} == {p.id for p in (*all_.places, *all_.shed)}
-    assert sum(chance > 0.0 for chance in kept.outlook.chances.values()) <= FEW
-    assert 0 < kept.outlook.visits <= min(FEW, all_.outlook.visits + 1e-9)
-    assert len(kept.places) == round(kept.outlook.visits)
+    assert sum(chance > 0.0 for chance in kept.visit_forecast.chances.values()) <= FEW
+    assert 0 < kept.visit_forecast.visits <= min(FEW, all_.visit_forecast.visits + 1e-9)
+    assert len(kept.places) == round(kept.visit_forecast.visits)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -128,7 +130,7 @@ def test_the_guard_visits_only_what_it_chooses_from_and_gives_up_the_rest_at_the
     monkeypatch: pytest.MonkeyPatch, seed: int
 ) -> None:
     task, places, most = task_for(MADE, MANY, constraints=limited(110.0)), [v.place for v in VISITS], 30
-    within = {VISITS[k].place.id for k in cheapest(HERE, VISITS, Rest(stops=(HOME,)), DRIVES, most)}
+    within = {VISITS[k].place.id for k in cheapest(HERE, VISITS, RemainingWork(stops=(HOME,)), DRIVES, most)}
     monkeypatch.setattr(choosing, "cheapest", partial(cheapest, most=most))
     paper = Paper(task, MADE, husky(), seed)
     last = paper.optional(MANY, places)
@@ -142,7 +144,7 @@ def test_the_guard_visits_only_what_it_chooses_from_and_gives_up_the_rest_at_the
 
 def test_when_all_are_visited_the_guard_goes_on_with_those_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
     task, places = task_for(MADE, MANY, constraints=limited(400.0)), [v.place for v in VISITS]
-    within = {VISITS[k].place.id for k in cheapest(HERE, VISITS, Rest(stops=(HOME,)), DRIVES, FEW)}
+    within = {VISITS[k].place.id for k in cheapest(HERE, VISITS, RemainingWork(stops=(HOME,)), DRIVES, FEW)}
     monkeypatch.setattr(choosing, "cheapest", partial(cheapest, most=FEW))
     paper = Paper(task, MADE, husky(), 0)
     paper.optional(MANY, places)

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fieldhand.forecast.conditions import Facts, evaluate
+from fieldhand.forecast.conditions import ConditionInputs, evaluate
 from fieldhand.task.conditions import AllOf, AnyOf, Between, Compare, Condition, Level, Not, TreeHas
 from fieldhand.terms import Test, Value
 from support.missions.rig import husky, orchard
@@ -21,7 +21,7 @@ UNKNOWN = Compare(reading="never", quantity="co2", test="gt", value=400, unit="p
 
 def finding(condition: Condition, **readings: float) -> tuple[bool | None, str]:
     given = {"r": readings} if readings else READINGS
-    found = evaluate(condition, Facts(site=SITE, robot=husky(), here=KERMAN, readings=given))
+    found = evaluate(condition, ConditionInputs(site=SITE, robot=husky(), here=KERMAN, readings=given))
     assert found.holds == (found.truth is True)
     return found.truth, found.why
 
@@ -94,7 +94,7 @@ def test_the_opposite_of_a_comparison_that_cannot_be_made_does_not_hold() -> Non
 
 
 def test_a_marker_has_no_attributes() -> None:
-    facts = Facts(site=SITE, robot=husky(), here=SITE.markers["end"])
+    facts = ConditionInputs(site=SITE, robot=husky(), here=SITE.markers["end"])
     assert evaluate(TreeHas(attribute="variety", test="eq", value="Kerman"), facts).truth is None
 
 

@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.forecast.estimate import estimate, limit_problems
-from fieldhand.forecast.limits import resources_of
-from fieldhand.forecast.rest import rest_after
-from fieldhand.forecast.routes import drives_for
-from fieldhand.forecast.state import Spent, Visit
+from fieldhand.forecast.mission_state import Spent, Visit
+from fieldhand.forecast.remaining_work import remaining_work_after
+from fieldhand.forecast.resource_limits import resource_limits
+from fieldhand.forecast.visit_order import drives_for
 from fieldhand.orienteering.overrun import overrun_probability
 from fieldhand.places.context import Context
 from fieldhand.places.selectors import Marker, TreeIs, Trees
@@ -127,12 +127,12 @@ def test_every_limit_in_metres_allows_what_the_resource_allows():
         reserve_percent=30.0,
     )
     spent = Spent(metres=10.0, seconds=15.0, percent=1.0)
-    for resource in resources_of(constraints, ROBOT, 90.0):
+    for resource in resource_limits(constraints, ROBOT, 90.0):
         left = resource.metres_left(spent)
         seconds = left / ROBOT.speed_m_s
         used = spent + Spent(metres=left, seconds=seconds, percent=ROBOT.percent(left, seconds))
         assert resource.used(used) == pytest.approx(resource.limit)
-    assert resources_of(constraints, ROBOT, 90.0)[-1].limit == pytest.approx(60.0)
+    assert resource_limits(constraints, ROBOT, 90.0)[-1].limit == pytest.approx(60.0)
 
 
 def test_the_rest_of_a_plan_is_what_stands_after_a_node_and_the_way_home():
@@ -140,7 +140,9 @@ def test_the_rest_of_a_plan_is_what_stands_after_a_node_and_the_way_home():
     last = Act(id="", action="take_thermal_picture", at=TreeIs(tree="20"), count=2)
     task = task_for(SITE, InOrder(id="", steps=(many, last)))
     drives = drives_for(SITE, ROBOT)
-    rest = rest_after(task, SITE, ROBOT, drives, frames_at(task.composition.plan, "n2"), Context(here=SITE.start))
+    rest = remaining_work_after(
+        task, SITE, ROBOT, drives, frames_at(task.composition.plan, "n2"), Context(here=SITE.start)
+    )
     tree = SITE.by_id["20"].place
     assert rest.first == tree
     assert rest.legs_m == pytest.approx((drives.between(tree, SITE.markers["end"]).length_m,))
@@ -157,7 +159,9 @@ def test_the_rest_inside_a_loop_has_the_visits_that_are_still_to_come():
     seconds = ROBOT.action["read_co2"].duration_s
     to_come = [Visit(place=t.place, service_s=seconds) for t in SITE.trees[3:]]
     context = Context(here=here, visited=("1", "2", "3"))
-    rest = rest_after(task, SITE, ROBOT, drives, frames_at(task.composition.plan, "n3"), context, to_come=to_come)
+    rest = remaining_work_after(
+        task, SITE, ROBOT, drives, frames_at(task.composition.plan, "n3"), context, to_come=to_come
+    )
     # The step after it in this round, 17 more trees with one each, and the way home.
     assert rest.work.seconds == pytest.approx(18 * seconds)
     assert len(rest.legs_m) == 17
@@ -170,7 +174,9 @@ def test_of_a_repeat_under_way_the_rounds_that_are_left_are_set_aside(rounds):
     times, done = rounds
     plan = Repeat(id="", times=times, body=Act(id="", action="read_co2"))
     task, drives = task_for(SITE, plan), drives_for(SITE, ROBOT)
-    rest = rest_after(task, SITE, ROBOT, drives, frames_at(task.composition.plan, "n2", done), Context(here=SITE.start))
+    rest = remaining_work_after(
+        task, SITE, ROBOT, drives, frames_at(task.composition.plan, "n2", done), Context(here=SITE.start)
+    )
     assert rest.work.seconds == pytest.approx((times - done) * ROBOT.action["read_co2"].duration_s)
 
 
@@ -181,16 +187,16 @@ def test_the_rest_is_that_of_the_branch_that_takes_most_and_home_where_nothing_f
     drives = drives_for(SITE, ROBOT)
     here = Context(here=SITE.markers["end"])
     task = task_for(SITE, InOrder(id="", steps=(many, choice)))
-    rest = rest_after(task, SITE, ROBOT, drives, frames_at(task.composition.plan, "n2"), here)
+    rest = remaining_work_after(task, SITE, ROBOT, drives, frames_at(task.composition.plan, "n2"), here)
     assert rest.work.seconds == pytest.approx(9 * ROBOT.action["take_thermal_picture"].duration_s)
     task = task_for(SITE, many)
-    alone = rest_after(task, SITE, ROBOT, drives, frames_at(task.composition.plan, "n1"), here)
+    alone = remaining_work_after(task, SITE, ROBOT, drives, frames_at(task.composition.plan, "n1"), here)
     assert (alone.first, alone.legs_m, alone.mandatory) == (SITE.markers["end"], (), False)
     task = task_for(SITE, many, nominal="stay")
-    stays = rest_after(task, SITE, ROBOT, drives, frames_at(task.composition.plan, "n1"), here)
+    stays = remaining_work_after(task, SITE, ROBOT, drives, frames_at(task.composition.plan, "n1"), here)
     assert stays.first is None
     task = task_for(SITE, InOrder(id="", steps=(many, Act(id="", action="read_co2", at=Marker(name="start")))))
-    back = rest_after(
+    back = remaining_work_after(
         task, SITE, ROBOT, drives, frames_at(task.composition.plan, "n2"), Context(here=SITE.start)
     )  # fmt: skip
     # It stands there already, and will have to come back.
@@ -222,7 +228,7 @@ def test_a_forecast_that_exceeds_what_is_accepted_is_said_of_optional_visits_too
     found = estimate(task, SITE, ROBOT)
     assert found.worst.visits > 0
     assert found.problems == ()
-    resources, drives = resources_of(task.constraints, ROBOT, 100.0), drives_for(SITE, ROBOT)
+    resources, drives = resource_limits(task.constraints, ROBOT, 100.0), drives_for(SITE, ROBOT)
     for kind, words in (("distance_m", "the distance budget of 60 m"), ("duration_s", "the time budget of 2000 s")):
         said = tuple(replace(c, chance=0.44 if c.kind == kind else c.chance) for c in found.worst.chances)
         branches = (found.worst, replace(found.worst, chances=said))

@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 
 from fieldhand.errors import PlaceError
 from fieldhand.forecast.estimate import estimate, mandatory_part
-from fieldhand.forecast.rest import rest_after
-from fieldhand.forecast.routes import beginning, drives_for
-from fieldhand.forecast.visits import Visits
-from fieldhand.forecast.walk import walk
+from fieldhand.forecast.optional_visits import OptionalVisits
+from fieldhand.forecast.remaining_work import remaining_work_after
+from fieldhand.forecast.visit_order import drives_for, start_place
+from fieldhand.forecast.walk_branch import walk_branch
 from fieldhand.places.context import Context
 from fieldhand.places.selectors import First, Here, Nearest, TreeIs, Trees, Where
 from fieldhand.task import plan as p
@@ -44,7 +44,7 @@ def within(metres):
 
 
 def walked(plan, metres=1e6, **more):
-    return walk(task_for(plan, constraints=within(metres), **more), SITE, ROBOT, holds=lambda _: True)
+    return walk_branch(task_for(plan, constraints=within(metres), **more), SITE, ROBOT, holds=lambda _: True)
 
 
 def length(plan):
@@ -101,7 +101,7 @@ def test_a_body_is_one_visit_with_all_its_drives_and_work_on_its_longest_branch(
         If(id="", condition=yellow, then=picture("r3c4"), otherwise=picture("r3c1")),
     )
     node = OptionalStep(id="n1", body=body, reward=2.5)
-    visit = Visits(task_for(node), SITE, ROBOT, DRIVES).of_step(node, Context(here=beginning(DRIVES)))
+    visit = OptionalVisits(task_for(node), SITE, ROBOT, DRIVES).of_step(node, Context(here=start_place(DRIVES)))
     action = ROBOT.action[PICTURE]
     assert (visit.place.id, visit.leaves.id, visit.reward) == ("r3c0", "r3c4", 2.5)
     assert visit.service_s == pytest.approx(3 * action.duration_s)
@@ -112,7 +112,7 @@ def test_a_body_is_one_visit_with_all_its_drives_and_work_on_its_longest_branch(
 def test_a_body_that_drives_nowhere_is_a_visit_to_the_place_in_hand():
     node = OptionalStep(id="n1", body=picture())
     here = DRIVES.stands((SITE.by_id["r2c2"].place,))[0]
-    visit = Visits(task_for(node), SITE, ROBOT, DRIVES).of_step(node, Context(here=here))
+    visit = OptionalVisits(task_for(node), SITE, ROBOT, DRIVES).of_step(node, Context(here=here))
     assert (visit.place, visit.inside_m, visit.leaves) == (here, 0.0, None)
 
 
@@ -129,8 +129,8 @@ def test_a_stop_in_a_step_that_is_shed_ends_nothing():
 
 def test_what_must_follow_and_a_walk_of_what_must_be_done_have_no_optional_step():
     task = task_for(steps(picture("r0c0"), optional(picture("r3c4")), picture("r0c1")))
-    rest = rest_after(
-        task, SITE, ROBOT, DRIVES, frames_at(task.composition.plan, "n2"), Context(here=beginning(DRIVES))
+    rest = remaining_work_after(
+        task, SITE, ROBOT, DRIVES, frames_at(task.composition.plan, "n2"), Context(here=start_place(DRIVES))
     )
     assert rest.first.id == "r0c1"
     assert len(rest.legs_m) == 1
@@ -152,11 +152,11 @@ def test_an_optional_step_at_each_place_leaves_enough_for_the_places_that_remain
     loop = ForEach(id="", select=many, body=steps(picture(), optional(picture(count=3))), order=order)
     bare = ForEach(id="", select=many, body=picture(), order=order)
     action = ROBOT.action[PICTURE]
-    plain = walk(task_for(bare), SITE, ROBOT, holds=lambda _: True)
+    plain = walk_branch(task_for(bare), SITE, ROBOT, holds=lambda _: True)
     seconds = sum(s.seconds for s in plain.steps)
     budget = Budget(kind="duration_s", limit=seconds + 2.5 * 3 * action.duration_s)
     task = task_for(loop, constraints=Constraints(budgets=(budget,)))
-    found = walk(task, SITE, ROBOT, holds=lambda _: True)
+    found = walk_branch(task, SITE, ROBOT, holds=lambda _: True)
     assert sum(s.seconds for s in found.steps) <= budget.limit
     assert [bool(places) for places, _ in decided(found)] == [True, True, *[False] * 6]
     assert done(found).count(done(plain)[-1]) == 1
@@ -168,9 +168,9 @@ def test_nested_loops_around_an_optional_step_are_set_aside_too():
         id="", select=Where(attribute="reward", test="eq", value=2.0), body=steps(GoTo(id="", place=Here()), inner)
     )
     plain = replace(outer, body=steps(GoTo(id="", place=Here()), replace(inner, body=picture())))
-    seconds = sum(s.seconds for s in walk(task_for(plain), SITE, ROBOT, holds=lambda _: True).steps)
+    seconds = sum(s.seconds for s in walk_branch(task_for(plain), SITE, ROBOT, holds=lambda _: True).steps)
     budget = Budget(kind="duration_s", limit=seconds + 1.0)
-    found = walk(task_for(outer, constraints=Constraints(budgets=(budget,))), SITE, ROBOT, holds=lambda _: True)
+    found = walk_branch(task_for(outer, constraints=Constraints(budgets=(budget,))), SITE, ROBOT, holds=lambda _: True)
     assert len(decided(found)) == 8
     assert len(done(found)) >= 8
 

@@ -21,12 +21,12 @@ from fieldhand.evaluation.replay import replay
 from fieldhand.exchange.btcpp import write_tree
 from fieldhand.execution.guard import Guard
 from fieldhand.execution.world import ActionFails, Spot, World
-from fieldhand.forecast import routes
-from fieldhand.forecast.conditions import Facts, evaluate
-from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
-from fieldhand.forecast.steps import Walk
-from fieldhand.forecast.walk import walk as preview
-from fieldhand.forecast.walker import OptionalWork, Walker
+from fieldhand.forecast import visit_order
+from fieldhand.forecast.conditions import ConditionInputs, evaluate
+from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
+from fieldhand.forecast.request_handler import ForecastHandler, OptionalWorkPolicy
+from fieldhand.forecast.walk_branch import walk_branch as preview
+from fieldhand.forecast.walk_steps import Walk
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve_one
 from fieldhand.places.selector import Selector
@@ -268,7 +268,7 @@ class _Watch:
         *,
         at_most: int | None = None,
         still_to_come: Sequence[Visit] = (),
-    ) -> Choice:
+    ) -> VisitChoice:
         choice = self._guard.choose(state, candidates, at_most=at_most, still_to_come=still_to_come)
         if state.frames[-1].node.is_optional_step:
             self.taken[state.node].append(choice.index is not None)
@@ -291,7 +291,7 @@ class AsChosen:
         self._taken = {node: deque(answers) for node, answers in flight.taken.items()}
 
     def visits(
-        self, walker: Walker, node: ForEach, places: tuple[Place, ...], closed: tuple[Place, ...]
+        self, walker: ForecastHandler, node: ForEach, places: tuple[Place, ...], closed: tuple[Place, ...]
     ) -> tuple[Place, ...]:
         return self.next(node.id)
 
@@ -299,7 +299,7 @@ class AsChosen:
         """The visits of a for-each that is reached once more."""
         return tuple(self._chosen[node].popleft())
 
-    def takes(self, walker: Walker, node: OptionalStep) -> bool:
+    def takes(self, walker: ForecastHandler, node: OptionalStep) -> bool:
         return self._taken[node.id].popleft()
 
 
@@ -327,7 +327,7 @@ def simulated(seed: int) -> Simulated:
     raise AssertionError(f"no mission of seed {seed} ends as its plan says")
 
 
-def previewed(flight: Simulated, optional: OptionalWork | None) -> Walk:
+def previewed(flight: Simulated, optional: OptionalWorkPolicy | None) -> Walk:
     """The preview of the branch that a mission took, with the optional work as given, or as it is forecast."""
     decisions, work = flight.decisions, flight.work
     return preview(
@@ -372,8 +372,8 @@ class Interpreter:
         self._task = self.flight.task
         self._work = self.flight.work
         self._optional = AsChosen(self.flight)
-        self._drives = routes.drives_for(site, robot)
-        self._context = Context(here=routes.beginning(self._drives))
+        self._drives = visit_order.drives_for(site, robot)
+        self._context = Context(here=visit_order.start_place(self._drives))
         self._tree = etree.fromstring(write_tree(self._task, capabilities_of(robot)))[0]
         self._tested = self._conditions()
 
@@ -443,7 +443,7 @@ class Interpreter:
             case "OrderSteps":
                 self._entries[_entry(element.get("order"))] = self._ordered(element)
             case "CompareReading":
-                facts = Facts(site=orchard(), robot=husky(), here=self._context.here, readings=self._readings)
+                facts = ConditionInputs(site=orchard(), robot=husky(), here=self._context.here, readings=self._readings)
                 truth = evaluate(self._tested[element], facts).truth
                 return element.get("if_unknown") == "true" if truth is None else truth
             case _:
@@ -477,14 +477,14 @@ class Interpreter:
             order=element.get("order", "best"),
             at_most=int(element.get("at_most")) if "at_most" in element.attrib else None,
         )
-        places = routes.places_of(loop, loop.select, orchard(), self._context)
-        home = routes.home_if_last(self._task, orchard(), node, self._context.here)
-        return routes.visits_in_order(loop, self._drives, self._context.here, places, home)
+        places = visit_order.places_of(loop, loop.select, orchard(), self._context)
+        home = visit_order.home_if_last(self._task, orchard(), node, self._context.here)
+        return visit_order.visits_in_order(loop, self._drives, self._context.here, places, home)
 
     def _ordered(self, element: Any) -> tuple[int, ...]:
         node = next(n for n in walk(self._task.composition.plan) if n.id == _node(element))
-        home = routes.home_if_last(self._task, orchard(), node.id, self._context.here)
-        order = routes.steps_in_order(node, orchard(), self._drives, self._context, home)  # type: ignore[arg-type]
+        home = visit_order.home_if_last(self._task, orchard(), node.id, self._context.here)
+        order = visit_order.steps_in_order(node, orchard(), self._drives, self._context, home)  # type: ignore[arg-type]
         return tuple(k + 1 for k in order)
 
     def _acts(self, element: Any) -> bool:

@@ -19,7 +19,7 @@ from fieldhand.execution.drivers.simulation import SimulatedDriver
 from fieldhand.execution.journal import store
 from fieldhand.execution.vehicle import Connection, Vehicle
 from fieldhand.execution.world import World
-from fieldhand.forecast.routes import beginning, drives_for
+from fieldhand.forecast.visit_order import drives_for, start_place
 from fieldhand.places.selectors import Trees
 from fieldhand.site.geojson import open_site
 from fieldhand.site.model import Site
@@ -54,7 +54,7 @@ class Somewhere(SimulatedDriver):
         self.why_stopped: str | None = None
 
     def position(self) -> Position:
-        start = beginning(drives_for(self.site, ROBOT))
+        start = start_place(drives_for(self.site, ROBOT))
         x, y = (a + b for a, b in zip(start.stand or start.xy, self.away_m, strict=True))
         ((lat, lon),) = self.site.projection.degrees([(x, y)])
         return Position(x=x, y=y, lat=float(lat), lon=float(lon))

@@ -14,7 +14,7 @@ from shapely.geometry import LineString, Point, box
 
 from fieldhand.errors import DriveFault
 from fieldhand.forecast.distances import Distances
-from fieldhand.forecast.routes import reachable
+from fieldhand.forecast.visit_order import reachable
 from fieldhand.site.drives import Drives
 from fieldhand.site.driving.free import Area
 from fieldhand.site.driving.roads import Roads

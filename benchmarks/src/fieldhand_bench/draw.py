@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fieldhand.errors import DriveFault, PlaceError
-from fieldhand.forecast.limits import reserve_percent, speed_of
-from fieldhand.forecast.state import Spent
-from fieldhand.forecast.steps import Answer
-from fieldhand.forecast.walk import walk
+from fieldhand.forecast.mission_state import Spent
+from fieldhand.forecast.resource_limits import reserve_percent, speed_of
+from fieldhand.forecast.walk_branch import walk_branch
+from fieldhand.forecast.walk_steps import Answer
 from fieldhand.robot.capabilities import measures_of
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -119,7 +119,7 @@ def needs(task: Task, site: Site, robot: RobotProfile) -> Spent:
     """What everything that a Task asks for takes on average, its optional visits too, were there no limits."""
     whole = replace(task.composition, plan=_all_of(task.composition.plan))
     everything = replace(task, composition=whole, constraints=replace(task.constraints, budgets=()))
-    walked = walk(everything, site, robot, holds=_longest(whole.plan))
+    walked = walk_branch(everything, site, robot, holds=_longest(whole.plan))
     metres = sum(walked.legs_m)
     work_s, work_j = walked.work
     seconds = metres / speed_of(task.constraints, robot) + work_s

@@ -16,10 +16,10 @@ from fieldhand.errors import FieldhandError, NotApprovedError
 from fieldhand.execution.guard import Guard
 from fieldhand.execution.world import World
 from fieldhand.forecast.estimate import estimate, mandatory_part
+from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
 from fieldhand.forecast.service import reward_of
-from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
-from fieldhand.forecast.steps import Answer, Step
-from fieldhand.forecast.walk import walk
+from fieldhand.forecast.walk_branch import walk_branch
+from fieldhand.forecast.walk_steps import Answer, WalkStep
 from fieldhand.robot.model import LegCost, RobotProfile
 from fieldhand.task import plan
 from fieldhand.task.frames import Task, Then
@@ -123,7 +123,7 @@ class TimedGuard:
         *,
         at_most: int | None = None,
         still_to_come: Sequence[Visit] = (),
-    ) -> Choice:
+    ) -> VisitChoice:
         began = time.thread_time()
         choice = self.guard.choose(state, candidates, at_most=at_most, still_to_come=still_to_come)
         (self.choices_s if self.first_s else self.first_s).append(time.thread_time() - began)
@@ -237,7 +237,7 @@ def _exceeds(draft: Draft, task: Task) -> bool:
 
 
 def _forecast(draft: Draft, robot: RobotProfile, events: Sequence[Event]) -> Forecast:
-    walked = walk(draft.task, draft.site, robot, holds=_as_it_went(events), charge_percent=draft.charge_percent)
+    walked = walk_branch(draft.task, draft.site, robot, holds=_as_it_went(events), charge_percent=draft.charge_percent)
     lists = [
         (step.node, place)
         for number, step in enumerate(walked.steps)
@@ -247,7 +247,7 @@ def _forecast(draft: Draft, robot: RobotProfile, events: Sequence[Event]) -> For
     return Forecast(visits=len(lists), reward=sum(reward_of(node, place, draft.site) for node, place in lists))
 
 
-def _until(steps: Sequence[Step], node: Node) -> int:
+def _until(steps: Sequence[WalkStep], node: Node) -> int:
     """Visits of a loop's places before it found what it was to stop at."""
     tests = (s.answer for s in steps if s.kind == "decide" and s.node is node)
     return next((number for number, found in enumerate(tests, start=1) if found), len(steps))

@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 
 from fieldhand.errors import DriveFault
-from fieldhand.forecast.routes import drives_for
+from fieldhand.forecast.visit_order import drives_for
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Outcome, Planned
 from fieldhand.robot.loader import load_robot

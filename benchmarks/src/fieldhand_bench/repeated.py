@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fieldhand import mission
 from fieldhand.approval.authorize import EveryWarning
-from fieldhand.forecast.figures import BranchEstimate, Figure
+from fieldhand.forecast.branch_estimate import BranchEstimate, Figure
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task

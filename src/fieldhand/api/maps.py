@@ -21,7 +21,7 @@ from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event
 
 if TYPE_CHECKING:
     from fieldhand.forecast.estimate import Estimate
-    from fieldhand.forecast.steps import Walk
+    from fieldhand.forecast.walk_steps import Walk
 
 Feature = dict[str, Any]
 #: Decimals of a degree: a centimetre.

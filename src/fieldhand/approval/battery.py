@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from fieldhand.approval.problem import Problem
-from fieldhand.forecast.limits import reserve_percent
+from fieldhand.forecast.resource_limits import reserve_percent
 from fieldhand.language import message
 from fieldhand.language.words import say_number
 from fieldhand.robot.model import RobotProfile

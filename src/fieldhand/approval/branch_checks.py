@@ -10,7 +10,7 @@ from fieldhand.approval.sentences import say_place
 from fieldhand.errors import DriveFault
 from fieldhand.forecast.branches import Branches
 from fieldhand.forecast.estimate import Estimate
-from fieldhand.forecast.steps import Step, Walk
+from fieldhand.forecast.walk_steps import Walk, WalkStep
 from fieldhand.language import message
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -28,7 +28,7 @@ def branch_problems(explored: Branches, task: Task, site: Site, robot: RobotProf
         node, where = node_in(error.where)
         node = broken.node if not node and isinstance(error, DriveFault) else node
         yield Problem(node=node, where=where, what=what, advice=error.advice)
-    walks = (*explored.walks, *explored.told)
+    walks = (*explored.walks, *explored.optional_walks)
     yield from _unread(walks, task, robot)
     steps = (*(s for w in walks for s in w.steps), *(s for b in explored.broken for s in b.steps))
     for node, through in driven_through(steps, site):
@@ -93,7 +93,7 @@ def _troubled(walked: Walk) -> bool:
     return any(d.answer is (d.kind != "taken") for d in walked.decisions if d.kind != "holds")
 
 
-def driven_through(walked: Iterable[Step], site: Site) -> tuple[tuple[str, str], ...]:
+def driven_through(walked: Iterable[WalkStep], site: Site) -> tuple[tuple[str, str], ...]:
     """Each forbidden crossing as the id of the node that drives and what it crosses ("through the keep-out “pond”")."""
     rows = [row for row in site.planting.rows if len(row.trees) > 1]
     if not site.zones and not rows:

@@ -9,11 +9,11 @@ from dataclasses import replace
 from fieldhand.approval.problem import Problem
 from fieldhand.errors import FieldhandError
 from fieldhand.forecast.estimate import BranchEstimate, Estimate
-from fieldhand.forecast.limits import Resource, resources_of
-from fieldhand.forecast.routes import drives_for, first_places
+from fieldhand.forecast.mission_state import Work
+from fieldhand.forecast.resource_limits import ResourceLimit, resource_limits
+from fieldhand.forecast.route_cost import cost_model
 from fieldhand.forecast.service import service_of
-from fieldhand.forecast.state import Work
-from fieldhand.forecast.ways import cost_model
+from fieldhand.forecast.visit_order import drives_for, first_places
 from fieldhand.language import message
 from fieldhand.language.words import say_duration, say_number, say_rounded
 from fieldhand.orienteering.overrun import quantile_table, standardised_quantile
@@ -65,7 +65,7 @@ def _nothing_fits(task: Task, site: Site, robot: RobotProfile) -> Iterator[Probl
             continue  # where its places hang on the way there, no single visit can be costed
         (body,) = node.children
         seconds, joules = service_of(body, robot)
-        for resource in resources_of(task.constraints, robot):
+        for resource in resource_limits(task.constraints, robot):
             work = resource.of_work(robot, Work(seconds=seconds, joules=joules))
             need = sum(metres) * resource.per_metre + work
             amount, limit = _amount(resource, need), _amount(resource, resource.limit)
@@ -102,7 +102,7 @@ def _exceeded(metres: Sequence[float], robot: RobotProfile, chance: float) -> fl
     return sum(metres) + math.sqrt(second * variance) * over
 
 
-def _amount(resource: Resource, value: float) -> str:
+def _amount(resource: ResourceLimit, value: float) -> str:
     match resource.kind:
         case "distance_m":
             return message("{number} m", number=say_rounded(value))

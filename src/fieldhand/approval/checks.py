@@ -21,7 +21,7 @@ from fieldhand.approval.sentences import say_place
 from fieldhand.brief import brief_repr
 from fieldhand.errors import FieldhandError, PlaceError, TaskError
 from fieldhand.forecast.estimate import Estimate, estimate, explore
-from fieldhand.forecast.routes import beginning, drives_for
+from fieldhand.forecast.visit_order import drives_for, start_place
 from fieldhand.language import message, named
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve, resolve_one
@@ -223,7 +223,7 @@ def _left_out(node: Node, closed: list[tuple[Place, str]], site: Site) -> Iterat
 
 def _exits(task: Task, site: Site, drives: Drives) -> Iterator[Problem]:
     """Where the robot goes when something goes wrong has to be reached from where it starts."""
-    start = beginning(drives)
+    start = start_place(drives)
     for taken in task.composition.faulted:
         home = site.home(taken.then, start)
         reason = "" if home.xy == start.xy else drives.problem(home)

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import Literal
 
 from fieldhand.approval.clauses import say_condition
-from fieldhand.forecast.figures import BranchEstimate
-from fieldhand.forecast.steps import Decision
+from fieldhand.forecast.branch_estimate import BranchEstimate
+from fieldhand.forecast.walk_steps import Decision
 from fieldhand.language import joined, message
 from fieldhand.language.words import listed, say_action, say_times
 from fieldhand.robot.model import RobotProfile

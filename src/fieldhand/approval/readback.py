@@ -14,8 +14,8 @@ from fieldhand.approval.resolved import gather
 from fieldhand.approval.sentences import Line, say_exit_after, write_lines
 from fieldhand.brief import brief_repr
 from fieldhand.forecast.estimate import BranchEstimate, Estimate, Figure
-from fieldhand.forecast.limits import ResourceKind, reserve_percent
-from fieldhand.forecast.steps import Walk
+from fieldhand.forecast.resource_limits import ResourceKind, reserve_percent
+from fieldhand.forecast.walk_steps import Walk
 from fieldhand.language import counted, joined, message, recalled
 from fieldhand.language.words import capitalised, listed, say_duration, say_number, say_rounded
 from fieldhand.places.explanation import notes

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from fieldhand.forecast.steps import Outlook, Walk
+from fieldhand.forecast.walk_steps import VisitForecast, Walk
 from fieldhand.site.model import Place
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Node
@@ -20,14 +20,14 @@ class Found:
             a drive, all in their order for a for-each; for an optional step where it begins, none where it is shed.
         shed: Places for which the budget is not expected to last.
         known: They are the same on every branch and whatever legs cost; else they are decided on the way.
-        outlook: What will probably come of optional visits, the first time.
+        visit_forecast: What will probably come of optional visits, the first time.
         short: The chance that the mission runs short, with them.
     """
 
     visits: tuple[tuple[Place, ...], ...]
     shed: tuple[Place, ...]
     known: bool
-    outlook: Outlook | None = None
+    visit_forecast: VisitForecast | None = None
     short: float = 0.0
 
     @property
@@ -60,13 +60,13 @@ def gather(task: Task, walks: Sequence[Walk], short: float = 0.0) -> Mapping[str
             visits=tuple(places for places, _, _ in first),
             shed=first[0][1],
             known=same and node_id not in doubtful,
-            outlook=first[0][2],
+            visit_forecast=first[0][2],
             short=short,
         )
     return found
 
 
-_Visit = tuple[tuple[Place, ...], tuple[Place, ...], Outlook | None]
+_Visit = tuple[tuple[Place, ...], tuple[Place, ...], VisitForecast | None]
 
 
 def _of_walk(walk: Walk) -> dict[str, list[_Visit]]:
@@ -78,7 +78,7 @@ def _of_walk(walk: Walk) -> dict[str, list[_Visit]]:
         driven = step.kind == "drive" and step.node.only_drives
         done = step.kind == "act" or driven
         if listed or (done and step.node.selector is not None):
-            found.setdefault(step.node.id, []).append((step.places, step.shed, step.outlook))
+            found.setdefault(step.node.id, []).append((step.places, step.shed, step.visit_forecast))
     return found
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from fieldhand.approval.sentences import Line
-from fieldhand.forecast.steps import Step, Walk
+from fieldhand.forecast.walk_steps import Walk, WalkStep
 from fieldhand.site.model import Place
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Node, walk
@@ -94,14 +94,14 @@ class _Gatherer:
             if step.kind in ("drive", "act"):
                 self._stop(step, certainty, visits)
 
-    def _certainty(self, step: Step, after_optional: bool) -> Certainty:
+    def _certainty(self, step: WalkStep, after_optional: bool) -> Certainty:
         if step.node.id in self._optional:
             return "budget"
         if _key(step) in self._always:
             return "certain"
         return "budget" if after_optional else "conditional"
 
-    def _stop(self, step: Step, certainty: Certainty, visits: dict[str, int]) -> None:
+    def _stop(self, step: WalkStep, certainty: Certainty, visits: dict[str, int]) -> None:
         place = step.places[0]
         stop = self.stops.setdefault(place.xy, Stop(place=place))
         number = self._numbers.get(step.node.id)
@@ -124,7 +124,7 @@ def _surest(one: Certainty, other: Certainty) -> Certainty:
     return min(one, other, key=order.index)
 
 
-def _key(step: Step) -> tuple[str, str, tuple[XY, ...]]:
+def _key(step: WalkStep) -> tuple[str, str, tuple[XY, ...]]:
     points = step.drive.points if step.drive is not None else tuple(p.xy for p in step.places)
     return (step.node.id, step.kind, points)
 

@@ -25,15 +25,15 @@ def say_expected(found: Found | None) -> str:
 
 def say_expected_visits(found: Found | None) -> str:
     """How many optional visits are made on average, the chance of running short, and the few that go first."""
-    if found is None or found.outlook is None:
+    if found is None or found.visit_forecast is None:
         return ""
     chance = message(
         "{expected} of {total} expected, {chance} % chance of running short",
-        expected=say_rounded(found.outlook.visits),
+        expected=say_rounded(found.visit_forecast.visits),
         total=len(found.places) + len(found.shed),
         chance=say_rounded(100 * found.short),
     )
-    doubtful = sorted((chance, place) for place, chance in found.outlook.chances.items() if chance < _SURE)
+    doubtful = sorted((chance, place) for place, chance in found.visit_forecast.chances.items() if chance < _SURE)
     if not 0 < len(doubtful) <= _NAMED:
         return message("({expectation})", expectation=chance)
     ids, count = say_places(tuple(place for _, place in doubtful)), len(doubtful)

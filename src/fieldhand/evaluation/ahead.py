@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 from fieldhand.errors import DriveFault
 from fieldhand.evaluation.means import Means
-from fieldhand.forecast.rest import Rest, arrived
-from fieldhand.forecast.state import MissionState, Visit
-from fieldhand.forecast.ways import Way, way_of
+from fieldhand.forecast.mission_state import MissionState, Visit
+from fieldhand.forecast.remaining_work import RemainingWork, arrived
+from fieldhand.forecast.route_cost import RouteCost, route_cost
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,7 +22,7 @@ class Following:
         stops: The visit and all visits that are known to follow.
     """
 
-    way: Way
+    way: RouteCost
     stops: tuple[Visit, ...]
 
 
@@ -32,7 +32,7 @@ class _Loop:
 
     node: str
     stops: tuple[Visit, ...]
-    ways: tuple[Way, ...]
+    ways: tuple[RouteCost, ...]
 
     def position(self, node: str, visit: Visit, later: Sequence[Visit]) -> int | None:
         """Which of the stops a visit is, where all that are to come after it are those that stand here."""
@@ -80,10 +80,10 @@ class Ahead:
         means = self._means
         rest = means.rest(state.frames, arrived(state.context, stops))
         last = stops[-1].end
-        way = way_of([0.0 if rest.first is None else means.length(last, rest.first)], stops[-1].work) + rest.way
+        way = route_cost([0.0 if rest.first is None else means.length(last, rest.first)], stops[-1].work) + rest.way
         ways = [way]
         for stop, following in reversed(list(itertools.pairwise(stops))):
-            way = way_of([means.length(stop.end, following.place)], stop.work) + way
+            way = route_cost([means.length(stop.end, following.place)], stop.work) + way
             ways.append(way)
         known = _Loop(node=state.node, stops=(*stops, *_visits(rest)), ways=tuple(reversed(ways)))
         if rest.fixed:
@@ -91,6 +91,6 @@ class Ahead:
         return known
 
 
-def _visits(rest: Rest) -> tuple[Visit, ...]:
+def _visits(rest: RemainingWork) -> tuple[Visit, ...]:
     """The stops of the rest but its last, which is home."""
     return tuple(Visit(place=place) for place in rest.stops[:-1])

@@ -13,11 +13,11 @@ from fieldhand.errors import DriveFault
 from fieldhand.evaluation.means import Means
 from fieldhand.evaluation.reasons import Errand, left_out, no_way, too_many
 from fieldhand.forecast.candidates import cheapest
-from fieldhand.forecast.legs import TABLE, legs_between
-from fieldhand.forecast.optional import GONE, left_before, policy_for, visits_problem
-from fieldhand.forecast.rest import Rest, optional_runs
-from fieldhand.forecast.state import Choice, MissionState, Visit
-from fieldhand.forecast.ways import cost_model, way_of
+from fieldhand.forecast.mission_state import MissionState, Visit, VisitChoice
+from fieldhand.forecast.orienteering_problem import GONE, left_before, policy_for, visits_problem
+from fieldhand.forecast.remaining_work import RemainingWork, optional_runs
+from fieldhand.forecast.route_cost import cost_model, route_cost
+from fieldhand.forecast.visit_distances import MAX_DOUBLE, visit_distances
 from fieldhand.language import joined
 from fieldhand.orienteering.overrun import overrun_probability
 from fieldhand.places.context import Context
@@ -50,7 +50,7 @@ class _Run:
     policy: Policy
     vertex: dict[Key, int]
     start: Key
-    rest: Rest
+    rest: RemainingWork
     accepted: float
     beyond: frozenset[Key]
     new: bool
@@ -104,10 +104,10 @@ class Choosing:
 
     def next(
         self, state: MissionState, candidates: Sequence[Visit], at_most: int | None, to_come: Sequence[Visit]
-    ) -> Choice:
+    ) -> VisitChoice:
         """The visit that comes next, as the guard's ``choose`` says."""
         if not candidates:
-            return Choice(index=None)
+            return VisitChoice(index=None)
         run = self._runs.get(state.node)
         if run is not None and not run.begins(candidates):
             if not run.choosable(candidates):  # all of them were visited: on with those left out, at the same chance
@@ -118,7 +118,9 @@ class Choosing:
         if run is None or rest is not run.rest:
             open_, cut_off = self._reachable(state.context.here, candidates, rest.first)
             if not open_:
-                return Choice(index=None, shed=tuple(cut_off), reason=no_way(candidates, cut_off), chance_short=1.0)
+                return VisitChoice(
+                    index=None, shed=tuple(cut_off), reason=no_way(candidates, cut_off), chance_short=1.0
+                )
             within = cheapest(state.context.here, [candidates[i] for i in open_], rest, self._means.drives)
             open_ = [open_[k] for k in within]
         else:
@@ -150,7 +152,7 @@ class Choosing:
         if index is None and beyond:
             gone = [*gone, *beyond]
             reasons.append(too_many(candidates, beyond, len(run.vertex)))
-        return Choice(index=index, shed=(*cut_off, *gone), reason=joined("; ", reasons), chance_short=chance)
+        return VisitChoice(index=index, shed=(*cut_off, *gone), reason=joined("; ", reasons), chance_short=chance)
 
     # --- a run -------------------------------------------------------------------------------------------------------
 
@@ -158,7 +160,7 @@ class Choosing:
         self,
         state: MissionState,
         visits: Sequence[Visit],
-        rest: Rest,
+        rest: RemainingWork,
         run: _Run | None,
         at_most: int | None,
         beyond: frozenset[Key],
@@ -170,7 +172,7 @@ class Choosing:
         begun = self._begun.pop(state.node, None) if run is None else run.accepted
         accepted = self._accepted(state, rest) if begun is None else begun
         problem = visits_problem(
-            legs=legs_between(here, visits, rest, self._means.drives, self._means.distances.between),
+            legs=visit_distances(here, visits, rest, self._means.drives, self._means.distances.between),
             rewards=[v.reward for v in visits],
             service=[v.work for v in visits],
             rest=rest,
@@ -200,16 +202,16 @@ class Choosing:
         self._runs[state.node] = made
         return made
 
-    def _accepted(self, state: MissionState, rest: Rest) -> float:
+    def _accepted(self, state: MissionState, rest: RemainingWork) -> float:
         """The chance of running short with which a run is planned: that without it, and its share on top."""
         without = self._without(state, rest)
         return float(without.max()) + self._means.allowance(without).share(optional_runs(state.frames))
 
-    def _without(self, state: MissionState, rest: Rest) -> Floats:
+    def _without(self, state: MissionState, rest: RemainingWork) -> Floats:
         """For each limit the chance that what must follow runs short."""
         here = state.context.here
         there = 0.0 if rest.first is None else self._means.length(here, rest.first)
-        return self._means.chances(way_of([there]) + rest.way, state)
+        return self._means.chances(route_cost([there]) + rest.way, state)
 
     def _ask(self, run: _Run, here: int, near: Sequence[int], left: tuple[float, ...], state: MissionState) -> int:
         from fieldhand.orienteering.policy import State
@@ -225,7 +227,7 @@ class Choosing:
             self._means.add((1.0 - run.policy.expectation.success if priced else run.accepted) - without)
         return chosen
 
-    def _fits(self, state: MissionState, visit: Visit, rest: Rest, run: _Run) -> bool:
+    def _fits(self, state: MissionState, visit: Visit, rest: RemainingWork, run: _Run) -> bool:
         """Whether the only visit that there is adds no more than its share: that needs no search."""
         without = self._without(state, rest)
         added = self._means.chances(self._errand(state, visit, rest).way, state) - without
@@ -235,12 +237,12 @@ class Choosing:
         self._means.add(float(added.max()))
         return True
 
-    def _left(self, state: MissionState, rest: Rest) -> tuple[float, ...]:
+    def _left(self, state: MissionState, rest: RemainingWork) -> tuple[float, ...]:
         return left_before(self._means.resources(state), self._means.robot, state.spent, rest)
 
     def _rest(
         self, state: MissionState, run: _Run | None, candidates: Sequence[Visit], to_come: Sequence[Visit]
-    ) -> Rest:
+    ) -> RemainingWork:
         """What must follow; computed anew in a run only where it hangs on where the robot has been."""
         if run is not None and run.rest.fixed:
             return run.rest
@@ -252,7 +254,7 @@ class Choosing:
 
     def _reachable(self, here: Place, candidates: Sequence[Visit], first: Place | None) -> tuple[list[int], list[int]]:
         """Positions of the candidates that can be reached and left again, and of the others."""
-        if len(candidates) > TABLE:
+        if len(candidates) > MAX_DOUBLE:
             # They were looked at together when the visits were listed.
             return list(range(len(candidates))), []
         distances = self._means.distances
@@ -260,7 +262,7 @@ class Choosing:
         try:
             distances.between([*ends, *(v.place for v in candidates)])
         except DriveFault:
-            fine = [all(distances.linked(end, v.place) for end in ends) for v in candidates]
+            fine = [all(distances.connected(end, v.place) for end in ends) for v in candidates]
         else:
             fine = [True] * len(candidates)
         return [i for i, ok in enumerate(fine) if ok], [i for i, ok in enumerate(fine) if not ok]
@@ -286,17 +288,17 @@ class Choosing:
         return worst
 
     def _skipped(
-        self, state: MissionState, candidates: Sequence[Visit], gone: Sequence[int], rest: Rest, safest: Visit
+        self, state: MissionState, candidates: Sequence[Visit], gone: Sequence[int], rest: RemainingWork, safest: Visit
     ) -> str:
         """What is given up and why, told of the one that is least likely to run short."""
         errand = self._errand(state, safest, rest)
         return left_out(candidates, gone, self._means, state, errand, self._means.chances(errand.way, state))
 
-    def _errand(self, state: MissionState, visit: Visit, rest: Rest) -> Errand:
+    def _errand(self, state: MissionState, visit: Visit, rest: RemainingWork) -> Errand:
         """Straight to a visit, and then on."""
         there = self._means.length(state.context.here, visit.place)
         back = 0.0 if rest.first is None else self._means.length(visit.end, rest.first)
-        way = way_of([there, back], visit.work) + rest.way
+        way = route_cost([there, back], visit.work) + rest.way
         return Errand(way=way, to=visit.place, more=rest.mandatory)
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.forecast.state import Spent
+from fieldhand.forecast.mission_state import Spent
 from fieldhand.language import Number, message
 from fieldhand.robot.model import RobotProfile
 

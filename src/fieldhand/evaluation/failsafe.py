@@ -11,9 +11,9 @@ from __future__ import annotations
 import numpy as np
 
 from fieldhand.evaluation.drain import Drain
-from fieldhand.forecast.limits import reserve_percent, resources_of
-from fieldhand.forecast.underway import Foresight, Underway
-from fieldhand.forecast.ways import chances_short, taken, way_of
+from fieldhand.forecast.failsafe_state import FailsafeForecast, FailsafeState
+from fieldhand.forecast.resource_limits import reserve_percent, resource_limits
+from fieldhand.forecast.route_cost import mean_metres, overrun_chances, route_cost
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.frames import Task
 
@@ -40,36 +40,36 @@ class BudgetFailsafe:
         reserve = reserve_percent(task.constraints, robot)
         self._stop_percent = robot.energy.levels(reserve).stop
 
-    def learn(self, now: Underway) -> None:
+    def learn(self, now: FailsafeState) -> None:
         """Learn how fast the battery empties."""
         self._drain.learn(now.spent)
 
-    def foresee(self, now: Underway) -> Foresight:
+    def foresee(self, now: FailsafeState) -> FailsafeForecast:
         """Return whether the mission may continue as it does; the battery's drain is learned first."""
         self.learn(now)
         return self._homeward(now, now.on_m) if now.returning else self._outward(now)
 
-    def _outward(self, now: Underway) -> Foresight:
+    def _outward(self, now: FailsafeState) -> FailsafeForecast:
         """Compare going on and then home with going home at once, for each limit."""
         robot = self._drain.robot
-        resources = resources_of(self._task.constraints, robot, now.charge_percent + now.spent.percent)
-        on, home = way_of([now.on_m, now.after_m], now.work), way_of([now.home_m])
-        chances = chances_short(on, resources, robot, now.spent)
-        at_once = chances_short(home, resources, robot, now.spent)
+        resources = resource_limits(self._task.constraints, robot, now.charge_percent + now.spent.percent)
+        on, home = route_cost([now.on_m, now.after_m], now.work), route_cost([now.home_m])
+        chances = overrun_chances(on, resources, robot, now.spent)
+        at_once = overrun_chances(home, resources, robot, now.spent)
         accepted = np.array([r.failure_probability for r in resources])
         drains = np.array([r.kind in ("reserve", "energy_percent") for r in resources])
         most = np.where(drains & (self._drain.factor >= ABNORMAL), accepted, np.maximum(EVEN, accepted))
-        needs_on, needs_home = taken(on, resources, robot), taken(home, resources, robot)
+        needs_on, needs_home = mean_metres(on, resources, robot), mean_metres(home, resources, robot)
         safer = (at_once < chances - _LESS_LIKELY) | (needs_home < _LESS * needs_on)
         risky = (chances > most) & safer
         # Where not even the charge above the stop level lasts for the way home, nothing is gained by going on.
         charge = self._homeward(now, now.home_m)
         risky[-1] |= charge.alarm == "out_of_reach" and needs_home[-1] < needs_on[-1]
         if not risky.any():
-            return Foresight(drain=self._drain.factor)
+            return FailsafeForecast(drain=self._drain.factor)
         worst = int(np.where(risky, chances, -1.0).argmax())
         resource = resources[worst]
-        return Foresight(
+        return FailsafeForecast(
             alarm="turn_home",
             limit=resource.kind,
             left=resource.limit - resource.used(now.spent),
@@ -78,13 +78,13 @@ class BudgetFailsafe:
             drain=self._drain.factor,
         )
 
-    def _homeward(self, now: Underway, metres: float) -> Foresight:
+    def _homeward(self, now: FailsafeState, metres: float) -> FailsafeForecast:
         """Hold the way home against the charge above the stop level."""
         robot = self._drain.robot
-        per_metre = resources_of(self._task.constraints, robot)[-1].per_metre
+        per_metre = resource_limits(self._task.constraints, robot)[-1].per_metre
         left = now.charge_percent - self._stop_percent
         needed = metres * per_metre
-        return Foresight(
+        return FailsafeForecast(
             alarm="out_of_reach" if needed > left else "none",
             left=left,
             needed=needed,

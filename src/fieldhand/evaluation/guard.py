@@ -1,8 +1,8 @@
 """The budget guard: before every drive it asks whether what is left lasts for it, for what must follow, and for home.
 
 Each limit (distance, time, energy, the battery's reserve) is checked by itself; all share the legs' one random cost
-(:mod:`fieldhand.forecast.limits`). The accepted chance of running short holds for the whole mission, not for each
-decision anew (:mod:`fieldhand.forecast.allowance`); docs/evaluation.md says how.
+(:mod:`fieldhand.forecast.resource_limits`). The accepted failure probability holds for the whole mission, not for each
+decision (:mod:`fieldhand.forecast.risk_allowance`). docs/evaluation.md describes the method.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from fieldhand.evaluation.drain import Drain
 from fieldhand.evaluation.means import Means
 from fieldhand.evaluation.reasons import Errand, running_short
 from fieldhand.evaluation.threshold import Threshold
-from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
-from fieldhand.forecast.ways import Way, cost_model, taken, way_of
+from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
+from fieldhand.forecast.route_cost import RouteCost, cost_model, mean_metres, route_cost
 from fieldhand.language import joined
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
@@ -83,7 +83,7 @@ class BudgetGuard:
         *,
         at_most: int | None = None,
         still_to_come: Sequence[Visit] = (),
-    ) -> Choice:
+    ) -> VisitChoice:
         """Which optional visit comes next, of ``at_most`` that may still be made. Asked again after every leg.
 
         What must follow and the way home are set aside first. Candidates that have no way to them, and those that have
@@ -114,16 +114,16 @@ class BudgetGuard:
             return Verdict(go=True)
         means, here = self._means, state.context.here
         ahead = self._ahead.of(state, visit, still_to_come)
-        way_on = None if ahead is None else way_of([means.length(here, visit.place)]) + ahead.way
+        way_on = None if ahead is None else route_cost([means.length(here, visit.place)]) + ahead.way
         home = means.length(visit.end, means.home(visit.end))
-        short = way_of([means.length(here, visit.place), home], visit.work)
+        short = route_cost([means.length(here, visit.place), home], visit.work)
         there = means.chances(short, state)
         on = there if way_on is None else means.chances(way_on, state)
-        lasts = means.allowance(on).lasts
+        lasts = means.allowance(on).mandatory_fits
         if way_on is not None and lasts and (on <= np.maximum(_EVEN, means.accepted)).all():
             return self._go(state, visit, on)
         safe = means.accepted if lasts or ahead is None else self._safe(state, ahead)
-        home_now = way_of([means.length(here, means.home(here))])
+        home_now = route_cost([means.length(here, means.home(here))])
         for way, chances in ((way_on, on), (short, there)):
             if way is not None and self._may(state, way, chances, safe, home_now):
                 return self._go(state, visit, chances)
@@ -134,13 +134,13 @@ class BudgetGuard:
         said = self._means.drain.words
         return joined("; ", (reason, said)) if reason and said else reason
 
-    def _may(self, state: MissionState, way: Way, chances: Floats, safe: Floats, home_now: Way) -> bool:
+    def _may(self, state: MissionState, way: RouteCost, chances: Floats, safe: Floats, home_now: RouteCost) -> bool:
         """Whether a way is safe enough, or else no riskier than home; where even home is too far, no detour."""
         means, resources = self._means, self._means.resources(state)
         left = np.array([r.metres_left(state.spent) for r in resources])
-        enough = np.maximum(left, taken(home_now, resources, means.robot))
+        enough = np.maximum(left, mean_metres(home_now, resources, means.robot))
         allowed = np.maximum(safe, means.chances(home_now, state))
-        fits = taken(way, resources, means.robot) <= enough * _LOOK
+        fits = mean_metres(way, resources, means.robot) <= enough * _LOOK
         return bool((fits & (chances <= allowed * _LOOK + 1e-12)).all())
 
     def _go(self, state: MissionState, visit: Visit, chances: Floats) -> Verdict:

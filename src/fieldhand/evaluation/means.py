@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from fieldhand.errors import DriveFault
 from fieldhand.evaluation.drain import Drain
-from fieldhand.forecast.allowance import Allowance
 from fieldhand.forecast.distances import Distances
-from fieldhand.forecast.limits import Resource, resources_of
-from fieldhand.forecast.rest import Rest, rest_after
-from fieldhand.forecast.state import MissionState, Visit
-from fieldhand.forecast.ways import Way, chances_short
+from fieldhand.forecast.mission_state import MissionState, Visit
+from fieldhand.forecast.remaining_work import RemainingWork, remaining_work_after
+from fieldhand.forecast.resource_limits import ResourceLimit, resource_limits
+from fieldhand.forecast.risk_allowance import RiskAllowance
+from fieldhand.forecast.route_cost import RouteCost, overrun_chances
 from fieldhand.places.context import Context
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
@@ -47,10 +47,10 @@ class Means:
         self.task, self.site, self.drives = task, site, drives
         self.drain = Drain(robot)
         self._blocked = False
-        limits = resources_of(task.constraints, robot, charge_percent)
+        limits = resource_limits(task.constraints, robot, charge_percent)
         self.accepted: Floats = np.array([r.failure_probability for r in limits])
         self.distances = Distances(drives)
-        self._allowance: Allowance | None = None
+        self._allowance: RiskAllowance | None = None
 
     @property
     def robot(self) -> RobotProfile:
@@ -61,29 +61,29 @@ class Means:
         """Let these be the ways from now on."""
         self.drives, self.distances, self._blocked = drives, Distances(drives), True
 
-    def allowance(self, mandatory: Floats) -> Allowance:
+    def allowance(self, mandatory: Floats) -> RiskAllowance:
         """What may still be added to the chance of running short.
 
         Args:
             mandatory: For each limit the chance that what must be done runs short; only the first answer counts.
         """
         if self._allowance is None:
-            self._allowance = Allowance.before(self.accepted.tolist(), mandatory)
+            self._allowance = RiskAllowance.at_start(self.accepted.tolist(), mandatory)
         return self._allowance
 
     def add(self, chance: float) -> None:
         """Take what a run of optional visits is expected to add off the allowance."""
         if self._allowance is not None:
-            self._allowance = self._allowance.less(chance)
+            self._allowance = self._allowance.reduced_by(chance)
 
-    def resources(self, state: MissionState) -> tuple[Resource, ...]:
+    def resources(self, state: MissionState) -> tuple[ResourceLimit, ...]:
         """The limits as they are now: the battery is asked what is left in it, not what should be."""
         charge = state.charge_percent + state.spent.percent
-        return resources_of(self.task.constraints, self.robot, charge)
+        return resource_limits(self.task.constraints, self.robot, charge)
 
-    def chances(self, way: Way, state: MissionState) -> Floats:
+    def chances(self, way: RouteCost, state: MissionState) -> Floats:
         """For each limit the chance that a way takes more than is left."""
-        return chances_short(way, self.resources(state), self.robot, state.spent)
+        return overrun_chances(way, self.resources(state), self.robot, state.spent)
 
     def length(self, a: Place, b: Place) -> float:
         """Metres of the drive between two places.
@@ -96,10 +96,10 @@ class Means:
     def home(self, at: Place) -> Place:
         """Where the robot goes when little is left; it stays where there is no way to that (approval warned of it)."""
         home = self.site.home(exit_of(self.task, "low_budget"), at)
-        return home if self.distances.linked(at, home) else at
+        return home if self.distances.connected(at, home) else at
 
-    def rest(self, frames: Sequence[StackFrame], context: Context, to_come: Sequence[Visit] = ()) -> Rest:
-        """Return what must be done after the node in hand (:func:`fieldhand.forecast.rest.rest_after`).
+    def rest(self, frames: Sequence[StackFrame], context: Context, to_come: Sequence[Visit] = ()) -> RemainingWork:
+        """Return the work required after the current node (:mod:`fieldhand.forecast.remaining_work`).
 
         Where the robot has found its ways blocked, what cannot be reached now is not set aside.
 
@@ -108,8 +108,10 @@ class Means:
         """
         for visits in (to_come, ()):
             try:
-                return rest_after(self.task, self.site, self.robot, self.drives, frames, context, to_come=visits)
+                return remaining_work_after(
+                    self.task, self.site, self.robot, self.drives, frames, context, to_come=visits
+                )
             except DriveFault:
                 if not self._blocked:
                     raise
-        return Rest()
+        return RemainingWork()

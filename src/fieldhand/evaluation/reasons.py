@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.evaluation.means import Means
-from fieldhand.forecast.limits import Resource
-from fieldhand.forecast.state import MissionState, Visit
-from fieldhand.forecast.ways import Way
+from fieldhand.forecast.mission_state import MissionState, Visit
+from fieldhand.forecast.resource_limits import ResourceLimit
+from fieldhand.forecast.route_cost import RouteCost
 from fieldhand.language import Number, joined, message
 from fieldhand.language.words import listed, say_place, some_names
 from fieldhand.site.model import Place
@@ -34,7 +34,7 @@ class Errand:
         more: Whether there is something to be done between that place and home.
     """
 
-    way: Way
+    way: RouteCost
     to: Place
     more: bool = False
 
@@ -130,7 +130,7 @@ def _name(place: Place) -> str:
     return message("the {id} marker", context="log", id=place.id) if place.kind == "marker" else place.id
 
 
-def _amount(resource: Resource, value: float) -> str:
+def _amount(resource: ResourceLimit, value: float) -> str:
     match resource.kind:
         case "distance_m":
             return message("{metres} m", context="log", metres=Number(f"{value:.0f}"))

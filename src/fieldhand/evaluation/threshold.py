@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.forecast.allowance import SLIVER
-from fieldhand.forecast.state import Visit
+from fieldhand.forecast.mission_state import Visit
+from fieldhand.forecast.risk_allowance import OPTIONAL_SHARE
 from fieldhand.orienteering.costs import CostModel
 from fieldhand.orienteering.overrun import quantile_table, standardised_quantile
 from fieldhand.site.model import Place
@@ -63,7 +63,7 @@ class Threshold:
         factors = np.maximum(self.costs.draw(rng, _DRAWS * (2 * len(legs))), 0.0).reshape(2, len(legs), _DRAWS)
         for part in _PARTS:
             failed = self._failed(part * accepted, legs, homes, factors)
-            if (failed <= (1.0 - SLIVER) * accepted).all():
+            if (failed <= (1.0 - OPTIONAL_SHARE) * accepted).all():
                 return np.asarray(part * accepted)
         return np.asarray(_PARTS[-1] * accepted)
 

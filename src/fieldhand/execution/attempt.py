@@ -23,10 +23,10 @@ from fieldhand.execution.levels import charge_levels, fastest_drain
 from fieldhand.execution.open_goals import OpenCapture, OpenDrive, joules_done, unusable
 from fieldhand.execution.recorded_inputs import RecordedInputs
 from fieldhand.execution.timeofday import TimeOfDay
-from fieldhand.forecast.conditions import Facts
-from fieldhand.forecast.routes import beginning
-from fieldhand.forecast.state import MissionState, Spent
-from fieldhand.forecast.visits import Visits
+from fieldhand.forecast.conditions import ConditionInputs
+from fieldhand.forecast.mission_state import MissionState, Spent
+from fieldhand.forecast.optional_visits import OptionalVisits
+from fieldhand.forecast.visit_order import start_place
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve, resolve_one
 from fieldhand.places.selector import Selector
@@ -107,7 +107,7 @@ class Attempt:
         self._cuts = 0
         self._open: OpenDrive | OpenCapture | None = None
         self.events: list[Event] = []
-        self.here = beginning(drives)
+        self.here = start_place(drives)
         self.standing = self._stands()
         self.arrived_at: Place | None = None
         self.visited: list[str] = []
@@ -157,14 +157,14 @@ class Attempt:
         return self.blockages.drives
 
     @property
-    def visits(self) -> Visits:
+    def visits(self) -> OptionalVisits:
         """Creates the visits of optional nodes."""
-        return Visits(self.task, self.site, self.robot, self.drives)
+        return OptionalVisits(self.task, self.site, self.robot, self.drives)
 
     @property
-    def facts(self) -> Facts:
+    def facts(self) -> ConditionInputs:
         """Facts against which a condition is tested now."""
-        return Facts(site=self.site, robot=self.robot, here=self.here, readings=self.readings)
+        return ConditionInputs(site=self.site, robot=self.robot, here=self.here, readings=self.readings)
 
     def charge_percent(self) -> float:
         """Return the battery charge in percent, filtered for single false readings."""

@@ -7,8 +7,8 @@ from typing import Literal
 
 from fieldhand.errors import PlaceError
 from fieldhand.execution.attempt import Attempt, Ending
+from fieldhand.forecast.mission_state import Verdict, Visit, VisitChoice
 from fieldhand.forecast.service import service_of
-from fieldhand.forecast.state import Choice, Verdict, Visit
 from fieldhand.language import message
 from fieldhand.site.model import Place
 from fieldhand.task import plan
@@ -74,7 +74,7 @@ def give_up_unreachable(attempt: Attempt, why: str) -> str:
             return ""
         if frame.node.is_optional:
             places = [] if frame.tour is None or frame.tour.place is None else [frame.tour.place]
-            never = Choice(index=None, reason=why)
+            never = VisitChoice(index=None, reason=why)
             shed(attempt, frame.node.id, places, never, optional=True, cause="unreachable")
             return frame.node.id
     return ""
@@ -148,7 +148,7 @@ def shed(
     attempt: Attempt,
     node: str,
     places: Sequence[Place],
-    verdict: Verdict | Choice,
+    verdict: Verdict | VisitChoice,
     *,
     optional: bool,
     cause: Literal["budget", "unreachable"] = "budget",

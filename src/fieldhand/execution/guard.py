@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Protocol
 
-from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
-from fieldhand.forecast.underway import Foresight, Underway
+from fieldhand.forecast.failsafe_state import FailsafeForecast, FailsafeState
+from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -32,7 +32,7 @@ class Guard(Protocol):
         *,
         at_most: int | None = None,
         still_to_come: Sequence[Visit] = (),
-    ) -> Choice:
+    ) -> VisitChoice:
         """Choose the next optional visit; called again after every leg.
 
         Args:
@@ -53,11 +53,11 @@ class Guard(Protocol):
 class Failsafe(Protocol):
     """Predicts whether resources suffice for the way home; called at every poll."""
 
-    def learn(self, now: Underway) -> None:
+    def learn(self, now: FailsafeState) -> None:
         """Learn from the resources spent. Called instead of :meth:`foresee` during a replay."""
         ...
 
-    def foresee(self, now: Underway) -> Foresight:
+    def foresee(self, now: FailsafeState) -> FailsafeForecast:
         """Learn, and return whether the mission may continue."""
         ...
 
@@ -75,8 +75,8 @@ class NoGuard:
         *,
         at_most: int | None = None,  # noqa: ARG002
         still_to_come: Sequence[Visit] = (),  # noqa: ARG002
-    ) -> Choice:
-        return Choice(index=0 if candidates else None)
+    ) -> VisitChoice:
+        return VisitChoice(index=0 if candidates else None)
 
     def ways_are(self, drives: Drives) -> None:
         pass
@@ -85,8 +85,8 @@ class NoGuard:
 class NoFailsafe:
     """Failsafe for missions without limits: never raises an alarm."""
 
-    def learn(self, now: Underway) -> None:
+    def learn(self, now: FailsafeState) -> None:
         pass
 
-    def foresee(self, now: Underway) -> Foresight:  # noqa: ARG002
-        return Foresight()
+    def foresee(self, now: FailsafeState) -> FailsafeForecast:  # noqa: ARG002
+        return FailsafeForecast()

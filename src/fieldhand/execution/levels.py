@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from fieldhand.forecast.limits import reserve_percent
+from fieldhand.forecast.resource_limits import reserve_percent
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.exceeded import is_exceeded
 from fieldhand.task.frames import Constraints

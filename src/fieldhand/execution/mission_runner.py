@@ -19,9 +19,9 @@ from fieldhand.execution.mission_clock import MissionClock, StopTimeout
 from fieldhand.execution.orders import Order
 from fieldhand.execution.recorded_inputs import RecordedInputs
 from fieldhand.execution.watch import Watch
-from fieldhand.forecast.limits import reserve_percent
-from fieldhand.forecast.routes import drives_for
-from fieldhand.forecast.state import Spent, Verdict
+from fieldhand.forecast.mission_state import Spent, Verdict
+from fieldhand.forecast.resource_limits import reserve_percent
+from fieldhand.forecast.visit_order import drives_for
 from fieldhand.language import joined, message, named
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site

@@ -12,8 +12,8 @@ from fieldhand.execution.goals import capture, drive
 from fieldhand.execution.obstacles import open_a_way
 from fieldhand.execution.tours import OneVisit, Tour
 from fieldhand.forecast.conditions import evaluate
-from fieldhand.forecast.routes import home_if_last, steps_in_order
-from fieldhand.forecast.state import Choice
+from fieldhand.forecast.mission_state import VisitChoice
+from fieldhand.forecast.visit_order import home_if_last, steps_in_order
 from fieldhand.language import message
 from fieldhand.places.selector import Selector
 from fieldhand.site.model import Place
@@ -187,7 +187,7 @@ class Performer:
             visit = attempt.visits.of_step(node, state.context)
         except DriveFault as fault:
             why = message("cannot be reached: {why}", context="log", why=fault.what)
-            never = Choice(index=None, reason=why)
+            never = VisitChoice(index=None, reason=why)
             shed(attempt, node.id, first_places_of(node, attempt), never, optional=True, cause="unreachable")
             return False
         attempt.run.frame.tour = OneVisit(place=visit.place)

@@ -41,8 +41,8 @@ from fieldhand.execution.journal.records import (
 )
 from fieldhand.execution.mission_clock import LOOK_EVERY_S, MissionClock, StopTimeout
 from fieldhand.execution.orders import Order
-from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
-from fieldhand.forecast.underway import Foresight, Underway
+from fieldhand.forecast.failsafe_state import FailsafeForecast, FailsafeState
+from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
 from fieldhand.language import message
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.results import Event
@@ -53,7 +53,7 @@ if TYPE_CHECKING:
 #: Seconds of the wall clock after which observations are committed even if nothing began or ended.
 COMMIT_EVERY_S = 1.0
 
-Answer = TypeVar("Answer", Verdict, Choice)
+Answer = TypeVar("Answer", Verdict, VisitChoice)
 
 
 class RecordedInputs:
@@ -200,7 +200,7 @@ class RecordedInputs:
         *,
         at_most: int | None = None,
         still_to_come: Sequence[Visit] = (),
-    ) -> Choice:
+    ) -> VisitChoice:
         """Return the guard's choice, recorded or new."""
         return self._decide(
             "choose",
@@ -213,12 +213,12 @@ class RecordedInputs:
         """Inform the guard that drives have changed."""
         self._guard.ways_are(drives)
 
-    def foresee(self, now: Underway) -> Foresight:
+    def foresee(self, now: FailsafeState) -> FailsafeForecast:
         """Return the failsafe's answer, recorded or new. Only alarms are recorded: no record means no alarm."""
         if not self._live:
             self._failsafe.learn(now)
             record = self._recorded_if("foresee")
-            return Foresight() if record is None else foresight_of(record)
+            return FailsafeForecast() if record is None else foresight_of(record)
         answer = self._failsafe.foresee(now)
         if answer.alarm != "none":
             self._record(foresight_record(answer))

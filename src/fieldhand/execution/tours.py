@@ -9,8 +9,8 @@ from fieldhand.errors import BlockedFault
 from fieldhand.execution.attempt import Attempt
 from fieldhand.execution.giving_up import admit, shed, to_come, visit_to
 from fieldhand.execution.obstacles import no_way
-from fieldhand.forecast.routes import home_if_last, order_visits, reachable, standing, visits_in_order
-from fieldhand.forecast.state import Choice, Visit
+from fieldhand.forecast.mission_state import Visit, VisitChoice
+from fieldhand.forecast.visit_order import home_if_last, order_visits, reachable, visits_in_order, with_stands
 from fieldhand.language import message
 from fieldhand.language.words import listed
 from fieldhand.site.model import Place
@@ -70,7 +70,7 @@ class Tour:
         cut_off: tuple[Place, ...] = ()
         if node.optional:
             places, closed = reachable(attempt.drives, places)
-            ordered = standing(attempt.drives, attempt.standing, places)
+            ordered = with_stands(attempt.drives, attempt.standing, places)
             self.left = list(attempt.visits.of_places(node, ordered, attempt.state().context))
         else:
             places, cut_off = self._parted(places)
@@ -159,7 +159,7 @@ class Tour:
 
     def _give_up(self, places: Sequence[Place], why: str) -> None:
         self._why = why
-        choice, optional = Choice(index=None, reason=why), self.node.optional
+        choice, optional = VisitChoice(index=None, reason=why), self.node.optional
         shed(self.attempt, self.node.id, places, choice, optional=optional, cause="unreachable")
 
     def _parted(self, places: Sequence[Place]) -> tuple[tuple[Place, ...], tuple[Place, ...]]:
@@ -182,7 +182,7 @@ class Tour:
             self._give_up(far, "no way to it is left: what the robot found in its way closes it off")
             far = ()
         open_ = [replace(p, stand=None) if p.kind == "tree" else p for p in near]
-        ordered = standing(attempt.drives, attempt.standing, open_)
+        ordered = with_stands(attempt.drives, attempt.standing, open_)
         if node.order == "best" and not node.optional:
             ordered = tuple(ordered[k] for k in order_visits(attempt.drives, attempt.standing, ordered, self._home()))
         self.left = [replace(visits[p.kind, p.id], place=p) for p in ordered]

@@ -15,7 +15,7 @@ from py_trees.composites import Composite
 from fieldhand.execution.attempt import Attempt
 from fieldhand.execution.giving_up import give_up_rest
 from fieldhand.execution.performing import Performer
-from fieldhand.forecast.state import Verdict
+from fieldhand.forecast.mission_state import Verdict
 from fieldhand.places.selector import Selector
 from fieldhand.task.plan import Node
 from fieldhand.task.run import Outcome

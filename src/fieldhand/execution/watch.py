@@ -17,8 +17,8 @@ from fieldhand.errors import DriveFault
 from fieldhand.execution.attempt import Attempt
 from fieldhand.execution.levels import Consequence, LimitLevel, fastest_drain, levels_of
 from fieldhand.execution.open_goals import OpenCapture, OpenDrive
-from fieldhand.forecast.state import Spent, Work
-from fieldhand.forecast.underway import Foresight, Underway
+from fieldhand.forecast.failsafe_state import FailsafeForecast, FailsafeState
+from fieldhand.forecast.mission_state import Spent, Work
 from fieldhand.site.model import Place, Site
 from fieldhand.site.stopping import safe_stop
 from fieldhand.task.frames import Then as Exit
@@ -232,11 +232,11 @@ class Watch:
 
     def _ask(
         self, spent: Spent, charge: float, ways: tuple[float, float, float], work: Work | None = None
-    ) -> Foresight:
+    ) -> FailsafeForecast:
         """Ask the failsafe; ``ways`` are those of :meth:`_ways`."""
         on_m, after_m, home_m = ways
         return self._attempt.inputs.foresee(
-            Underway(
+            FailsafeState(
                 spent=spent,
                 charge_percent=charge,
                 on_m=on_m,

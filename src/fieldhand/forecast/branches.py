@@ -12,14 +12,14 @@ import numpy as np
 
 from fieldhand.brief import brief_repr
 from fieldhand.errors import DriveFault, PlaceError
-from fieldhand.forecast import routes
-from fieldhand.forecast.drawn import Drawn, Luck
-from fieldhand.forecast.local import local_decisions
-from fieldhand.forecast.optional_work import LikelyWork, ToldWork
-from fieldhand.forecast.possible import Outlooks, Readings
-from fieldhand.forecast.steps import Decision, Step, Walk
-from fieldhand.forecast.trail import Answers
-from fieldhand.forecast.walker import Walker
+from fieldhand.forecast import visit_order
+from fieldhand.forecast.local_decisions import local_decisions
+from fieldhand.forecast.optional_work import LikelyOptionalWork, ScriptedOptionalWork
+from fieldhand.forecast.possible_answers import BranchReadings, ConditionOutcomes
+from fieldhand.forecast.request_handler import ForecastHandler
+from fieldhand.forecast.sampled_costs import LegCostSamples, MissionSamples
+from fieldhand.forecast.walk_state import Answers
+from fieldhand.forecast.walk_steps import Decision, Walk, WalkStep
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task import plan
@@ -35,7 +35,7 @@ MAX_STEPS = 40_000
 #: The walks that come first are worth more: the longest and the shortest are among them.
 MAX_STEPS_ALIKE = 200_000
 #: Walks that make or leave out optional visits as they are told, beside those that do what missions do.
-MAX_TOLD = 64
+MAX_OPTIONAL_WALKS = 64
 #: Nodes that are answered alike throughout, in every combination; further ones follow each other.
 _ALIKE = 4
 #: With more conditions on the spot than this on one walk, each of them by itself is not tried.
@@ -45,7 +45,7 @@ Coverage = Literal["enumerated", "bounded", "sampled"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Broken:
+class BrokenBranch:
     """A branch that cannot be carried out.
 
     Attributes:
@@ -58,7 +58,7 @@ class Broken:
     decisions: tuple[Decision, ...]
     error: PlaceError | DriveFault
     node: str
-    steps: tuple[Step, ...]
+    steps: tuple[WalkStep, ...]
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -67,17 +67,17 @@ class Branches:
 
     Attributes:
         walks: Distinct ones, no two with the same decisions. The first answers every condition with yes, nothing fails.
-        told: Further ones, on which each optional step is done, or left out, and of optional visits those are made
-            that the luckiest mission makes, or the least lucky one.
+        optional_walks: Further walks, on which each optional step is done or left out and optional visits are those of
+            the mission that makes the most, or the fewest.
         broken: Branches that come to an end because a place cannot be told or reached.
         coverage: ``enumerated``: these are all. ``bounded``: of conditions that only decide what is done on the spot
             those branches were walked on which each answers alike, of all others every branch; so every place and drive
-            was looked at, and no branch takes more or less. ``sampled``: there are more, of which some were drawn.
+            was looked at, and no branch takes more or less. ``sampled``: there are more, of which some were samples.
     """
 
     walks: tuple[Walk, ...]
-    told: tuple[Walk, ...] = ()
-    broken: tuple[Broken, ...] = ()
+    optional_walks: tuple[Walk, ...] = ()
+    broken: tuple[BrokenBranch, ...] = ()
     coverage: Coverage = "enumerated"
 
     __repr__ = brief_repr
@@ -96,7 +96,7 @@ def branches(
     drives: Drives | None = None,
     charge_percent: float = 100.0,
     limit: int = MAX_WALKS,
-    luck: Luck | None = None,
+    leg_costs: LegCostSamples | None = None,
     seed: int = 0,
 ) -> Branches:
     """Walk a Task along every branch, within bounds.
@@ -106,36 +106,46 @@ def branches(
         drives: The ways of the site, if the caller has them.
         charge_percent: Charge at the beginning.
         limit: So many walks at most.
-        luck: Of missions that are drawn along each walk; None for none.
+        leg_costs: Of missions that are drawn along each walk; None for none.
         seed: Of the branches that are drawn where there are too many.
 
     Raises:
         TaskError: A walk comes to more nodes than any mission.
     """
-    ways = drives or routes.drives_for(site, robot)
-    outlooks = Outlooks(task.composition.plan, site, robot)
+    ways = drives or visit_order.drives_for(site, robot)
+    outcomes = ConditionOutcomes(task.composition.plan, site, robot)
     kept: dict[object, Expected] = {}
 
-    def likely(answers: Answers) -> Walker:
-        drawn = None if luck is None else Drawn(luck)
-        readings = Readings(outlooks)
-        return Walker(
-            task, site, robot, ways, answers, charge_percent, optional=LikelyWork(kept), drawn=drawn, readings=readings
+    def likely(answers: Answers) -> ForecastHandler:
+        samples = None if leg_costs is None else MissionSamples(leg_costs)
+        readings = BranchReadings(outcomes)
+        return ForecastHandler(
+            task,
+            site,
+            robot,
+            ways,
+            answers,
+            charge_percent,
+            optional=LikelyOptionalWork(kept),
+            samples=samples,
+            readings=readings,
         )
 
-    def told(answers: Answers) -> Walker:
-        readings = Readings(outlooks)
-        return Walker(task, site, robot, ways, answers, charge_percent, optional=ToldWork(kept), readings=readings)
+    def told(answers: Answers) -> ForecastHandler:
+        readings = BranchReadings(outcomes)
+        return ForecastHandler(
+            task, site, robot, ways, answers, charge_percent, optional=ScriptedOptionalWork(kept), readings=readings
+        )
 
     root = task.composition.plan
     looked = _Exploration(likely, root, limit, seed, by_themselves=_BY_THEMSELVES)
     coverage = looked.explore()
-    further = _Exploration(told, root, MAX_TOLD, seed, by_themselves=0)
+    further = _Exploration(told, root, MAX_OPTIONAL_WALKS, seed, by_themselves=0)
     if any(node.is_optional for node in plan.walk(root)):
         coverage = "sampled" if further.explore() == "sampled" else coverage
     return Branches(
         walks=tuple(looked.found.values()),
-        told=tuple(further.found.values()),
+        optional_walks=tuple(further.found.values()),
         broken=(*looked.broken.values(), *further.broken.values()),
         coverage=coverage,
     )
@@ -183,12 +193,18 @@ class _Exploration:
     """Walks of one plan, until all were looked at or a bound is met."""
 
     def __init__(
-        self, walker: Callable[[Answers], Walker], root: plan.Node, limit: int, seed: int, *, by_themselves: int
+        self,
+        walker: Callable[[Answers], ForecastHandler],
+        root: plan.Node,
+        limit: int,
+        seed: int,
+        *,
+        by_themselves: int,
     ) -> None:
         self._walker, self._root, self._limit, self._by_themselves = walker, root, limit, by_themselves
         self._rng = np.random.default_rng([seed, len(list(plan.walk(root)))])
         self.found: dict[tuple[Decision, ...], Walk] = {}
-        self.broken: dict[str, Broken] = {}
+        self.broken: dict[str, BrokenBranch] = {}
         self._walked = self._steps = 0
         #: What was decided where all was answered as told.
         self._alike: dict[frozenset[tuple[str, bool]] | None, tuple[Decision, ...]] = {}
@@ -255,7 +271,7 @@ class _Exploration:
         except (PlaceError, DriveFault) as error:
             decisions = tuple(walker.decisions)
             steps = tuple(walker.steps)
-            found = Broken(decisions=decisions, error=error, node=walker.bound_for, steps=steps)
+            found = BrokenBranch(decisions=decisions, error=error, node=walker.bound_for, steps=steps)
             self.broken.setdefault(str(error), found)
         else:
             decisions = walked.decisions

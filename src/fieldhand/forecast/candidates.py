@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fieldhand.forecast.rest import Rest
-from fieldhand.forecast.state import Visit
+from fieldhand.forecast.mission_state import Visit
+from fieldhand.forecast.remaining_work import RemainingWork
 from fieldhand.orienteering.table import MOST
 from fieldhand.site.model import Place
 
@@ -20,7 +20,7 @@ MOST_CANDIDATES = MOST - 2
 
 
 def cheapest(
-    here: Place, visits: Sequence[Visit], rest: Rest, drives: Drives, most: int = MOST_CANDIDATES
+    here: Place, visits: Sequence[Visit], rest: RemainingWork, drives: Drives, most: int = MOST_CANDIDATES
 ) -> tuple[int, ...]:
     """Return the positions of the visits that one choice is made from, in their order.
 

@@ -35,7 +35,7 @@ _HOW: Mapping[Test, str] = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class Facts:
+class ConditionInputs:
     """What a condition is tested against.
 
     Attributes:
@@ -50,7 +50,7 @@ class Facts:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Finding:
+class ConditionResult:
     """Whether a condition is true (None: unknown), and why, as a sentence that is true."""
 
     truth: bool | None
@@ -62,7 +62,7 @@ class Finding:
         return self.truth is True
 
 
-def evaluate(condition: Condition, facts: Facts) -> Finding:
+def evaluate(condition: Condition, facts: ConditionInputs) -> ConditionResult:
     """Test a condition. Never fails: what cannot be known is unknown."""
     match condition:
         case Compare(test=how, value=value, unit=unit):
@@ -77,7 +77,7 @@ def evaluate(condition: Condition, facts: Facts) -> Finding:
             return _attribute(condition, facts)
         case Not(condition=inner):
             found = evaluate(inner, facts)
-            return Finding(truth=None if found.truth is None else not found.truth, why=found.why)
+            return ConditionResult(truth=None if found.truth is None else not found.truth, why=found.why)
         case AllOf(conditions=inner):
             return _joined([evaluate(c, facts) for c in inner], decisive=False)
         case AnyOf(conditions=inner):
@@ -102,20 +102,20 @@ def _passes(value: float, how: Test, threshold: float) -> bool:
 
 def _measured(
     condition: Compare | Between | Level,
-    facts: Facts,
+    facts: ConditionInputs,
     passes: Callable[[float], bool],
     say: Callable[[bool, Mapping[str, str]], str],
     bounds: Mapping[str, str],
-) -> Finding:
+) -> ConditionResult:
     """Hold a reading against a threshold; ``say`` says what came of it, with ``bounds`` and what was read."""
     value = facts.readings.get(condition.reading, {}).get(condition.quantity)
     name = say_name(condition.quantity)
     if value is None:
-        return Finding(truth=None, why=message("there is no reading of {name}", context="log", name=name))
+        return ConditionResult(truth=None, why=message("there is no reading of {name}", context="log", name=name))
     quantity = facts.robot.quantity.get(condition.quantity)
     truth = passes(value)
     amount = _amount(value, quantity.unit if quantity else "")
-    return Finding(truth=truth, why=say(truth, {"name": name, "amount": amount, **bounds}))
+    return ConditionResult(truth=truth, why=say(truth, {"name": name, "amount": amount, **bounds}))
 
 
 def _compared(truth: bool, fills: Mapping[str, str]) -> str:
@@ -136,7 +136,7 @@ def _on_level(truth: bool, fills: Mapping[str, str]) -> str:
     return message("{name} {amount} is not {word} ({how} {limit})", context="log", **fills)
 
 
-def _level(condition: Level, facts: Facts) -> Finding:
+def _level(condition: Level, facts: ConditionInputs) -> ConditionResult:
     quantity = facts.robot.quantity.get(condition.quantity)
     level = None if quantity is None else quantity.levels.get(condition.level)
     if quantity is None or level is None:
@@ -146,30 +146,30 @@ def _level(condition: Level, facts: Facts) -> Finding:
             word=named(condition.level, "level"),
             name=say_name(condition.quantity),
         )
-        return Finding(truth=None, why=why)
+        return ConditionResult(truth=None, why=why)
     how: Test = "lt" if level.direction == "below" else "gt"
     bound = {"word": named(condition.level, "level"), "how": _HOW[how], "limit": _amount(level.value, quantity.unit)}
     return _measured(condition, facts, lambda r: _passes(r, how, level.value), _on_level, bound)
 
 
-def _attribute(condition: TreeHas, facts: Facts) -> Finding:
+def _attribute(condition: TreeHas, facts: ConditionInputs) -> ConditionResult:
     """What the site file says of the tree in hand, tested exactly as the selector ``Where`` tests it."""
     tree = facts.site.by_id.get(facts.here.id) if facts.here.kind == "tree" else None
     if tree is None:
-        return Finding(truth=None, why=message("the robot is not at a tree", context="log"))
+        return ConditionResult(truth=None, why=message("the robot is not at a tree", context="log"))
     name = say_name(condition.attribute)
     known = {phrase(key): value for key, value in tree.properties.items()}
     value = tree.properties.get(condition.attribute, known.get(phrase(condition.attribute)))
     if value is None:
         why = message("the site does not say the {name} of tree {id}", context="log", name=name, id=tree.place.id)
-        return Finding(truth=None, why=why)
+        return ConditionResult(truth=None, why=why)
     selector = Where(
         attribute=condition.attribute, test=condition.test, value=condition.value, of=TreeIs(tree=tree.place.id)
     )
     fills = {"name": name, "id": tree.place.id, "has": say_value(value), "bound": say_value(condition.value)}
     if condition.test not in ("eq", "ne") and not (_is_number(value) and _is_number(condition.value)):
         why = message("the {name} of tree {id}, {has}, cannot be ordered against {bound}", context="log", **fills)
-        return Finding(truth=None, why=why)
+        return ConditionResult(truth=None, why=why)
     try:
         truth = bool(resolve(selector, facts.site, Context(here=facts.here)))
     except PlaceError:
@@ -180,7 +180,7 @@ def _attribute(condition: TreeHas, facts: Facts) -> Finding:
         why = message("the {name} of tree {id}, {has}, is {how} {bound}", context="log", **fills)
     else:
         why = message("the {name} of tree {id}, {has}, is not {how} {bound}", context="log", **fills)
-    return Finding(truth=truth, why=why)
+    return ConditionResult(truth=truth, why=why)
 
 
 def _is_number(value: Value) -> bool:
@@ -191,16 +191,16 @@ def _is_number(value: Value) -> bool:
         return False
 
 
-def _joined(found: Sequence[Finding], *, decisive: bool) -> Finding:
+def _joined(found: Sequence[ConditionResult], *, decisive: bool) -> ConditionResult:
     """All of, or any of: one finding that is ``decisive`` settles it, else one that is unknown leaves it open."""
     settling = [f for f in found if f.truth is decisive]
     if settling:
-        return Finding(truth=decisive, why=_all(settling))
+        return ConditionResult(truth=decisive, why=_all(settling))
     unknown = [f for f in found if f.truth is None]
-    return Finding(truth=None if unknown else not decisive, why=_all(unknown or found))
+    return ConditionResult(truth=None if unknown else not decisive, why=_all(unknown or found))
 
 
-def _all(found: Sequence[Finding]) -> str:
+def _all(found: Sequence[ConditionResult]) -> str:
     """Return what some findings say, as a list that a log keeps."""
     whys = [finding.why for finding in found]
     if len(whys) < 2:

@@ -55,7 +55,7 @@ class Distances:
             grown[:n, n:] = grown[n:, :n].T
         return grown
 
-    def linked(self, a: Place, b: Place) -> bool:
+    def connected(self, a: Place, b: Place) -> bool:
         """Whether there is a way from one to the other."""
         try:
             self._drives.between(a, b)

@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldhand.brief import brief_repr
-from fieldhand.forecast import routes
+from fieldhand.forecast import visit_order
+from fieldhand.forecast.branch_estimate import BranchEstimate, Figure, estimate_branch
 from fieldhand.forecast.branches import Branches, branches
-from fieldhand.forecast.drawn import DRAWS, Luck
-from fieldhand.forecast.exits import Exits, exits
-from fieldhand.forecast.figures import BranchEstimate, Figure, figures_of
-from fieldhand.forecast.limits import Resource, ResourceKind, resources_of
-from fieldhand.forecast.ways import cost_model
+from fieldhand.forecast.fault_exits import FaultExits, fault_exits
+from fieldhand.forecast.resource_limits import ResourceKind, ResourceLimit, resource_limits
+from fieldhand.forecast.route_cost import cost_model
+from fieldhand.forecast.sampled_costs import DRAWS, LegCostSamples
 from fieldhand.language import message
 from fieldhand.language.words import say_rounded
 from fieldhand.robot.model import RobotProfile
@@ -45,7 +45,7 @@ class Estimate:
     worst: BranchEstimate
     faulted: tuple[BranchEstimate, ...]
     explored: Branches
-    exits: Exits
+    exits: FaultExits
     problems: tuple[str, ...]
     charge_percent: float = 100.0
 
@@ -67,11 +67,15 @@ class Estimate:
             "charge_percent": self.charge_percent,
             **worst.as_record(),
             "optional": [
-                {"node": step.node.id, "expected": step.outlook.visits, "chances": dict(step.outlook.chances)}
+                {
+                    "node": step.node.id,
+                    "expected": step.visit_forecast.visits,
+                    "chances": dict(step.visit_forecast.chances),
+                }
                 for step in worst.walk.steps
-                if step.outlook is not None
+                if step.visit_forecast is not None
             ],
-            "optional_branches": len(self.explored.told),
+            "optional_branches": len(self.explored.optional_walks),
             "exits": {"places": self.exits.places, "looked_at": self.exits.looked_at},
             "faulted": [branch.as_record() for branch in self.faulted],
             "problems": list(self.problems),
@@ -80,13 +84,13 @@ class Estimate:
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Kept:
+class _CachedBranches:
     """What a site was last asked for: approval asks again for what the plan was shown with."""
 
     robot: RobotProfile
     asked: tuple[Task, int, float, int]
     explored: Branches
-    luck: Luck
+    leg_costs: LegCostSamples
     found: Estimate | None = None
 
 
@@ -97,14 +101,16 @@ def explore(
     return _explored(task, site, robot, seed, charge_percent, draws).explored
 
 
-def _explored(task: Task, site: Site, robot: RobotProfile, seed: int, charge_percent: float, draws: int) -> _Kept:
+def _explored(
+    task: Task, site: Site, robot: RobotProfile, seed: int, charge_percent: float, draws: int
+) -> _CachedBranches:
     asked = (task, seed, charge_percent, draws)
     kept = site.memory.get("estimate")
-    if isinstance(kept, _Kept) and kept.robot is robot and kept.asked == asked:
+    if isinstance(kept, _CachedBranches) and kept.robot is robot and kept.asked == asked:
         return kept
-    luck = Luck(cost_model(robot), seed, draws)
-    found = branches(task, site, robot, charge_percent=charge_percent, luck=luck, seed=seed)
-    made = site.memory["estimate"] = _Kept(robot=robot, asked=asked, explored=found, luck=luck)
+    leg_costs = LegCostSamples(cost_model(robot), seed, draws)
+    found = branches(task, site, robot, charge_percent=charge_percent, leg_costs=leg_costs, seed=seed)
+    made = site.memory["estimate"] = _CachedBranches(robot=robot, asked=asked, explored=found, leg_costs=leg_costs)
     return made
 
 
@@ -143,12 +149,12 @@ def estimate(
     return made
 
 
-def _estimated(kept: _Kept, task: Task, site: Site, robot: RobotProfile, charge_percent: float) -> Estimate:
-    found, drives = kept.explored, routes.drives_for(site, robot)
-    resources = resources_of(task.constraints, robot, charge_percent)
-    estimates = tuple(figures_of(w, resources, task.constraints, robot, charge_percent) for w in found.walks)
+def _estimated(kept: _CachedBranches, task: Task, site: Site, robot: RobotProfile, charge_percent: float) -> Estimate:
+    found, drives = kept.explored, visit_order.drives_for(site, robot)
+    resources = resource_limits(task.constraints, robot, charge_percent)
+    estimates = tuple(estimate_branch(w, resources, task.constraints, robot, charge_percent) for w in found.walks)
     worst = _worst(estimates)
-    ways_home = exits(task, site, robot, drives, found.walks, found.told, kept.luck)
+    ways_home = fault_exits(task, site, robot, drives, found.walks, found.optional_walks, kept.leg_costs)
     problems: tuple[str, ...] = ()
     if any(b.visits and c.exceeded for b in estimates for c in b.chances):
         # Optional visits can be left out, so what counts first is whether the rest lasts without them.
@@ -158,7 +164,7 @@ def _estimated(kept: _Kept, task: Task, site: Site, robot: RobotProfile, charge_
         branches=estimates,
         worst=worst,
         faulted=tuple(
-            figures_of(walked, resources, task.constraints, robot, charge_percent, fault)
+            estimate_branch(walked, resources, task.constraints, robot, charge_percent, fault)
             for fault, walked in ways_home.worst
         ),
         explored=found,
@@ -168,13 +174,17 @@ def _estimated(kept: _Kept, task: Task, site: Site, robot: RobotProfile, charge_
     )
 
 
-def _of_mandatory(kept: _Kept, task: Task, site: Site, robot: RobotProfile, charge_percent: float) -> tuple[str, ...]:
+def _of_mandatory(
+    kept: _CachedBranches, task: Task, site: Site, robot: RobotProfile, charge_percent: float
+) -> tuple[str, ...]:
     """The problems of a Task without what is optional."""
     part = mandatory_part(task)
-    resources = resources_of(part.constraints, robot, charge_percent)
-    found = branches(part, site, robot, charge_percent=charge_percent, luck=kept.luck, seed=kept.luck.seed)
-    estimates = [figures_of(w, resources, part.constraints, robot, charge_percent) for w in found.walks]
-    return limit_problems(part, site, routes.drives_for(site, robot), resources, estimates)
+    resources = resource_limits(part.constraints, robot, charge_percent)
+    found = branches(
+        part, site, robot, charge_percent=charge_percent, leg_costs=kept.leg_costs, seed=kept.leg_costs.seed
+    )
+    estimates = [estimate_branch(w, resources, part.constraints, robot, charge_percent) for w in found.walks]
+    return limit_problems(part, site, visit_order.drives_for(site, robot), resources, estimates)
 
 
 def _worst(estimates: Sequence[BranchEstimate]) -> BranchEstimate:
@@ -193,7 +203,7 @@ def _without_optional(node: Node) -> Node:
 
 
 def limit_problems(
-    task: Task, site: Site, drives: Drives, resources: tuple[Resource, ...], estimates: Sequence[BranchEstimate]
+    task: Task, site: Site, drives: Drives, resources: tuple[ResourceLimit, ...], estimates: Sequence[BranchEstimate]
 ) -> tuple[str, ...]:
     """Return a sentence about each limit that the mission will not keep, on the branch most likely to exceed it."""
     found = []

@@ -9,22 +9,22 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.forecast.allowance import Allowance
 from fieldhand.forecast.candidates import cheapest
-from fieldhand.forecast.drawn import DRAWS
-from fieldhand.forecast.legs import legs_between
-from fieldhand.forecast.limits import resources_of
-from fieldhand.forecast.optional import GONE, left_before, policy_for, visits_problem
-from fieldhand.forecast.rest import Rest, everything, optional_runs, rest_after
-from fieldhand.forecast.state import Spent, Visit, Work
-from fieldhand.forecast.steps import Outlook
-from fieldhand.forecast.ways import Way, chances_short, cost_model, way_of
+from fieldhand.forecast.mission_state import Spent, Visit, Work
+from fieldhand.forecast.orienteering_problem import GONE, left_before, policy_for, visits_problem
+from fieldhand.forecast.remaining_work import RemainingWork, optional_runs, remaining_work_after, whole_mission_work
+from fieldhand.forecast.resource_limits import resource_limits
+from fieldhand.forecast.risk_allowance import RiskAllowance
+from fieldhand.forecast.route_cost import RouteCost, cost_model, overrun_chances, route_cost
+from fieldhand.forecast.sampled_costs import DRAWS
+from fieldhand.forecast.visit_distances import visit_distances
+from fieldhand.forecast.walk_steps import VisitForecast
 from fieldhand.places.context import Context
 from fieldhand.site.model import Place
 from fieldhand.task.plan import ForEach, OptionalStep
 
 if TYPE_CHECKING:
-    from fieldhand.forecast.walker import Walker
+    from fieldhand.forecast.request_handler import ForecastHandler
     from fieldhand.orienteering.preview import Preview
 
 Floats = NDArray[np.float64]
@@ -37,7 +37,7 @@ class Expected:
     Attributes:
         places: As many as missions make on average, the likeliest, in the order in which they are driven to.
         shed: All others, the likeliest first; last those that are not chosen from, because they are too many.
-        outlook: How likely each is.
+        visit_forecast: How likely each is.
         preview: Missions that make them.
         ids: Of the places that are chosen from, by the numbers of the preview less one.
         works: What is done at each of these places.
@@ -46,15 +46,15 @@ class Expected:
 
     places: tuple[Place, ...]
     shed: tuple[Place, ...]
-    outlook: Outlook
+    visit_forecast: VisitForecast
     preview: Preview
     ids: tuple[str, ...]
     works: tuple[Work, ...]
-    allowance: Allowance
+    allowance: RiskAllowance
 
 
 def expected_visits(
-    walker: Walker,
+    walker: ForecastHandler,
     node: ForEach | OptionalStep,
     visits: Sequence[Visit],
     rng: np.random.Generator,
@@ -73,8 +73,8 @@ def expected_visits(
     rest = _rest(walker, node, visits)
     visits, beyond = _candidates(walker, visits, rest)
     without, share, allowance = _share(walker, rest)
-    drawn = walker.drawn
-    used = np.zeros(DRAWS) if drawn is None else drawn.metres - walker.spent.metres
+    samples = walker.samples
+    used = np.zeros(DRAWS) if samples is None else samples.metres - walker.spent.metres
     if len(visits) == 1:
         found = _one(walker, visits[0], rest, share, used, rng)
     else:
@@ -95,7 +95,7 @@ def expected_visits(
             *(visits[k].place for k in sorted(likely[round(mean) :], key=lambda k: -chances[k])),
             *(v.place for v in beyond),
         ),
-        outlook=Outlook(
+        visit_forecast=VisitForecast(
             visits=mean,
             chances={v.place.id: float(chance) for v, chance in zip(visits, chances, strict=True)}
             | {v.place.id: 0.0 for v in beyond},
@@ -107,7 +107,9 @@ def expected_visits(
     )
 
 
-def _candidates(walker: Walker, visits: Sequence[Visit], rest: Rest) -> tuple[Sequence[Visit], Sequence[Visit]]:
+def _candidates(
+    walker: ForecastHandler, visits: Sequence[Visit], rest: RemainingWork
+) -> tuple[Sequence[Visit], Sequence[Visit]]:
     """Return the visits that are chosen from, and those beyond the most that one choice is made from."""
     kept = cheapest(walker.context.here, visits, rest, walker.drives)
     if len(kept) == len(visits):
@@ -117,10 +119,10 @@ def _candidates(walker: Walker, visits: Sequence[Visit], rest: Rest) -> tuple[Se
 
 
 def _several(
-    walker: Walker,
+    walker: ForecastHandler,
     node: ForEach | OptionalStep,
     visits: Sequence[Visit],
-    rest: Rest,
+    rest: RemainingWork,
     accepted: float,
     used: Floats,
     rng: np.random.Generator,
@@ -131,9 +133,9 @@ def _several(
     from fieldhand.orienteering.preview import preview
 
     robot = walker.robot
-    resources = resources_of(walker.task.constraints, robot, walker.charge_percent)
+    resources = resource_limits(walker.task.constraints, robot, walker.charge_percent)
     problem = visits_problem(
-        legs=legs_between(walker.context.here, visits, rest, walker.drives),
+        legs=visit_distances(walker.context.here, visits, rest, walker.drives),
         rewards=[v.reward for v in visits],
         service=[v.work for v in visits],
         rest=rest,
@@ -147,17 +149,19 @@ def _several(
     return preview(policy_for(problem, warm=warm), state, rng, used)
 
 
-def _one(walker: Walker, visit: Visit, rest: Rest, share: float, used: Floats, rng: np.random.Generator) -> Preview:
+def _one(
+    walker: ForecastHandler, visit: Visit, rest: RemainingWork, share: float, used: Floats, rng: np.random.Generator
+) -> Preview:
     """Missions that make the only visit that there is, where it adds no more than its share."""
     from fieldhand.orienteering.preview import Preview
 
     here, costs = walker.context.here, cost_model(walker.robot)
     there = _length(walker, here, visit.place)
     back, home = (0.0 if rest.first is None else _length(walker, at, rest.first) for at in (visit.end, here))
-    resources = resources_of(walker.task.constraints, walker.robot, walker.charge_percent)
+    resources = resource_limits(walker.task.constraints, walker.robot, walker.charge_percent)
     with_it, without = (
-        chances_short(way + rest.way, resources, walker.robot, walker.spent, used)
-        for way in (way_of([there, back], visit.work), way_of([home]))
+        overrun_chances(way + rest.way, resources, walker.robot, walker.spent, used)
+        for way in (route_cost([there, back], visit.work), route_cost([home]))
     )
     fits = (with_it - without <= share * (1 + 1e-9) + 1e-12) & (with_it < GONE)
     goes = np.asarray(fits.all(axis=0)) & (visit.reward > 0.0)
@@ -171,12 +175,12 @@ def _one(walker: Walker, visit: Visit, rest: Rest, share: float, used: Floats, r
     )
 
 
-def _rest(walker: Walker, node: ForEach | OptionalStep, visits: Sequence[Visit]) -> Rest:
+def _rest(walker: ForecastHandler, node: ForEach | OptionalStep, visits: Sequence[Visit]) -> RemainingWork:
     """What must follow, from where a step ends, or from where a for-each begins."""
     here, to_come = walker.context, walker.to_come()
     if node.is_optional_step:
         here = Context(here=visits[0].end, visited=here.visited, bound=here.bound)
-    return rest_after(
+    return remaining_work_after(
         walker.task,
         walker.site,
         walker.robot,
@@ -187,25 +191,25 @@ def _rest(walker: Walker, node: ForEach | OptionalStep, visits: Sequence[Visit])
     )
 
 
-def _share(walker: Walker, rest: Rest) -> tuple[float, float, Allowance]:
+def _share(walker: ForecastHandler, rest: RemainingWork) -> tuple[float, float, RiskAllowance]:
     """The chance of running short without the visits, what they may add to it, and what that leaves for later ones."""
     task, robot = walker.task, walker.robot
-    resources = resources_of(task.constraints, robot, walker.charge_percent)
+    resources = resource_limits(task.constraints, robot, walker.charge_percent)
     allowance = walker.allowance
     if allowance is None:
-        whole = everything(task, walker.site, robot, walker.drives, walker.beginning)
+        whole = whole_mission_work(task, walker.site, robot, walker.drives, walker.beginning)
         way = _way_on(walker, walker.beginning.here, whole)
-        allowance = Allowance.before(
-            [r.failure_probability for r in resources], chances_short(way, resources, robot, Spent())
+        allowance = RiskAllowance.at_start(
+            [r.failure_probability for r in resources], overrun_chances(way, resources, robot, Spent())
         )
-    without = chances_short(_way_on(walker, walker.context.here, rest), resources, robot, walker.spent)
+    without = overrun_chances(_way_on(walker, walker.context.here, rest), resources, robot, walker.spent)
     share = allowance.share(optional_runs(walker.plan.frames))
-    return float(without.max()), share, allowance.less(share)
+    return float(without.max()), share, allowance.reduced_by(share)
 
 
-def _way_on(walker: Walker, here: Place, rest: Rest) -> Way:
-    return way_of([0.0 if rest.first is None else _length(walker, here, rest.first)]) + rest.way
+def _way_on(walker: ForecastHandler, here: Place, rest: RemainingWork) -> RouteCost:
+    return route_cost([0.0 if rest.first is None else _length(walker, here, rest.first)]) + rest.way
 
 
-def _length(walker: Walker, a: Place, b: Place) -> float:
+def _length(walker: ForecastHandler, a: Place, b: Place) -> float:
     return 0.0 if a.xy == b.xy else walker.drives.between(a, b).length_m

@@ -8,20 +8,20 @@ from dataclasses import replace
 import numpy as np
 
 from fieldhand.errors import DriveFault
-from fieldhand.forecast import routes
+from fieldhand.forecast import visit_order
 from fieldhand.forecast.expected import Expected, expected_visits
-from fieldhand.forecast.state import Visit
-from fieldhand.forecast.steps import Step
-from fieldhand.forecast.visits import Visits
-from fieldhand.forecast.walker import Walker
+from fieldhand.forecast.mission_state import Visit
+from fieldhand.forecast.optional_visits import OptionalVisits
+from fieldhand.forecast.request_handler import ForecastHandler
+from fieldhand.forecast.walk_steps import WalkStep
 from fieldhand.site.model import Place
 from fieldhand.task.plan import ForEach, OptionalStep
 
 #: Of optional visits of which nothing is known so many are driven to where a walk is told to make them.
-MOST_TOLD = 200
+MAX_SCRIPTED_VISITS = 200
 
 
-class LikelyWork:
+class LikelyOptionalWork:
     """As many visits as missions make on average, the likeliest.
 
     Args:
@@ -32,28 +32,28 @@ class LikelyWork:
         self._kept = kept
 
     def visits(
-        self, walker: Walker, node: ForEach, places: tuple[Place, ...], closed: tuple[Place, ...]
+        self, walker: ForecastHandler, node: ForEach, places: tuple[Place, ...], closed: tuple[Place, ...]
     ) -> tuple[Place, ...]:
         return self._some(walker, node, _visits(walker).of_places(node, places, walker.context), closed)
 
-    def takes(self, walker: Walker, node: OptionalStep) -> bool:
+    def takes(self, walker: ForecastHandler, node: OptionalStep) -> bool:
         try:
             visit = _visits(walker).of_step(node, walker.context)
         except DriveFault:
             here = walker.context.here
-            never = next(iter(routes.first_places(node.body, walker.site, walker.context)), here)
+            never = next(iter(visit_order.first_places(node.body, walker.site, walker.context)), here)
             self._some(walker, node, [], (never,))
             return False
         return bool(self._some(walker, node, [visit], ()))
 
     def _some(
-        self, walker: Walker, node: ForEach | OptionalStep, visits: Sequence[Visit], closed: tuple[Place, ...]
+        self, walker: ForecastHandler, node: ForEach | OptionalStep, visits: Sequence[Visit], closed: tuple[Place, ...]
     ) -> tuple[Place, ...]:
         """Return the visits that are the likeliest to fit the budgets."""
         if not visits:
-            walker.note(Step(node=node, kind="visit-list", context=walker.context, shed=closed))
+            walker.note(WalkStep(node=node, kind="visit-list", context=walker.context, shed=closed))
             return ()
-        drawn = walker.drawn
+        samples = walker.samples
         key = (node.id, len(walker.steps), tuple(walker.decisions))
         found = self._kept.get(key)
         if found is None:
@@ -61,18 +61,18 @@ class LikelyWork:
             state = (node.id, *_state(walker))
             found = self._kept.get(state)
             if found is None:
-                rng = np.random.default_rng([0 if drawn is None else drawn.seed, len(walker.steps)])
+                rng = np.random.default_rng([0 if samples is None else samples.seed, len(walker.steps)])
                 found = expected_visits(walker, node, visits, rng, self._kept.get(node.id))
             self._kept[key] = self._kept[state] = self._kept[node.id] = found
         walker.allowance = found.allowance
-        step = Step(node=node, kind="visit-list", context=walker.context, shed=(*found.shed, *closed))
-        walker.note(replace(step, places=found.places, outlook=found.outlook))
-        if drawn is not None:
-            drawn.visit(found.preview, found.works)
+        step = WalkStep(node=node, kind="visit-list", context=walker.context, shed=(*found.shed, *closed))
+        walker.note(replace(step, places=found.places, visit_forecast=found.visit_forecast))
+        if samples is not None:
+            samples.visit(found.preview, found.works)
         return found.places
 
 
-class ToldWork:
+class ScriptedOptionalWork:
     """The steps that the answers take; of visits those of the luckiest mission, or of the least lucky one.
 
     Args:
@@ -83,13 +83,13 @@ class ToldWork:
         self._kept = kept
 
     def visits(
-        self, walker: Walker, node: ForEach, places: tuple[Place, ...], closed: tuple[Place, ...]
+        self, walker: ForecastHandler, node: ForEach, places: tuple[Place, ...], closed: tuple[Place, ...]
     ) -> tuple[Place, ...]:
         made = self._made(node, places, most=walker.decide(node, "taken"))
-        walker.note(Step(node=node, kind="visit-list", context=walker.context, places=made, shed=closed))
+        walker.note(WalkStep(node=node, kind="visit-list", context=walker.context, places=made, shed=closed))
         return made
 
-    def takes(self, walker: Walker, node: OptionalStep) -> bool:
+    def takes(self, walker: ForecastHandler, node: OptionalStep) -> bool:
         try:
             first = _visits(walker).of_step(node, walker.context).place
         except DriveFault:
@@ -97,20 +97,20 @@ class ToldWork:
         known = self._kept.get(node.id)
         takes = (known is None or bool(known.preview.visited.any())) and walker.decide(node, "taken")
         if takes:
-            walker.note(Step(node=node, kind="visit-list", context=walker.context, places=(first,)))
+            walker.note(WalkStep(node=node, kind="visit-list", context=walker.context, places=(first,)))
         return takes
 
     def _made(self, node: ForEach, places: tuple[Place, ...], *, most: bool) -> tuple[Place, ...]:
         """Return the visits of the mission that makes most, or fewest; where none is known all, or none."""
         known = self._kept.get(node.id)
         if known is None:
-            return (places if node.at_most is None else places[: node.at_most])[:MOST_TOLD] if most else ()
+            return (places if node.at_most is None else places[: node.at_most])[:MAX_SCRIPTED_VISITS] if most else ()
         visits, by_id = known.preview.visits, {p.id: p for p in places}
         made = known.preview.stops(int(visits.argmax() if most else visits.argmin()))
         return tuple(by_id[name] for vertex in made if (name := known.ids[vertex - 1]) in by_id)
 
 
-def _state(walker: Walker) -> Iterator[object]:
+def _state(walker: ForecastHandler) -> Iterator[object]:
     """All that decides which optional visits missions make from here on."""
     context, spent = walker.context, walker.spent
     yield len(walker.steps), walker.allowance, walker.to_come()
@@ -118,9 +118,9 @@ def _state(walker: Walker) -> Iterator[object]:
     yield tuple((frame.node.id, tuple((n.id, n.rounds) for n in frame.left)) for frame in walker.plan.frames)
     # Sums of the same durations in another order differ in their last digits.
     yield tuple(round(amount, 6) for amount in (spent.metres, spent.seconds, spent.percent, spent.joules))
-    if walker.drawn is not None:
-        yield walker.drawn.metres.tobytes()
+    if walker.samples is not None:
+        yield walker.samples.metres.tobytes()
 
 
-def _visits(walker: Walker) -> Visits:
-    return Visits(walker.task, walker.site, walker.robot, walker.drives)
+def _visits(walker: ForecastHandler) -> OptionalVisits:
+    return OptionalVisits(walker.task, walker.site, walker.robot, walker.drives)

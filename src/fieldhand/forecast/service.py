@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 
-from fieldhand.forecast.state import Work
+from fieldhand.forecast.mission_state import Work
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.plan import Act, Node
@@ -33,7 +33,7 @@ def service_of(node: Node, robot: RobotProfile) -> tuple[float, float]:
     return (times * together(seconds), times * together(joules))
 
 
-def tried_again(node: Act, robot: RobotProfile) -> Work:
+def retry_work(node: Act, robot: RobotProfile) -> Work:
     """What it takes to try a capture again as often as the robot does, with the waits between, until it has failed."""
     action = robot.action[node.action]
     retries = robot.retries if action.retries is None else action.retries

@@ -65,7 +65,7 @@ def carry_out(
     from fieldhand.evaluation.failsafe import BudgetFailsafe
     from fieldhand.evaluation.guard import BudgetGuard
     from fieldhand.execution.mission_runner import run
-    from fieldhand.forecast.routes import drives_for
+    from fieldhand.forecast.visit_order import drives_for
 
     site, robot, task = mission.site, mission.robot, mission.task
     guard = BudgetGuard(task, site, robot, drives_for(site, robot), seed, charge_percent=vehicle.charge_percent)

@@ -34,7 +34,7 @@ def require_in_place(site: Site, robot: RobotProfile, driver: Driver) -> float:
     Raises:
         ExecutionError: It is stopped, does not know where it is, or stands where no drive can begin.
     """
-    from fieldhand.forecast.routes import beginning, drives_for
+    from fieldhand.forecast.visit_order import drives_for, start_place
     from fieldhand.site.model import Place
 
     driver.poll()
@@ -50,7 +50,7 @@ def require_in_place(site: Site, robot: RobotProfile, driver: Driver) -> float:
             advice=message("mend that, then try again"),
         )
     at, drives = driver.position(), drives_for(site, robot)
-    start = beginning(drives)
+    start = start_place(drives)
     away_m = math.dist((at.x, at.y), start.stand or start.xy)
     if away_m <= AT_M:
         return away_m

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from fieldhand.forecast.homeward import costs_too_much
+from fieldhand.forecast.way_home import excessive_way_home
 from fieldhand.language import message
 from fieldhand.language.words import say_rounded
 from fieldhand.robot.model import RobotProfile
@@ -46,7 +46,7 @@ def with_assumed_exit(task: Task, site: Site, robot: RobotProfile) -> Task:
         task: Of a request that does not say where to end, with the usual exit.
     """
     then = task.composition.nominal
-    metres = costs_too_much(task, site, robot, then)
+    metres = excessive_way_home(task, site, robot, then)
     said = _HOMEWARD[then]
     if metres is not None and then == "return_to_end":
         said = message(

@@ -212,7 +212,7 @@ def problems(flown: Flown) -> list[str]:
 
 
 def _drives(site: Site, robot: RobotProfile) -> Any:
-    from fieldhand.forecast.routes import drives_for
+    from fieldhand.forecast.visit_order import drives_for
 
     return drives_for(site, robot)
 

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from fieldhand.evaluation.guard import BudgetGuard
-from fieldhand.forecast.routes import beginning, drives_for, standing
+from fieldhand.forecast.mission_state import MissionState, Spent, Verdict, Visit, VisitChoice
 from fieldhand.forecast.service import reward_of, service_of
-from fieldhand.forecast.state import Choice, MissionState, Spent, Verdict, Visit
+from fieldhand.forecast.visit_order import drives_for, start_place, with_stands
 from fieldhand.places.context import Context
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.drives import Drives
@@ -37,7 +37,7 @@ class Paper:
         self.guard = BudgetGuard(task, site, robot, self.drives, seed)
         self.rng = np.random.default_rng([seed, 9])
         self.spent = Spent()
-        self.here: Place = beginning(self.drives)
+        self.here: Place = start_place(self.drives)
         self.visited: tuple[str, ...] = ()
         self.shed: list[tuple[str, str]] = []
 
@@ -62,9 +62,9 @@ class Paper:
         if place.kind == "tree" and place.id not in self.visited:
             self.visited = (*self.visited, place.id)
 
-    def optional(self, node: ForEach, places: Sequence[Place]) -> Choice | None:
+    def optional(self, node: ForEach, places: Sequence[Place]) -> VisitChoice | None:
         """The visits of an optional for-each; the last answer of the guard."""
-        left, choice, made = list(standing(self.drives, self.here, places)), None, 0
+        left, choice, made = list(with_stands(self.drives, self.here, places)), None, 0
         while left and made != node.at_most:
             at_most = None if node.at_most is None else node.at_most - made
             candidates = [self.visit(p, node) for p in left]

@@ -18,8 +18,8 @@ from fieldhand.execution.mission_clock import MissionClock
 from fieldhand.execution.mission_runner import Result, run
 from fieldhand.execution.recorded_inputs import RecordedInputs
 from fieldhand.execution.world import World
-from fieldhand.forecast.routes import drives_for
-from fieldhand.forecast.state import Choice, MissionState, Verdict, Visit
+from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
+from fieldhand.forecast.visit_order import drives_for
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site, Tree
@@ -176,12 +176,14 @@ class BudgetOf(NoGuard):
         *,
         at_most: int | None = None,
         still_to_come: Sequence[Visit] = (),
-    ) -> Choice:
+    ) -> VisitChoice:
         self.asked.append((state.node, "", tuple(v.place.id for v in candidates)))
         self.visits -= 1
         if self.visits < 0:
-            return Choice(index=None, shed=tuple(range(len(candidates))), reason="too little left", chance_short=0.4)
-        return Choice(index=0)
+            return VisitChoice(
+                index=None, shed=tuple(range(len(candidates))), reason="too little left", chance_short=0.4
+            )
+        return VisitChoice(index=0)
 
 
 def of_type(events: Iterable[Event], kind: type[Kind]) -> list[Kind]:

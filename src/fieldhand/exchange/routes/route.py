@@ -16,8 +16,8 @@ from fieldhand.exchange.broken_off import driven_part
 from fieldhand.exchange.incidents import Incident, LatLon, incidents
 from fieldhand.exchange.incidents import known as _known
 from fieldhand.forecast.branches import branches
-from fieldhand.forecast.limits import speed_of
-from fieldhand.forecast.steps import Step, Walk
+from fieldhand.forecast.resource_limits import speed_of
+from fieldhand.forecast.walk_steps import Walk, WalkStep
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.frames import Task
@@ -238,7 +238,7 @@ def _with(work: tuple[Work, ...], event: Acted) -> tuple[Work, ...]:
     return (*work[:-1], more)
 
 
-def _driven_to(step: Step, site: Site, travelled: float, certain: bool) -> Stop:
+def _driven_to(step: WalkStep, site: Site, travelled: float, certain: bool) -> Stop:
     assert step.drive is not None  # noqa: S101  the caller looked
     way = _degrees(site, step.drive.points)
     made = _stop(step.places[0], site, node=step.node.id, certain=certain)

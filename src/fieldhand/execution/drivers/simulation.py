@@ -14,7 +14,7 @@ from fieldhand.execution.drivers.groundtruth import GroundTruth, Hindrance, Poin
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, GoalFault, GoalState, Position, Progress
 from fieldhand.execution.drivers.simulation_state import SimulationState
 from fieldhand.execution.world import World
-from fieldhand.forecast.routes import beginning, drives_for
+from fieldhand.forecast.visit_order import drives_for, start_place
 from fieldhand.language import message
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
@@ -98,7 +98,7 @@ class SimulatedDriver:
         self._charge = world.charge_percent
         self._meter_step = world.meter_step_percent
         self._charged_s = self._begun_s
-        start = beginning(drives_for(site, robot))
+        start = start_place(drives_for(site, robot))
         self._xy: Point = start.stand or start.xy
         self._course: _Course | None = None
         self._result = Progress(state="idle")

@@ -12,8 +12,8 @@ from fieldhand import errors
 from fieldhand.errors import FieldhandError, JournalError
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Position, Progress
 from fieldhand.execution.orders import Order
-from fieldhand.forecast.state import Choice, Verdict
-from fieldhand.forecast.underway import Foresight
+from fieldhand.forecast.failsafe_state import FailsafeForecast
+from fieldhand.forecast.mission_state import Verdict, VisitChoice
 
 #: ``sight``: an observation. ``begun``: a goal is about to start. ``cancel``: its cancellation was requested.
 #: ``admit``, ``choose``: an answer of the guard. ``cut``: a power cut. ``interrupt``: a second Ctrl-C.
@@ -138,7 +138,7 @@ def goal_record(goal: DriveGoal | ActionGoal) -> Record:
     return Record(kind="begun", body=json.dumps(body))
 
 
-def answer_record(kind: Kind, node: str, answer: Verdict | Choice | FieldhandError) -> Record:
+def answer_record(kind: Kind, node: str, answer: Verdict | VisitChoice | FieldhandError) -> Record:
     """Return the record of the guard's answer about a node, or of the error that it raised."""
     said: dict[str, Any]
     if isinstance(answer, FieldhandError):
@@ -161,28 +161,28 @@ def verdict_of(record: Record, node: str) -> Verdict:
         raise garbled(error) from None
 
 
-def choice_of(record: Record, node: str) -> Choice:
+def choice_of(record: Record, node: str) -> VisitChoice:
     """Return the choice of a record about a node; as :func:`verdict_of`."""
     answer = _answer(record, node)
     try:
-        return Choice(**{**answer, "shed": tuple(answer["shed"])})
+        return VisitChoice(**{**answer, "shed": tuple(answer["shed"])})
     except (TypeError, KeyError) as error:
         raise garbled(error) from None
 
 
-def foresight_record(said: Foresight) -> Record:
+def foresight_record(said: FailsafeForecast) -> Record:
     """Return the record of an alarm of the failsafe."""
     return Record(kind="foresee", body=json.dumps(dataclasses.asdict(said)))
 
 
-def foresight_of(record: Record) -> Foresight:
+def foresight_of(record: Record) -> FailsafeForecast:
     """Return the alarm of a record.
 
     Raises:
         JournalError: The record is not valid.
     """
     try:
-        return Foresight(**json.loads(record.body))
+        return FailsafeForecast(**json.loads(record.body))
     except (ValueError, TypeError) as error:
         raise garbled(error) from None
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from fieldhand.errors import DriveFault, PlaceError, TaskError
-from fieldhand.forecast.walk import walk as walk_through
+from fieldhand.forecast.walk_branch import walk_branch as walk_through
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
 from fieldhand.planning.english.faults import Question, Unclear

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from fieldhand.forecast.legs import legs_between
-from fieldhand.forecast.limits import resources_of
-from fieldhand.forecast.optional import policy_for, visits_problem
-from fieldhand.forecast.rest import Rest
-from fieldhand.forecast.routes import beginning, drives_for, standing
-from fieldhand.forecast.state import Spent, Visit
+from fieldhand.forecast.mission_state import Spent, Visit
+from fieldhand.forecast.orienteering_problem import policy_for, visits_problem
+from fieldhand.forecast.remaining_work import RemainingWork
+from fieldhand.forecast.resource_limits import resource_limits
+from fieldhand.forecast.visit_distances import visit_distances
+from fieldhand.forecast.visit_order import drives_for, start_place, with_stands
 from fieldhand.orienteering.policy import State
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import parse_site
@@ -24,17 +24,17 @@ def planted():
     """A site with rows and a pond: its drives, where the mission begins, visits, and the way home."""
     site = parse_site(benchmark_orchard(260, 3), name="made")
     drives = drives_for(site, ROBOT)
-    here = beginning(drives)
+    here = start_place(drives)
     places = [t.place for t in site.trees if not drives.problem(t.place)]
-    visits = [Visit(place=p) for p in standing(drives, here, places)]
+    visits = [Visit(place=p) for p in with_stands(drives, here, places)]
     (home,) = drives.stands((site.home("return_to_end", here),))
-    return drives, here, visits, Rest(stops=(home,))
+    return drives, here, visits, RemainingWork(stops=(home,))
 
 
 def test_many_places_are_as_far_from_each_other_in_the_graph_as_in_the_table(planted):
     drives, here, visits, rest = planted
-    table = legs_between(here, visits, rest, drives).distances
-    along = legs_between(here, visits, rest, drives, table=10).table
+    table = visit_distances(here, visits, rest, drives).distances
+    along = visit_distances(here, visits, rest, drives, table=10).table
     pairs = np.random.default_rng(0).integers(0, len(table), (400, 2))
     straight = np.array([table[i, j] for i, j in pairs])
     looked_up = np.array([along.distances[i, j] for i, j in pairs])
@@ -45,11 +45,11 @@ def test_many_places_are_as_far_from_each_other_in_the_graph_as_in_the_table(pla
 
 def test_a_policy_over_the_graph_visits_about_as_much(planted):
     drives, here, visits, rest = planted
-    resources = resources_of(Constraints(budgets=(Budget(kind="distance_m", limit=400.0),)), ROBOT)
+    resources = resource_limits(Constraints(budgets=(Budget(kind="distance_m", limit=400.0),)), ROBOT)
     found = []
     for table in (1000, 10):
         problem = visits_problem(
-            legs=legs_between(here, visits, rest, drives, table=table),
+            legs=visit_distances(here, visits, rest, drives, table=table),
             rewards=[1.0] * len(visits),
             service=[v.work for v in visits],
             rest=rest,
@@ -68,11 +68,11 @@ def test_a_policy_over_the_graph_visits_about_as_much(planted):
 def test_where_drives_are_straight_lines_coordinates_do():
     site = orchard(zones=[])
     drives = drives_for(site, ROBOT)
-    here = beginning(drives)
-    visits = [Visit(place=p) for p in standing(drives, here, [t.place for t in site.trees])]
-    rest = Rest(stops=(site.home("return_to_end", here),))
-    legs = legs_between(here, visits, rest, drives, table=3)
-    lengths = legs_between(here, visits, rest, drives).distances
+    here = start_place(drives)
+    visits = [Visit(place=p) for p in with_stands(drives, here, [t.place for t in site.trees])]
+    rest = RemainingWork(stops=(site.home("return_to_end", here),))
+    legs = visit_distances(here, visits, rest, drives, table=3)
+    lengths = visit_distances(here, visits, rest, drives).distances
     if legs.coordinates is not None:
         between = np.hypot(*(legs.coordinates[:, None] - legs.plane[None]).transpose(2, 0, 1))
         assert between == pytest.approx(lengths, abs=1e-6)
@@ -82,10 +82,10 @@ def test_where_drives_are_straight_lines_coordinates_do():
 
 def test_an_open_end_and_visits_that_end_elsewhere_have_a_table(planted):
     drives, here, visits, rest = planted
-    open_end = legs_between(here, visits[:20], Rest(), drives, table=3).distances
+    open_end = visit_distances(here, visits[:20], RemainingWork(), drives, table=3).distances
     assert open_end.shape == (22, 22)
     assert (open_end[-1] == 0.0).all()
     moved = [Visit(place=visits[0].place, leaves=visits[1].place), *visits[2:20]]
-    lengths = legs_between(here, moved, rest, drives, table=3).distances
+    lengths = visit_distances(here, moved, rest, drives, table=3).distances
     assert lengths[1, 2] == pytest.approx(drives.between(visits[1].place, visits[2].place).length_m)
     assert lengths[2, 1] == pytest.approx(drives.between(visits[2].place, visits[0].place).length_m)

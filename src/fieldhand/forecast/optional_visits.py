@@ -7,12 +7,12 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldhand.errors import DriveFault, PlaceError
-from fieldhand.forecast.limits import speed_of
-from fieldhand.forecast.rest import arrived, every_answer
+from fieldhand.forecast.mission_state import Visit
+from fieldhand.forecast.remaining_work import arrived, every_answer
+from fieldhand.forecast.request_handler import ForecastHandler
+from fieldhand.forecast.resource_limits import speed_of
 from fieldhand.forecast.service import reward_of, work_of
-from fieldhand.forecast.state import Visit
-from fieldhand.forecast.trail import Answers
-from fieldhand.forecast.walker import Walker
+from fieldhand.forecast.walk_state import Answers
 from fieldhand.places.context import Context
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 _LOOKED_AT = 60
 
 
-class Visits:
+class OptionalVisits:
     """Makes visits of optional nodes.
 
     Args:
@@ -99,7 +99,7 @@ class Visits:
         longest, most = Visit(place=context.here), -1.0
         for holds in every_answer((body,)):
             answers = Answers(holds=holds)
-            walker = Walker(self._task, self._site, self._robot, self._drives, answers, context=context)
+            walker = ForecastHandler(self._task, self._site, self._robot, self._drives, answers, context=context)
             steps = walker.along(body)
             legs = [(s.drive.length_m, s.places[0]) for s in steps if s.drive is not None]
             acts = [s for s in steps if s.kind == "act"]

@@ -13,12 +13,12 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from fieldhand.errors import DriveFault, PlaceError
-from fieldhand.forecast.limits import speed_of
-from fieldhand.forecast.state import Visit, Work
-from fieldhand.forecast.steps import Answer, never
-from fieldhand.forecast.trail import Answers
-from fieldhand.forecast.walker import Walker
-from fieldhand.forecast.ways import Way, way_of
+from fieldhand.forecast.mission_state import Visit, Work
+from fieldhand.forecast.request_handler import ForecastHandler
+from fieldhand.forecast.resource_limits import speed_of
+from fieldhand.forecast.route_cost import RouteCost, route_cost
+from fieldhand.forecast.walk_state import Answers
+from fieldhand.forecast.walk_steps import Answer, never
 from fieldhand.places.context import Context
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
@@ -34,7 +34,7 @@ _MAX_CONDITIONS = 4
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rest:
+class RemainingWork:
     """What follows, on the branch that takes most.
 
     Attributes:
@@ -52,9 +52,9 @@ class Rest:
     fixed: bool = True
 
     @cached_property
-    def way(self) -> Way:
+    def way(self) -> RouteCost:
         """The legs from the first stop on, and the work."""
-        return way_of(self.legs_m, self.work)
+        return route_cost(self.legs_m, self.work)
 
     @property
     def first(self) -> Place | None:
@@ -62,7 +62,7 @@ class Rest:
         return self.stops[0] if self.stops else None
 
 
-def rest_after(
+def remaining_work_after(
     task: Task,
     site: Site,
     robot: RobotProfile,
@@ -71,7 +71,7 @@ def rest_after(
     context: Context,
     *,
     to_come: Sequence[Visit] = (),
-) -> Rest:
+) -> RemainingWork:
     """Return what must be done after the node in hand, what is optional left out, on the branch that takes most.
 
     Args:
@@ -87,18 +87,20 @@ def rest_after(
     return _joined(to_come, rest, drives) if to_come else rest
 
 
-def everything(task: Task, site: Site, robot: RobotProfile, drives: Drives, context: Context) -> Rest:
-    """What must be done of a whole Task from where a mission begins, as :func:`rest_after` says of a part."""
+def whole_mission_work(task: Task, site: Site, robot: RobotProfile, drives: Drives, context: Context) -> RemainingWork:
+    """What must be done of a whole Task from where a mission begins, as :func:`remaining_work_after` says of a part."""
     return _most(task, site, robot, drives, (task.composition.plan,), context)
 
 
-def _most(task: Task, site: Site, robot: RobotProfile, drives: Drives, nodes: Sequence[Node], context: Context) -> Rest:
+def _most(
+    task: Task, site: Site, robot: RobotProfile, drives: Drives, nodes: Sequence[Node], context: Context
+) -> RemainingWork:
     """The branch of some nodes, and the way home, that takes most."""
     speed = speed_of(task.constraints, robot)
     fixed = not any(_is_relative(node) for node in nodes)
-    worst, most = Rest(), -1.0
+    worst, most = RemainingWork(), -1.0
     for holds in every_answer(nodes):
-        found = _walk_rest(Walker(task, site, robot, drives, Answers(holds=holds), context=context), nodes)
+        found = _walk_rest(ForecastHandler(task, site, robot, drives, Answers(holds=holds), context=context), nodes)
         found = replace(found, fixed=fixed)
         seconds = (sum(found.legs_m) + found.work.metres) / speed + found.work.seconds
         if found.first is not None:
@@ -134,12 +136,12 @@ def arrived(context: Context, visits: Sequence[Visit]) -> Context:
     return Context(here=visits[-1].end, visited=(*context.visited, *fresh), bound=context.bound)
 
 
-def _joined(visits: Sequence[Visit], rest: Rest, drives: Drives) -> Rest:
+def _joined(visits: Sequence[Visit], rest: RemainingWork, drives: Drives) -> RemainingWork:
     """Some visits, and then the rest."""
     legs = [_length(drives, a.end, b.place) for a, b in itertools.pairwise(visits)]
     if rest.first is not None:
         legs.append(_length(drives, visits[-1].end, rest.first))
-    return Rest(
+    return RemainingWork(
         stops=(*(v.place for v in visits), *rest.stops),
         legs_m=(*legs, *rest.legs_m),
         work=sum((v.work for v in visits), rest.work),
@@ -152,12 +154,12 @@ def _length(drives: Drives, a: Place, b: Place) -> float:
     return 0.0 if a.xy == b.xy else drives.between(a, b).length_m
 
 
-def _walk_rest(walker: Walker, nodes: Sequence[Node]) -> Rest:
+def _walk_rest(walker: ForecastHandler, nodes: Sequence[Node]) -> RemainingWork:
     try:
         walked = walker.run(nodes)
     except (PlaceError, DriveFault):
         # What cannot be resolved from here may be once the robot is there; then the way home alone is set aside.
-        walker = Walker(
+        walker = ForecastHandler(
             walker.task,
             walker.site,
             walker.robot,
@@ -169,7 +171,7 @@ def _walk_rest(walker: Walker, nodes: Sequence[Node]) -> Rest:
     # Not the walk's own legs: where it begins by staying where it is, the robot will have to come back there.
     stops = [stop for k, stop in enumerate(walker.stops) if k == 0 or stop.xy != walker.stops[k - 1].xy]
     seconds, joules = walked.work
-    return Rest(
+    return RemainingWork(
         stops=tuple(stops),
         legs_m=tuple(walker.drives.between(a, b).length_m for a, b in itertools.pairwise(stops)),
         work=Work(seconds=seconds, joules=joules),

@@ -18,25 +18,25 @@ Floats = NDArray[np.float64]
 
 #: What optional visits may take of the accepted chance where what must be done needs more than all of it; the rest is
 #: what must be done held to.
-SLIVER = 0.1
+OPTIONAL_SHARE = 0.1
 
 
 @dataclass(frozen=True, kw_only=True)
-class Allowance:
+class RiskAllowance:
     """What optional visits may still add to a mission's chance of running short.
 
     Attributes:
         accepted: For each limit the chance that the Task accepts.
         left: For each limit what may still be added.
-        lasts: Whether what must be done is within what is accepted, as it was first asked for.
+        mandatory_fits: Whether what must be done is within what is accepted, as it was first asked for.
     """
 
     accepted: tuple[float, ...]
     left: tuple[float, ...]
-    lasts: bool
+    mandatory_fits: bool
 
     @staticmethod
-    def before(accepted: Sequence[float], mandatory: Floats) -> Allowance:
+    def at_start(accepted: Sequence[float], mandatory: Floats) -> RiskAllowance:
         """At a mission's beginning.
 
         Args:
@@ -45,13 +45,13 @@ class Allowance:
         """
         bound = np.asarray(accepted, dtype=np.float64)
         lasts = bool((mandatory <= bound * (1 + 1e-9)).all())
-        left = np.maximum(bound - mandatory, 0.0) if lasts else SLIVER * bound
-        return Allowance(accepted=tuple(bound.tolist()), left=tuple(left.tolist()), lasts=lasts)
+        left = np.maximum(bound - mandatory, 0.0) if lasts else OPTIONAL_SHARE * bound
+        return RiskAllowance(accepted=tuple(bound.tolist()), left=tuple(left.tolist()), mandatory_fits=lasts)
 
     def share(self, runs: int) -> float:
         """What the next of so many runs of optional visits may add."""
         return min(self.left) / max(runs, 1)
 
-    def less(self, added: float) -> Allowance:
+    def reduced_by(self, added: float) -> RiskAllowance:
         """After a run that is expected to add so much."""
         return replace(self, left=tuple(max(0.0, x - max(0.0, added)) for x in self.left))

@@ -113,7 +113,7 @@ class Verdict:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Choice:
+class VisitChoice:
     """Which of the candidates comes next (None: none fits any more), which are given up for good, and why.
 
     Attributes:

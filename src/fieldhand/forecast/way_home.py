@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from fieldhand.errors import DriveFault
-from fieldhand.forecast.limits import resources_of
-from fieldhand.forecast.routes import beginning, drives_for
+from fieldhand.forecast.resource_limits import resource_limits
+from fieldhand.forecast.visit_order import drives_for, start_place
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task, Then
 from fieldhand.task.plan import walk
 
 #: The way home may take this part of a budget before it is left out of a mission that did not ask for it.
-MOST = 1 / 3
+MAX_SHARE = 1 / 3
 
 
-def costs_too_much(task: Task, site: Site, robot: RobotProfile, then: Then) -> float | None:
+def excessive_way_home(task: Task, site: Site, robot: RobotProfile, then: Then) -> float | None:
     """Metres of the way home from the start, where that alone takes much of a budget for optional visits.
 
     A mission that visits as many trees as a budget allows would spend the budget on the way home in place of trees.
@@ -30,7 +30,7 @@ def costs_too_much(task: Task, site: Site, robot: RobotProfile, then: Then) -> f
     if not task.constraints.budgets or not optional:
         return None
     drives = drives_for(site, robot)
-    start = beginning(drives)
+    start = start_place(drives)
     home = site.home(then, start)
     if home.xy == start.xy:
         return None
@@ -38,9 +38,9 @@ def costs_too_much(task: Task, site: Site, robot: RobotProfile, then: Then) -> f
         metres = drives.between(start, home).length_m
     except DriveFault:
         return None
-    for resource in resources_of(task.constraints, robot):
+    for resource in resource_limits(task.constraints, robot):
         if resource.kind == "reserve":
             continue
-        if metres * resource.per_metre > MOST * resource.limit:
+        if metres * resource.per_metre > MAX_SHARE * resource.limit:
             return metres
     return None

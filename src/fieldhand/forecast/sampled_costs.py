@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.forecast.state import Work
+from fieldhand.forecast.mission_state import Work
 from fieldhand.orienteering.costs import CostModel
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ _AT_A_TIME = 64
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Used:
+class SampledUse:
     """What each of some missions uses, shape (missions,) each.
 
     Attributes:
@@ -38,7 +38,7 @@ class Used:
     joules: Floats
 
 
-class Luck:
+class LegCostSamples:
     """What legs cost, shared by the walks of a mission: the same legs cost the same on every branch.
 
     So two branches differ by what they do and not by their luck, and where they drive the same legs those are drawn
@@ -72,17 +72,17 @@ class Luck:
         return known
 
 
-class Drawn:
+class MissionSamples:
     """Missions along one walk.
 
     Args:
-        luck: What legs cost.
+        leg_costs: What legs cost.
     """
 
-    def __init__(self, luck: Luck) -> None:
-        self._luck, self._legs = luck, 0
+    def __init__(self, leg_costs: LegCostSamples) -> None:
+        self._leg_costs, self._legs = leg_costs, 0
         self._pending: list[float] = []
-        self._metres: Floats = np.zeros(luck.draws)
+        self._metres: Floats = np.zeros(leg_costs.draws)
         self._work = Work()
         self._seconds: Floats | float = 0.0
         self._joules: Floats | float = 0.0
@@ -91,21 +91,21 @@ class Drawn:
     @property
     def seed(self) -> int:
         """Of what is random."""
-        return self._luck.seed
+        return self._leg_costs.seed
 
     @property
     def metres(self) -> Floats:
         """What the legs so far cost each mission, shape (missions,)."""
         if self._pending:
-            self._metres = self._metres + self._luck.cost(self._legs, tuple(self._pending))
+            self._metres = self._metres + self._leg_costs.cost(self._legs, tuple(self._pending))
             self._legs, self._pending = self._legs + len(self._pending), []
         return self._metres
 
     @property
-    def used(self) -> Used:
+    def used(self) -> SampledUse:
         """So far."""
-        none = np.zeros(self._luck.draws)
-        return Used(
+        none = np.zeros(self._leg_costs.draws)
+        return SampledUse(
             metres=self.metres,
             seconds=none + (self._work.seconds + self._seconds),
             joules=none + (self._work.joules + self._joules),

@@ -1,6 +1,6 @@
 """A walk through a Task on paper: the answers to what its nodes ask (:mod:`fieldhand.task.instructions`).
 
-Orders come from :mod:`fieldhand.forecast.routes`, as they do on the robot.
+Orders come from :mod:`fieldhand.forecast.visit_order`, as they do on the robot.
 """
 
 from __future__ import annotations
@@ -9,14 +9,14 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 from fieldhand.errors import PlaceError, TaskError
-from fieldhand.forecast import routes
-from fieldhand.forecast.allowance import Allowance
-from fieldhand.forecast.drawn import Drawn
-from fieldhand.forecast.possible import Readings
-from fieldhand.forecast.service import tried_again, work_of
-from fieldhand.forecast.state import Visit, Work
-from fieldhand.forecast.steps import Step, Walk
-from fieldhand.forecast.trail import Answers, Trail
+from fieldhand.forecast import visit_order
+from fieldhand.forecast.mission_state import Visit, Work
+from fieldhand.forecast.possible_answers import BranchReadings
+from fieldhand.forecast.risk_allowance import RiskAllowance
+from fieldhand.forecast.sampled_costs import MissionSamples
+from fieldhand.forecast.service import retry_work, work_of
+from fieldhand.forecast.walk_state import Answers, WalkState
+from fieldhand.forecast.walk_steps import Walk, WalkStep
 from fieldhand.places.context import Context
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
@@ -34,11 +34,11 @@ if TYPE_CHECKING:
 MAX_NODES = 100_000
 
 
-class OptionalWork(Protocol):
+class OptionalWorkPolicy(Protocol):
     """Decides what becomes of the optional visits and steps that a walk comes to."""
 
     def visits(
-        self, walker: Walker, node: ForEach, places: tuple[Place, ...], closed: tuple[Place, ...]
+        self, walker: ForecastHandler, node: ForEach, places: tuple[Place, ...], closed: tuple[Place, ...]
     ) -> tuple[Place, ...]:
         """Return the optional visits that are made, in their order, and note them as a step.
 
@@ -49,28 +49,28 @@ class OptionalWork(Protocol):
             closed: Those that never can.
         """
 
-    def takes(self, walker: Walker, node: OptionalStep) -> bool:
+    def takes(self, walker: ForecastHandler, node: OptionalStep) -> bool:
         """Return True if an optional step is done, and note that as a step."""
 
 
-class NoOptionalWork:
+class SkipOptionalWork:
     """Leaves all optional work out: only what must be done is walked."""
 
     def visits(
         self,
-        walker: Walker,
+        walker: ForecastHandler,
         node: ForEach,
         places: tuple[Place, ...],  # noqa: ARG002
         closed: tuple[Place, ...],
     ) -> tuple[Place, ...]:
-        walker.note(Step(node=node, kind="visit-list", context=walker.context, shed=closed))
+        walker.note(WalkStep(node=node, kind="visit-list", context=walker.context, shed=closed))
         return ()
 
-    def takes(self, walker: Walker, node: OptionalStep) -> bool:  # noqa: ARG002
+    def takes(self, walker: ForecastHandler, node: OptionalStep) -> bool:  # noqa: ARG002
         return False
 
 
-class Tour:
+class PlannedVisits:
     """The visits of a for-each.
 
     Args:
@@ -95,11 +95,11 @@ class Tour:
         return tuple(Visit(place=p, service_s=seconds, service_j=joules) for p in self._places[self._begun :])
 
 
-class Walker(Trail):
+class ForecastHandler(WalkState):
     """Answers what the nodes of a Task ask, and notes what happens.
 
     Args:
-        task, site, robot, drives, answers, context, drawn, readings: As for a trail.
+        task, site, robot, drives, answers, context, samples, readings: As for a trail.
         charge_percent: Charge at the beginning.
         optional: Decides on optional visits and steps; by default all of them are left out.
     """
@@ -113,16 +113,16 @@ class Walker(Trail):
         answers: Answers,
         charge_percent: float = 100.0,
         *,
-        optional: OptionalWork | None = None,
+        optional: OptionalWorkPolicy | None = None,
         context: Context | None = None,
-        drawn: Drawn | None = None,
-        readings: Readings | None = None,
+        samples: MissionSamples | None = None,
+        readings: BranchReadings | None = None,
     ) -> None:
-        super().__init__(task, site, robot, drives, answers, context=context, drawn=drawn, readings=readings)
-        self.charge_percent, self._optional = charge_percent, optional or NoOptionalWork()
+        super().__init__(task, site, robot, drives, answers, context=context, samples=samples, readings=readings)
+        self.charge_percent, self._optional = charge_percent, optional or SkipOptionalWork()
         self._nodes = 0
         #: What optional visits may still add to the chance of running short; None before the first of them.
-        self.allowance: Allowance | None = None
+        self.allowance: RiskAllowance | None = None
         self.plan.entered = self._entered
 
     def run(self, nodes: Sequence[Node]) -> Walk:
@@ -143,10 +143,10 @@ class Walker(Trail):
             exit=taken,
             decisions=tuple(self.decisions),
             unread=tuple(dict.fromkeys(self.unread)),
-            used=None if self.drawn is None else self.drawn.used,
+            used=None if self.samples is None else self.samples.used,
         )
 
-    def along(self, node: Node) -> tuple[Step, ...]:
+    def along(self, node: Node) -> tuple[WalkStep, ...]:
         """The steps of one node, with no exit after them, as far as its places can be told from here.
 
         Raises:
@@ -193,18 +193,18 @@ class Walker(Trail):
             case ask.Locate(node=node, selector=selector):
                 if selector is None:
                     return self.context.here
-                return routes.place_of(node, selector, self.site, self.context)
+                return visit_order.place_of(node, selector, self.site, self.context)
             case ask.Decide(node=node):
                 return self.decide(node, "holds")
             case ask.NextVisit(tour=tour):
                 return tour.next()
             case ask.BeginVisits(node=for_each):
-                return self._tour(for_each)
+                return self._begin_visits(for_each)
             case ask.OfferStep(node=optional):
                 return self._optional.takes(self, optional)
             case ask.ArrangeSteps(node=any_order):
-                home = routes.home_if_last(self.task, self.site, any_order.id, self.context.here)
-                return routes.steps_in_order(any_order, self.site, self.drives, self.context, home)
+                home = visit_order.home_if_last(self.task, self.site, any_order.id, self.context.here)
+                return visit_order.steps_in_order(any_order, self.site, self.drives, self.context, home)
             case ask.ForgetReading(reading=reading):
                 if self.readings is not None:
                     self.readings.lose(reading)
@@ -215,16 +215,18 @@ class Walker(Trail):
                 pass
         return None
 
-    def _tour(self, node: ForEach) -> Tour:
+    def _begin_visits(self, node: ForEach) -> PlannedVisits:
         """The visits of a for-each, in the order in which they are made."""
-        places = routes.places_of(node, node.select, self.site, self.context)
+        places = visit_order.places_of(node, node.select, self.site, self.context)
         if not node.optional:
-            home = routes.home_if_last(self.task, self.site, node.id, self.context.here)
-            places = routes.visits_in_order(node, self.drives, self.context.here, places, home)
-            self.note(Step(node=node, kind="visit-list", context=self.context, places=places))
-            return Tour(places, work_of(node.body, self.robot))
-        open_, closed = routes.reachable(self.drives, places)
-        return Tour(self._optional.visits(self, node, routes.standing(self.drives, self.context.here, open_), closed))
+            home = visit_order.home_if_last(self.task, self.site, node.id, self.context.here)
+            places = visit_order.visits_in_order(node, self.drives, self.context.here, places, home)
+            self.note(WalkStep(node=node, kind="visit-list", context=self.context, places=places))
+            return PlannedVisits(places, work_of(node.body, self.robot))
+        open_, closed = visit_order.reachable(self.drives, places)
+        return PlannedVisits(
+            self._optional.visits(self, node, visit_order.with_stands(self.drives, self.context.here, open_), closed)
+        )
 
     def _capture(self, node: Act) -> Mapping[str, float]:
         """Note the captures of an action; inside a ``Try`` it may fail.
@@ -235,9 +237,9 @@ class Walker(Trail):
         action = self.robot.action[node.action]
         fails = self.plan.is_caught and self.decide(node, "fails")
         # One that fails is taken to do so at its last capture, each time that it is tried again.
-        again = tried_again(node, self.robot) if fails else Work()
+        again = retry_work(node, self.robot) if fails else Work()
         self.note(
-            Step(
+            WalkStep(
                 node=node,
                 kind="act",
                 context=self.context,

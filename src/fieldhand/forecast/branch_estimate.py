@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.brief import brief_repr
-from fieldhand.forecast.drawn import Used
-from fieldhand.forecast.limits import Resource, ResourceKind, speed_of
-from fieldhand.forecast.steps import Decision, Walk
+from fieldhand.forecast.resource_limits import ResourceKind, ResourceLimit, speed_of
+from fieldhand.forecast.sampled_costs import SampledUse
+from fieldhand.forecast.walk_steps import Decision, Walk
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place
 from fieldhand.task.frames import Constraints, Fault
@@ -110,9 +110,9 @@ def decisions_record(decisions: Iterable[Decision]) -> list[dict[str, object]]:
     ]
 
 
-def figures_of(
+def estimate_branch(
     walked: Walk,
-    resources: Sequence[Resource],
+    resources: Sequence[ResourceLimit],
     constraints: Constraints,
     robot: RobotProfile,
     charge_percent: float,
@@ -142,14 +142,14 @@ def figures_of(
             for r in resources
         ),
         captures=sum(s.captures for s in walked.steps),
-        visits=sum(s.outlook.visits for s in lists if s.outlook is not None),
+        visits=sum(s.visit_forecast.visits for s in lists if s.visit_forecast is not None),
         shed=tuple(p for s in lists for p in s.shed),
         walk=walked,
         fault=fault,
     )
 
 
-def amounts(used: Used, constraints: Constraints, robot: RobotProfile) -> tuple[Floats, Floats, Floats]:
+def amounts(used: SampledUse, constraints: Constraints, robot: RobotProfile) -> tuple[Floats, Floats, Floats]:
     """Metres, seconds and percent of a full battery that each of some missions takes."""
     metres, seconds = used.metres, used.metres / speed_of(constraints, robot) + used.seconds
     driving, idling = robot.percent(1.0, 0.0), robot.percent(0.0, 1.0)

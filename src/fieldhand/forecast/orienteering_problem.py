@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.forecast.legs import Legs
-from fieldhand.forecast.limits import Resource, limits_of
-from fieldhand.forecast.rest import Rest
-from fieldhand.forecast.state import Spent, Work
+from fieldhand.forecast.mission_state import Spent, Work
+from fieldhand.forecast.remaining_work import RemainingWork
+from fieldhand.forecast.resource_limits import ResourceLimit, orienteering_limits
+from fieldhand.forecast.visit_distances import VisitDistances
 from fieldhand.orienteering.problem import Problem, unchecked_problem
 from fieldhand.robot.model import RobotProfile
 
@@ -31,11 +31,11 @@ _LEAST, _MOST = 1e-6, 1.0 - 1e-6
 
 def visits_problem(
     *,
-    legs: Legs,
+    legs: VisitDistances,
     rewards: Sequence[float],
     service: Sequence[Work],
-    rest: Rest,
-    resources: Sequence[Resource],
+    rest: RemainingWork,
+    resources: Sequence[ResourceLimit],
     robot: RobotProfile,
     spent: Spent,
     accepted: float,
@@ -66,14 +66,16 @@ def visits_problem(
         rewards=np.array([0.0, *rewards, 0.0]),
         start=0,
         end=len(rewards) + 1,
-        limits=limits_of(resources, robot, spent, [Work(), *service, Work()], rest.work, chance),
+        limits=orienteering_limits(resources, robot, spent, [Work(), *service, Work()], rest.work, chance),
         alpha=robot.leg_cost.alpha,
         legs_after=rest.legs_m,
         max_visits=max_visits,
     )
 
 
-def left_before(resources: Sequence[Resource], robot: RobotProfile, spent: Spent, rest: Rest) -> tuple[float, ...]:
+def left_before(
+    resources: Sequence[ResourceLimit], robot: RobotProfile, spent: Spent, rest: RemainingWork
+) -> tuple[float, ...]:
     """Metres left of each resource for optional visits, once the work of what follows is set aside."""
     return tuple(r.metres_left(spent) - r.metres_of(rest.work, robot) for r in resources)
 

@@ -13,7 +13,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from fieldhand.forecast.conditions import Facts, evaluate
+from fieldhand.forecast.conditions import ConditionInputs, evaluate
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task import conditions as c
@@ -40,7 +40,7 @@ class _Outcome:
         return tuple(answer for answer in (True, False) if answer in self.values)
 
 
-class Outlooks:
+class ConditionOutcomes:
     """What does not change from branch to branch; kept for all walks of a mission.
 
     Args:
@@ -88,7 +88,7 @@ class Outlooks:
             readings: dict[str, dict[str, float]] = {}
             for (reading, quantity), value in zip(tested, combination, strict=True):
                 readings.setdefault(reading, {})[quantity] = value
-            facts = Facts(site=self._site, robot=self._robot, here=here, readings=readings)
+            facts = ConditionInputs(site=self._site, robot=self._robot, here=here, readings=readings)
             with_answer.setdefault(evaluate(condition, facts).holds, []).append(combination)
         return _Outcome(
             values={
@@ -98,15 +98,15 @@ class Outlooks:
         )
 
 
-class Readings:
+class BranchReadings:
     """What was read on one branch.
 
     Args:
-        outlooks: Shared by the branches.
+        outcomes: Shared by the branches.
     """
 
-    def __init__(self, outlooks: Outlooks) -> None:
-        self._outlooks = outlooks
+    def __init__(self, outcomes: ConditionOutcomes) -> None:
+        self._outcomes = outcomes
         self._bound: dict[str, tuple[int, str]] = {}
         self._left: dict[_Taken, _Values] = {}
         self._takings = 0
@@ -115,7 +115,7 @@ class Readings:
         """An action has bound a reading anew."""
         self._takings += 1
         self._bound[reading] = (self._takings, action)
-        for quantity, values in self._outlooks.measured(action).items():
+        for quantity, values in self._outcomes.measured(action).items():
             self._left[self._takings, quantity] = values
 
     def lose(self, reading: str) -> None:
@@ -129,13 +129,13 @@ class Readings:
     def answers(self, node_id: str, condition: Condition, here: Place) -> tuple[bool, ...]:
         """The answers that a condition can have now, at least one."""
         tested, values = self._tested(condition)
-        found = self._outlooks.outcome(node_id, condition, here, tested, values)
+        found = self._outcomes.outcome(node_id, condition, here, tested, values)
         return (True, False) if found is None else found.answers
 
     def settle(self, node_id: str, condition: Condition, here: Place, answer: bool) -> None:
         """The condition had that answer: what was read is as that says."""
         tested, values = self._tested(condition)
-        found = self._outlooks.outcome(node_id, condition, here, tested, values)
+        found = self._outcomes.outcome(node_id, condition, here, tested, values)
         if found is None:
             return
         for (reading, quantity), left in zip(tested, found.values[answer], strict=bool(tested)):

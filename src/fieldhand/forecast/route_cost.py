@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.forecast.limits import Resource
-from fieldhand.forecast.state import Spent, Work
+from fieldhand.forecast.mission_state import Spent, Work
+from fieldhand.forecast.resource_limits import ResourceLimit
 from fieldhand.orienteering.costs import CostModel, Deterministic, ShiftedExponential
 from fieldhand.orienteering.overrun import overrun_probability
 from fieldhand.robot.model import RobotProfile
@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Way:
+class RouteCost:
     """Legs, and the work along them.
 
     Attributes:
@@ -29,16 +29,16 @@ class Way:
     sums: tuple[float, float, float] = (0.0, 0.0, 0.0)
     work: Work = field(default_factory=Work)
 
-    def __add__(self, other: Way) -> Way:
+    def __add__(self, other: RouteCost) -> RouteCost:
         a, b = self.sums, other.sums
-        return Way(sums=(a[0] + b[0], a[1] + b[1], a[2] + b[2]), work=self.work + other.work)
+        return RouteCost(sums=(a[0] + b[0], a[1] + b[1], a[2] + b[2]), work=self.work + other.work)
 
 
-def way_of(legs_m: Iterable[float], work: Work | None = None) -> Way:
+def route_cost(legs_m: Iterable[float], work: Work | None = None) -> RouteCost:
     """The way over some legs."""
     legs = np.asarray(tuple(legs_m), dtype=np.float64)
     sums = (float(legs.sum()), float((legs**2).sum()), float((legs**3).sum()))
-    return Way(sums=sums, work=work or Work())
+    return RouteCost(sums=sums, work=work or Work())
 
 
 def cost_model(robot: RobotProfile) -> CostModel:
@@ -47,13 +47,13 @@ def cost_model(robot: RobotProfile) -> CostModel:
     return Deterministic() if alpha >= 1.0 else ShiftedExponential(alpha)
 
 
-def taken(way: Way, resources: Sequence[Resource], robot: RobotProfile) -> Floats:
+def mean_metres(way: RouteCost, resources: Sequence[ResourceLimit], robot: RobotProfile) -> Floats:
     """What a way takes of each resource on average, in metres of driving."""
     return np.array([way.sums[0] + r.metres_of(way.work, robot) for r in resources])
 
 
-def chances_short(
-    way: Way, resources: Sequence[Resource], robot: RobotProfile, spent: Spent, used: Floats | None = None
+def overrun_chances(
+    way: RouteCost, resources: Sequence[ResourceLimit], robot: RobotProfile, spent: Spent, used: Floats | None = None
 ) -> Floats:
     """For each resource the chance that a way takes more of it than is left, shape (resources,).
 

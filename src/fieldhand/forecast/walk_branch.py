@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldhand.forecast import routes
-from fieldhand.forecast.optional_work import LikelyWork
-from fieldhand.forecast.steps import Answer, Walk, never
-from fieldhand.forecast.trail import Answers
-from fieldhand.forecast.walker import OptionalWork, Walker
+from fieldhand.forecast import visit_order
+from fieldhand.forecast.optional_work import LikelyOptionalWork
+from fieldhand.forecast.request_handler import ForecastHandler, OptionalWorkPolicy
+from fieldhand.forecast.walk_state import Answers
+from fieldhand.forecast.walk_steps import Answer, Walk, never
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
 
 
-def walk(
+def walk_branch(
     task: Task,
     site: Site,
     robot: RobotProfile,
@@ -26,7 +26,7 @@ def walk(
     fails: Answer = never,
     drives: Drives | None = None,
     charge_percent: float = 100.0,
-    optional: OptionalWork | None = None,
+    optional: OptionalWorkPolicy | None = None,
 ) -> Walk:
     """Walk a Task from the start of the site to its exit, whatever the answers: also a branch that cannot be.
 
@@ -44,8 +44,14 @@ def walk(
         DriveFault: A place that cannot be reached.
         TaskError: It comes to more than ``MAX_NODES`` nodes.
     """
-    ways = drives or routes.drives_for(site, robot)
-    walker = Walker(
-        task, site, robot, ways, Answers(holds=holds, fails=fails), charge_percent, optional=optional or LikelyWork({})
+    ways = drives or visit_order.drives_for(site, robot)
+    walker = ForecastHandler(
+        task,
+        site,
+        robot,
+        ways,
+        Answers(holds=holds, fails=fails),
+        charge_percent,
+        optional=optional or LikelyOptionalWork({}),
     )
     return walker.run((task.composition.plan,))

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 from fieldhand.brief import brief_repr
-from fieldhand.forecast.drawn import Used
+from fieldhand.forecast.sampled_costs import SampledUse
 from fieldhand.places.context import Context
 from fieldhand.site.model import Place
 from fieldhand.task.plan import Node
@@ -48,7 +48,7 @@ class Decision:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Outlook:
+class VisitForecast:
     """What will probably come of optional visits.
 
     Attributes:
@@ -61,7 +61,7 @@ class Outlook:
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class Step:
+class WalkStep:
     """One thing that happens.
 
     Attributes:
@@ -71,7 +71,7 @@ class Step:
         context: Where the robot is and has been before it.
         places: Of a drive or an exit, where to; of an act, where; of a visit list, the places in their order.
         shed: Of a visit list, places for which the budget will hardly last.
-        outlook: Of a visit list of optional visits.
+        visit_forecast: Of a visit list of optional visits.
         drive: The way, of a drive, and of an exit that goes anywhere.
         captures: Of an act.
         seconds, joules: What it takes as legs cost on average; idle power is not counted in the joules.
@@ -84,7 +84,7 @@ class Step:
     context: Context
     places: tuple[Place, ...] = ()
     shed: tuple[Place, ...] = ()
-    outlook: Outlook | None = None
+    visit_forecast: VisitForecast | None = None
     drive: Drive | None = None
     captures: int = 0
     seconds: float = 0.0
@@ -107,12 +107,12 @@ class Walk:
         used: What missions use that go this way, each with its own optional visits; None where none were drawn.
     """
 
-    steps: tuple[Step, ...]
+    steps: tuple[WalkStep, ...]
     end: Place
     exit: Literal["nominal", "faulted"]
     decisions: tuple[Decision, ...] = ()
     unread: tuple[tuple[str, str], ...] = ()
-    used: Used | None = field(default=None, compare=False)
+    used: SampledUse | None = field(default=None, compare=False)
 
     __repr__ = brief_repr
 

@@ -10,8 +10,8 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.forecast.rest import Rest
-from fieldhand.forecast.state import Visit
+from fieldhand.forecast.mission_state import Visit
+from fieldhand.forecast.remaining_work import RemainingWork
 from fieldhand.orienteering.table import Table
 from fieldhand.site.model import Place
 
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 #: The most places with distances in double precision (100 MB with copies); those of more are single (1.6 GB at most).
-TABLE = 2000
+MAX_DOUBLE = 2000
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Legs:
+class VisitDistances:
     """Metres between vertices, in one of the forms that a problem takes; the others are empty."""
 
     distances: Floats = field(default_factory=lambda: np.zeros((0, 0)))
@@ -33,14 +33,14 @@ class Legs:
     table: Table | None = None
 
 
-def legs_between(
+def visit_distances(
     here: Place,
     visits: Sequence[Visit],
-    rest: Rest,
+    rest: RemainingWork,
     drives: Drives,
     between: Callable[[Sequence[Place]], Floats] | None = None,
-    table: int = TABLE,
-) -> Legs:
+    table: int = MAX_DOUBLE,
+) -> VisitDistances:
     """Between here, optional visits, and where the rest begins.
 
     Args:
@@ -56,9 +56,9 @@ def legs_between(
     """
     places = [here, *(v.place for v in visits), *([] if rest.first is None else [rest.first])]
     stands = tuple(p.xy if p.stand is None else p.stand for p in places)
-    kept = _KEPT.get(drives)
+    kept = _CACHE.get(drives)
     if kept is None or kept.stands != stands:
-        kept = _KEPT[drives] = _Kept(stands=stands)
+        kept = _CACHE[drives] = _CachedDistances(stands=stands)
     if len(places) > table and rest.first is not None and all(v.leaves is None for v in visits):
         if kept.legs is None:
             kept.legs = _along_roads(places, drives)
@@ -74,26 +74,26 @@ def legs_between(
         padded = np.zeros((len(found) + 1, len(found) + 1))
         padded[:-1, :-1] = found
         found = padded
-    return Legs(distances=found)
+    return VisitDistances(distances=found)
 
 
 @dataclass(kw_only=True)
-class _Kept:
+class _CachedDistances:
     """The distances that were last asked for over some drives: forecast and guard ask for the same."""
 
     stands: tuple[tuple[float, float], ...]
-    legs: Legs | None = None
+    legs: VisitDistances | None = None
     table: Floats | None = None
 
 
-_KEPT: WeakKeyDictionary[Drives, _Kept] = WeakKeyDictionary()
+_CACHE: WeakKeyDictionary[Drives, _CachedDistances] = WeakKeyDictionary()
 
 
-def _along_roads(places: Sequence[Place], drives: Drives) -> Legs:
+def _along_roads(places: Sequence[Place], drives: Drives) -> VisitDistances:
     from fieldhand.orienteering.network import Network
 
     roads = drives.roads(places)
     if roads.straight:
-        return Legs(coordinates=np.ascontiguousarray(roads.at[: len(places)]))
+        return VisitDistances(coordinates=np.ascontiguousarray(roads.at[: len(places)]))
     network = Network(nodes=len(roads.at), edges=roads.ways, lengths=roads.lengths)
-    return Legs(table=network.table(range(len(places))))
+    return VisitDistances(table=network.table(range(len(places))))

@@ -10,11 +10,11 @@ import numpy as np
 
 from fieldhand.brief import brief_repr
 from fieldhand.errors import DriveFault
-from fieldhand.forecast.drawn import Drawn, Luck
-from fieldhand.forecast.limits import speed_of
-from fieldhand.forecast.service import tried_again
-from fieldhand.forecast.state import Work
-from fieldhand.forecast.steps import Decision, Step, Walk
+from fieldhand.forecast.mission_state import Work
+from fieldhand.forecast.resource_limits import speed_of
+from fieldhand.forecast.sampled_costs import LegCostSamples, MissionSamples
+from fieldhand.forecast.service import retry_work
+from fieldhand.forecast.walk_steps import Decision, Walk, WalkStep
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.build import exit_of
@@ -30,7 +30,7 @@ _FAULTS: tuple[Fault, ...] = ("action_failed", "drive_failed", "low_budget", "ab
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class Exits:
+class FaultExits:
     """What was found.
 
     Attributes:
@@ -41,7 +41,7 @@ class Exits:
         looked_at, places: From how many of how many places.
     """
 
-    steps: tuple[Step, ...]
+    steps: tuple[WalkStep, ...]
     broken: tuple[tuple[Place, Place, DriveFault], ...]
     worst: tuple[tuple[Fault, Walk], ...]
     looked_at: int
@@ -50,21 +50,21 @@ class Exits:
     __repr__ = brief_repr
 
 
-def exits(
+def fault_exits(
     task: Task,
     site: Site,
     robot: RobotProfile,
     drives: Drives,
     walks: Sequence[Walk],
     told: Sequence[Walk],
-    luck: Luck,
-) -> Exits:
+    leg_costs: LegCostSamples,
+) -> FaultExits:
     """Drive home from the places of some walks, after each fault that a Task brings the robot home from."""
     then = {fault: exit_of(task, fault) for fault in _FAULTS}
     homes = {f: site.home(t, site.start) for f, t in then.items() if t != "stay"}
     stops = _stops((*walks, *told))
     distinct = {s.places[0].stand or s.places[0].xy: s for s in stops.values()}
-    found: dict[tuple[object, object], Step] = {}
+    found: dict[tuple[object, object], WalkStep] = {}
     broken: dict[tuple[object, object], tuple[Place, Place, DriveFault]] = {}
     looked: set[object] = set()
     for home in {h.xy: h for h in homes.values()}.values():
@@ -81,8 +81,8 @@ def exits(
             else:
                 found[stand, home.xy] = replace(step, kind="exit", places=(drive.end,), drive=drive)
     faults = [f for f in homes if f != "low_budget"]
-    worst = [(f, _longest(f, homes[f], walks, stops, found, task, robot, luck)) for f in faults]
-    return Exits(
+    worst = [(f, _longest(f, homes[f], walks, stops, found, task, robot, leg_costs)) for f in faults]
+    return FaultExits(
         steps=tuple(found.values()),
         broken=tuple(broken.values()),
         worst=tuple((f, walked) for f, walked in worst if walked is not None),
@@ -91,7 +91,7 @@ def exits(
     )
 
 
-def _stops(walks: Sequence[Walk]) -> dict[tuple[int, int], Step]:
+def _stops(walks: Sequence[Walk]) -> dict[tuple[int, int], WalkStep]:
     """Each step at which a robot stands somewhere, by the number of its walk and its own."""
     return {
         (w, k): step
@@ -101,7 +101,7 @@ def _stops(walks: Sequence[Walk]) -> dict[tuple[int, int], Step]:
     }
 
 
-def _some(distinct: dict[tuple[float, float], Step], home: Place) -> list[tuple[tuple[float, float], Step]]:
+def _some(distinct: dict[tuple[float, float], WalkStep], home: Place) -> list[tuple[tuple[float, float], WalkStep]]:
     """All of some places, or as many as are driven from."""
     each = list(distinct.items())
     if len(each) <= MAX_PLACES:
@@ -116,11 +116,11 @@ def _longest(
     fault: Fault,
     home: Place,
     walks: Sequence[Walk],
-    stops: dict[tuple[int, int], Step],
-    found: dict[tuple[object, object], Step],
+    stops: dict[tuple[int, int], WalkStep],
+    found: dict[tuple[object, object], WalkStep],
     task: Task,
     robot: RobotProfile,
-    luck: Luck,
+    leg_costs: LegCostSamples,
 ) -> Walk | None:
     """The branch that takes longest until a fault and the way home from there."""
     speed = speed_of(task.constraints, robot)
@@ -140,21 +140,23 @@ def _longest(
     if longest is None:
         return None
     w, k, way = longest
-    return _ended(fault, walks[w], k, way, robot, luck)
+    return _ended(fault, walks[w], k, way, robot, leg_costs)
 
 
-def _ended(fault: Fault, walked: Walk, last: int, way: Step, robot: RobotProfile, luck: Luck) -> Walk:
+def _ended(
+    fault: Fault, walked: Walk, last: int, way: WalkStep, robot: RobotProfile, leg_costs: LegCostSamples
+) -> Walk:
     """A walk that a fault ends at one of its steps."""
-    steps, drawn = list(walked.steps[: last + 1]), Drawn(luck)
+    steps, samples = list(walked.steps[: last + 1]), MissionSamples(leg_costs)
     for step in steps:
         if step.drive is not None:
-            drawn.drive(step.drive.length_m)
+            samples.drive(step.drive.length_m)
         elif step.kind == "act":
-            drawn.work(Work(seconds=step.seconds, joules=step.joules))
+            samples.work(Work(seconds=step.seconds, joules=step.joules))
     if fault == "action_failed":
         failed = steps[-1]
         again = _again(failed, robot)
-        drawn.work(again)
+        samples.work(again)
         steps[-1] = replace(
             failed,
             captures=max(0, failed.captures - 1),
@@ -162,7 +164,7 @@ def _ended(fault: Fault, walked: Walk, last: int, way: Step, robot: RobotProfile
             joules=failed.joules + again.joules,
         )
     if way.drive is not None:
-        drawn.drive(way.drive.length_m)
+        samples.drive(way.drive.length_m)
     decided = sum(s.kind == "decide" for s in steps)
     decisions: list[Decision] = []
     for decision in walked.decisions:
@@ -175,10 +177,10 @@ def _ended(fault: Fault, walked: Walk, last: int, way: Step, robot: RobotProfile
         end=way.places[0],
         exit="faulted",
         decisions=tuple(decisions),
-        used=drawn.used,
+        used=samples.used,
     )
 
 
-def _again(step: Step, robot: RobotProfile) -> Work:
+def _again(step: WalkStep, robot: RobotProfile) -> Work:
     """What it takes to try the last capture of an action again, as often as the robot does."""
-    return Work() if step.node.act is None else tried_again(step.node.act, robot)
+    return Work() if step.node.act is None else retry_work(step.node.act, robot)

@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.forecast.state import Spent, Work
+from fieldhand.forecast.mission_state import Spent, Work
 from fieldhand.orienteering.problem import Limit
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.frames import Budget, BudgetKind, Constraints
@@ -26,7 +26,7 @@ _LEAST_PER_METRE = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
-class Resource:
+class ResourceLimit:
     """Something of which a mission may use ``limit``.
 
     Attributes:
@@ -81,7 +81,9 @@ def reserve_percent(constraints: Constraints, robot: RobotProfile) -> float:
     return robot.energy.reserve_percent if constraints.reserve_percent is None else constraints.reserve_percent
 
 
-def resources_of(constraints: Constraints, robot: RobotProfile, charge_percent: float = 100.0) -> tuple[Resource, ...]:
+def resource_limits(
+    constraints: Constraints, robot: RobotProfile, charge_percent: float = 100.0
+) -> tuple[ResourceLimit, ...]:
     """Every limit of a mission: its budgets in their order, then the battery's reserve, which is always one.
 
     Args:
@@ -97,7 +99,7 @@ def resources_of(constraints: Constraints, robot: RobotProfile, charge_percent: 
     }
     accepted = min((b.failure_probability for b in constraints.budgets), default=Budget.failure_probability)
     budgets = tuple(
-        Resource(
+        ResourceLimit(
             kind=b.kind,
             limit=b.limit,
             failure_probability=b.failure_probability,
@@ -105,7 +107,7 @@ def resources_of(constraints: Constraints, robot: RobotProfile, charge_percent: 
         )
         for b in constraints.budgets
     )
-    reserve = Resource(
+    reserve = ResourceLimit(
         kind="reserve",
         limit=charge_percent - reserve_percent(constraints, robot),
         failure_probability=accepted,
@@ -114,8 +116,8 @@ def resources_of(constraints: Constraints, robot: RobotProfile, charge_percent: 
     return (*budgets, reserve)
 
 
-def limits_of(
-    resources: Sequence[Resource],
+def orienteering_limits(
+    resources: Sequence[ResourceLimit],
     robot: RobotProfile,
     spent: Spent,
     service: Sequence[Work],

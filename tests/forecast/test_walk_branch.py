@@ -6,7 +6,7 @@ import pytest
 
 from fieldhand.errors import PlaceError, TaskError
 from fieldhand.forecast.branches import branches
-from fieldhand.forecast.walk import walk
+from fieldhand.forecast.walk_branch import walk_branch
 from fieldhand.places.selectors import Bound, Here, Marker, Nearest, Other, TreeIs, Trees, Where
 from fieldhand.task.conditions import Level
 from fieldhand.task.frames import Budget, Constraints
@@ -27,7 +27,7 @@ def tree(name):
 
 
 def walked(plan, *, holds=lambda _: True, fails=lambda _: False, **more):
-    return walk(task_for(SITE, plan, **more), SITE, ROBOT, holds=holds, fails=fails)
+    return walk_branch(task_for(SITE, plan, **more), SITE, ROBOT, holds=holds, fails=fails)
 
 
 def places(walk_, kind="act"):
@@ -139,7 +139,7 @@ def test_a_walk_goes_around_a_keep_out():
     pond = block("keep_out", "pond", (0.5, 0.5), (1.5, 3.5))
     site = orchard(zones=[pond])
     task = task_for(site, InOrder(id="", steps=(picture(tree("2")), picture(tree("12")))))
-    dry, wet = (walk(task, s, ROBOT, holds=lambda _: True) for s in (SITE, site))
+    dry, wet = (walk_branch(task, s, ROBOT, holds=lambda _: True) for s in (SITE, site))
     assert sum(wet.legs_m) > sum(dry.legs_m)
 
 

@@ -6,12 +6,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldhand.forecast import routes
-from fieldhand.forecast.drawn import Drawn
-from fieldhand.forecast.limits import speed_of
-from fieldhand.forecast.possible import Readings
-from fieldhand.forecast.state import Spent, Work
-from fieldhand.forecast.steps import Answer, Decision, DecisionKind, Step, StepKind, never
+from fieldhand.forecast import visit_order
+from fieldhand.forecast.mission_state import Spent, Work
+from fieldhand.forecast.possible_answers import BranchReadings
+from fieldhand.forecast.resource_limits import speed_of
+from fieldhand.forecast.sampled_costs import MissionSamples
+from fieldhand.forecast.walk_steps import Answer, Decision, DecisionKind, StepKind, WalkStep, never
 from fieldhand.places.context import Context, Visited
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
@@ -56,14 +56,14 @@ class Answers:
         return by_kind[kind]
 
 
-class Trail:
+class WalkState:
     """Where a walk is and has been.
 
     Args:
         task, site, robot, drives: The mission.
         answers: To what it cannot know.
         context: Where it begins; at the start of the site by default.
-        drawn: Missions that use what the walk takes, each with its own luck; None for none.
+        samples: Missions that use what the walk takes, each with its own luck; None for none.
         readings: What was read on the way; None where a walk begins somewhere on a mission and cannot know.
     """
 
@@ -76,19 +76,19 @@ class Trail:
         answers: Answers,
         *,
         context: Context | None = None,
-        drawn: Drawn | None = None,
-        readings: Readings | None = None,
+        samples: MissionSamples | None = None,
+        readings: BranchReadings | None = None,
     ) -> None:
         self.task, self.site, self.robot, self.drives = task, site, robot, drives
         self._answers, self.readings = answers, readings
         #: Where the walk began.
-        self.beginning = context or Context(here=routes.beginning(drives))
+        self.beginning = context or Context(here=visit_order.start_place(drives))
         self.context = self.beginning
         self._visited = Visited(self.beginning.visited)
         #: Where the robot itself is: the place in hand, or where a drive was blocked.
         self._standing = self.context.here
         self._speed = speed_of(task.constraints, robot)
-        self.steps: list[Step] = []
+        self.steps: list[WalkStep] = []
         self.decisions: list[Decision] = []
         #: Tests of readings that nothing had taken: node and reading.
         self.unread: list[tuple[str, str]] = []
@@ -96,7 +96,7 @@ class Trail:
         self.bound_for = ""
         #: The nodes in hand.
         self.plan = Run(task.composition.plan)
-        self.drawn = drawn
+        self.samples = samples
         self.spent = Spent()
         #: Every place that was gone to, in order; also those where the walk stood already.
         self.stops: list[Place] = []
@@ -122,7 +122,7 @@ class Trail:
         if not goes or (home.xy == self.context.here.xy and not self._stuck):
             if goes:
                 self.stops.append(self.context.here)
-            self.note(Step(node=node, kind="exit", context=self.context, places=(home,)))
+            self.note(WalkStep(node=node, kind="exit", context=self.context, places=(home,)))
             return
         leg = self._leg(node, "exit", home)
         self.note(leg)
@@ -137,10 +137,10 @@ class Trail:
     def _stand(self, context: Context) -> None:
         self.context, self._standing = context, context.here
 
-    def _leg(self, node: Node, kind: StepKind, place: Place) -> Step:
+    def _leg(self, node: Node, kind: StepKind, place: Place) -> WalkStep:
         self.bound_for = node.id
         drive = self.drives.between(self._standing, place)
-        return Step(
+        return WalkStep(
             node=node,
             kind=kind,
             context=self.context,
@@ -164,7 +164,7 @@ class Trail:
         place = self.context.here.id
         self.decisions.append(Decision(node=node.id, kind=kind, answer=answer, sure=sure, place=place))
         if kind == "holds":
-            self.note(Step(node=node, kind="decide", context=self.context, answer=answer))
+            self.note(WalkStep(node=node, kind="decide", context=self.context, answer=answer))
         return answer
 
     def _bind(self, label: str, *places: Place) -> None:
@@ -172,15 +172,15 @@ class Trail:
             bound = {**self.context.bound, label: places}
             self.context = Context(here=self.context.here, visited=self.context.visited, bound=bound)
 
-    def note(self, step: Step) -> None:
+    def note(self, step: WalkStep) -> None:
         """Add a step, and what it uses."""
         self.steps.append(step)
         metres = 0.0 if step.drive is None else step.drive.length_m
-        if self.drawn is not None and self.plan.optional is None:
+        if self.samples is not None and self.plan.optional is None:
             if step.drive is not None:
-                self.drawn.drive(metres)
+                self.samples.drive(metres)
             elif step.kind == "act":
-                self.drawn.work(Work(seconds=step.seconds, joules=step.joules))
+                self.samples.work(Work(seconds=step.seconds, joules=step.joules))
         self.spent += Spent(
             metres=metres, seconds=step.seconds, percent=self.robot.percent(0.0, step.seconds, step.joules)
         )

@@ -8,14 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.errors import PlaceError
-from fieldhand.forecast.routes import (
+from fieldhand.forecast.visit_order import (
     drives_for,
     ends_plan,
     home_if_last,
     order_visits,
-    standing,
     steps_in_order,
     visits_in_order,
+    with_stands,
 )
 from fieldhand.places.context import Context
 from fieldhand.places.selectors import Extreme, TreeIs, Trees, Where
@@ -41,7 +41,7 @@ def length(places):
 @settings(max_examples=30, deadline=None)
 def test_an_order_has_every_place_once_and_is_no_longer_than_the_one_given(chosen, home):
     to = SITE.markers["end"] if home else None
-    chosen = standing(DRIVES, SITE.start, chosen)
+    chosen = with_stands(DRIVES, SITE.start, chosen)
     order = order_visits(DRIVES, SITE.start, chosen, to)
     assert sorted(order) == list(range(len(chosen)))
     tail = [] if to is None else [to]
@@ -59,7 +59,7 @@ def test_at_most_keeps_the_nearest_of_a_free_order_and_the_first_of_a_given_one(
     free = ForEach(id="", select=Trees(), body=act(), at_most=2)
     given_ = ForEach(id="", select=Trees(), body=act(), at_most=2, order="given")
     backwards = TREES[::-1]
-    stands = standing(DRIVES, SITE.start, backwards)
+    stands = with_stands(DRIVES, SITE.start, backwards)
     first = int(DRIVES.lengths([SITE.start, *stands])[0, 1:].argmin())
     among = np.where(np.arange(20) == first, np.inf, DRIVES.lengths(stands)[first])
     nearest = [stands[first].id, stands[int(among.argmin())].id]
@@ -119,7 +119,7 @@ def test_a_drive_between_two_places_is_the_length_that_the_order_counted():
     yellow = Where(attribute="leaf_color", test="eq", value="yellow")
     from fieldhand.places.resolution import resolve
 
-    places = standing(DRIVES, SITE.start, resolve(yellow, SITE, Context(here=SITE.start)))
+    places = with_stands(DRIVES, SITE.start, resolve(yellow, SITE, Context(here=SITE.start)))
     matrix = DRIVES.lengths(places)
     for i, a in enumerate(places):
         for j, b in enumerate(places):

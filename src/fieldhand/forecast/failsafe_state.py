@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from fieldhand.forecast.limits import ResourceKind
-from fieldhand.forecast.state import Spent, Work
+from fieldhand.forecast.mission_state import Spent, Work
+from fieldhand.forecast.resource_limits import ResourceKind
 
 #: ``turn_home``: going on would more likely than not exceed a limit, and turning round is safer. ``out_of_reach``: the
 #: battery does not last for the way home above its stop level.
@@ -14,7 +14,7 @@ Alarm = Literal["none", "turn_home", "out_of_reach"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Underway:
+class FailsafeState:
     """A robot between two decisions.
 
     Attributes:
@@ -37,7 +37,7 @@ class Underway:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Foresight:
+class FailsafeForecast:
     """A foreseen outcome.
 
     Attributes:

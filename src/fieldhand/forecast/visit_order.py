@@ -41,12 +41,12 @@ def drives_for(site: Site, robot: RobotProfile) -> Drives:
     return known
 
 
-def beginning(drives: Drives) -> Place:
+def start_place(drives: Drives) -> Place:
     """Where a mission starts, with where the robot stands there."""
     return drives.stands((drives.site.start,))[0]
 
 
-def standing(drives: Drives, here: Place, places: Sequence[Place]) -> tuple[Place, ...]:
+def with_stands(drives: Drives, here: Place, places: Sequence[Place]) -> tuple[Place, ...]:
     """Places of a visit list, each with where the robot will stand; it stays where it is for the place in hand."""
     at = {p.xy: here for p in (here,) if here.stand is not None and p.kind != "point"}
     return drives.stands([at.get(p.xy, p) for p in places], here)
@@ -67,7 +67,7 @@ def order_visits(drives: Drives, here: Place, places: Sequence[Place], home: Pla
     Args:
         drives: The ways of the site.
         here: Where the robot is.
-        places: Where it has to go, in any order, each with its stand (:func:`standing`).
+        places: Where it has to go, in any order, each with its stand (:func:`with_stands`).
         home: Where it goes afterwards; None where that is not known or something else comes first.
 
     Returns:
@@ -102,10 +102,10 @@ def visits_in_order(
 
     ``at_most`` keeps the first of a given order; where the order is free, the nearest and from there the nearest again.
     """
-    kept = list(standing(drives, here, places))
+    kept = list(with_stands(drives, here, places))
     if node.at_most is not None and node.at_most < len(kept):
         if node.order == "best" and not node.optional:
-            chain = _chain(np.asarray(drives.lengths([here, *kept])), node.at_most)
+            chain = _nearest_neighbours(np.asarray(drives.lengths([here, *kept])), node.at_most)
             kept = [kept[i] for i in chain]
         elif not node.optional:
             kept = kept[: node.at_most]
@@ -221,7 +221,7 @@ def home_if_last(task: Task, site: Site, node_id: str, here: Place) -> Place | N
     return site.home(task.composition.nominal, here)
 
 
-def _chain(lengths: np.ndarray[tuple[int, ...], np.dtype[np.float64]], count: int) -> list[int]:
+def _nearest_neighbours(lengths: np.ndarray[tuple[int, ...], np.dtype[np.float64]], count: int) -> list[int]:
     """Positions (counted without the first row) of the nearest from the first row, then the nearest from there."""
     far = lengths.copy()
     far[:, 0] = np.inf
