@@ -230,6 +230,6 @@ def test_the_command_says_it_line_by_line() -> None:
     assert {b["what"] for b in record["bindings"]} == {"nobody sends it", "nobody answers it", "nobody hears it"}
     below = fieldhand("robot", "check", "husky", "--namespace", "robot7", "--json")
     assert "/robot7/navigate_to_pose" in {b["name"] for b in json.loads(below.out)["bindings"]}
-    refused = fieldhand("robot", "check", "husky", "--live", "--transport", "tcp")
+    refused = fieldhand("robot", "check", "husky", "--live", "--on", "tcp")
     assert (refused.status, refused.out) == (2, "")
     assert "no transport 'tcp'" in refused.err

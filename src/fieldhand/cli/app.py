@@ -19,6 +19,7 @@ from fieldhand.cli.order import order
 from fieldhand.cli.outbox import outbox
 from fieldhand.cli.plan import plan
 from fieldhand.cli.plugin_commands import CommandsWithPlugins
+from fieldhand.cli.plugins import plugins
 from fieldhand.cli.replay import replay
 from fieldhand.cli.report import report
 from fieldhand.cli.resume import resume
@@ -62,6 +63,7 @@ def assemble(*others: Callable[..., None]) -> typer.Typer:
         order,
         site,
         sim_robot,
+        plugins,
         demo,
         *others,
     )

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from fieldhand.cli.aboard import DomainOption, NamespaceOption, OnOption, SimTimeOption
+from fieldhand.cli.driver_options import DomainOption, DriverOption, NamespaceOption, OnOption, SimTimeOption
 from fieldhand.cli.options import LangOption, SeedOption
 from fieldhand.cli.outputs import to_folder
 
@@ -28,6 +28,7 @@ def demo(
     domain: DomainOption = None,
     namespace: NamespaceOption = None,
     sim_time: SimTimeOption = False,
+    driver_option: DriverOption = None,
 ) -> None:
     """Plan, approve, drive and judge a mission on the built-in orchard."""
     import os
@@ -36,8 +37,8 @@ def demo(
 
     from fieldhand.approval.production import require_unsigned_allowed
     from fieldhand.cli import show
-    from fieldhand.cli.aboard import boarded, connection_of
     from fieldhand.cli.asking import Replies, plan_or_read
+    from fieldhand.cli.driver_options import connected, connection_of
     from fieldhand.cli.flight import Orders, fly
     from fieldhand.cli.inputs import open_ground
     from fieldhand.execution.world import World
@@ -45,12 +46,14 @@ def demo(
 
     language = spoken(lang, os.environ)
     require_unsigned_allowed(os.environ)
-    connection = connection_of(on, domain, namespace, sim_time=sim_time, environ=os.environ)
+    connection = connection_of(
+        on, domain, namespace, sim_time=sim_time, environ=os.environ, options=driver_option or ()
+    )
     ground = open_ground("demo", "husky", language=language)
     task, document, planner = plan_or_read(REQUEST, ground, "english", None, Replies(language=language))
     # Nobody is there to read the warning that the budget is tight; it is shown, and the report says it was confirmed.
     orders = Orders(ask=False, confirm=True, by="demo", world=World(), seed=seed, folder=output, language=language)
-    with boarded(ground, task, connection, quiet=False, language=language) as vehicle:
+    with connected(ground, task, connection, quiet=False, language=language) as vehicle:
         status = fly(ground, task, document, replace(orders, vehicle=vehicle), planner=planner)
     show.heading(language.say(message("Try next")))
     if shutil.which("fieldhand") is None:

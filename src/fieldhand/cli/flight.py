@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 
 from fieldhand import mission, missions, past
 from fieldhand.cli import show
-from fieldhand.cli.aboard import see_off
 from fieldhand.cli.approving import approve_plan, review_plan
 from fieldhand.cli.bundles import signer_record
+from fieldhand.cli.driver_options import see_off
 from fieldhand.cli.inputs import Ground, GroundFiles, write_file
 from fieldhand.cli.outputs import left_in
 from fieldhand.cli.show import note

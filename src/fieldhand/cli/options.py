@@ -24,9 +24,9 @@ def _languages() -> list[str]:
 
 
 def _planners() -> list[str]:
-    from fieldhand.mission import PLANNERS
+    from fieldhand.plugins import active
 
-    return list(PLANNERS)
+    return list(active("fieldhand.planners"))
 
 
 SITE_HELP = (
@@ -60,7 +60,7 @@ PlannerOption = Annotated[
     typer.Option(
         "--planner",
         autocompletion=_planners,
-        help="english (no model), llm (a language model), or auto: english, else llm.",
+        help="english (no model), llm (a language model), auto (english, else llm), or a plugin's planner.",
     ),
 ]
 TranscriptOption = Annotated[

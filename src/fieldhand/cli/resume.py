@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 
-from fieldhand.cli.aboard import DomainOption, NamespaceOption, OnOption, SimTimeOption
+from fieldhand.cli.driver_options import DomainOption, DriverOption, NamespaceOption, OnOption, SimTimeOption
 from fieldhand.cli.options import (
     EventsOption,
     JsonOption,
@@ -27,6 +27,7 @@ def resume(
     domain: DomainOption = None,
     namespace: NamespaceOption = None,
     sim_time: SimTimeOption = False,
+    driver_option: DriverOption = None,
     mcap: McapOption = None,
     production: ProductionOption = False,
     lang: LangOption = None,
@@ -40,8 +41,8 @@ def resume(
     from fieldhand import missions, past
     from fieldhand.approval.production import require_unsigned_allowed
     from fieldhand.cli import show
-    from fieldhand.cli.aboard import boarded, connection_again, refuse_simulation_options
     from fieldhand.cli.bundles import tell_signer, verify
+    from fieldhand.cli.driver_options import connected, connection_again, refuse_simulation_options
     from fieldhand.cli.flight import Orders, conclude, go_on, leave_plan, parse_speed
     from fieldhand.cli.inputs import Ground
     from fieldhand.cli.tell import tell
@@ -55,7 +56,14 @@ def resume(
         return
     contents = missions.read_folder(folder)
     connection = connection_again(
-        folder.name, contents.departure, on, domain, namespace, sim_time=sim_time, environ=os.environ
+        folder.name,
+        contents.departure,
+        on,
+        domain,
+        namespace,
+        sim_time=sim_time,
+        environ=os.environ,
+        options=driver_option,
     )
     refuse_simulation_options(connection, world=None, speed=speed)
     if contents.signed is None:
@@ -84,7 +92,7 @@ def resume(
     approved = steps.ApprovedMission(
         authorized=given.authorized, site=given.site, robot=given.robot, estimate=review.estimate
     )
-    with boarded(ground, given.authorized.task, connection, quiet=json, language=language) as vehicle:
+    with connected(ground, given.authorized.task, connection, quiet=json, language=language) as vehicle:
         if vehicle is not None:
             missions.require_in_place(given.site, given.robot, vehicle.driver)
         leave_plan(ground, review, None, orders)

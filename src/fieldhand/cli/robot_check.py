@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fieldhand.cli.aboard import NamespaceOption, namespace_of
+from fieldhand.cli.driver_options import NamespaceOption, namespace_of
 from fieldhand.cli.options import JsonOption
 
 if TYPE_CHECKING:
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 def check(
     name: Annotated[str, typer.Argument(metavar="ROBOT", help="Built-in robot or a profile file (YAML).")],
     live: Annotated[bool, typer.Option("--live", help="Try every binding on the robot, without moving it.")] = False,
-    transport: Annotated[
-        str, typer.Option("--transport", metavar="dds|rclpy", help="dds needs no ROS here, rclpy one that is sourced.")
+    on: Annotated[
+        str, typer.Option("--on", metavar="dds|rclpy", help="dds needs no ROS here, rclpy one that is sourced.")
     ] = "dds",
     domain: Annotated[
         int | None, typer.Option("--domain", help="ROS domain of the robot; else ROS_DOMAIN_ID, else 0.")
@@ -44,7 +44,7 @@ def check(
         bindings = replace(bindings, namespace=namespace_of(namespace))
         profile = replace(profile, ros2=bindings)
     interfaces = Interfaces.of(bindings.distro, bindings.interfaces)
-    report = _tried(profile, interfaces, transport, domain, within) if live else check_types(profile, interfaces)
+    report = _tried(profile, interfaces, on, domain, within) if live else check_types(profile, interfaces)
     if json:
         show.print_json(_record(profile, report, live=live))
     else:

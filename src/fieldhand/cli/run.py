@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from fieldhand.cli.aboard import DomainOption, NamespaceOption, OnOption, SimTimeOption
+from fieldhand.cli.driver_options import DomainOption, DriverOption, NamespaceOption, OnOption, SimTimeOption
 from fieldhand.cli.options import (
     AnswerOption,
     AssumeOption,
@@ -49,6 +49,7 @@ def run(
     domain: DomainOption = None,
     namespace: NamespaceOption = None,
     sim_time: SimTimeOption = False,
+    driver_option: DriverOption = None,
     yes: Annotated[bool, typer.Option("--yes", "-y", help="Approve without asking.")] = False,
     confirm: ConfirmOption = False,
     by: ByOption = None,
@@ -71,9 +72,9 @@ def run(
     from fieldhand import mission, missions, past
     from fieldhand.approval.production import require_unsigned_allowed
     from fieldhand.cli import show
-    from fieldhand.cli.aboard import boarded, connection_of, refuse_simulation_options
     from fieldhand.cli.asking import Replies, plan_or_read, require_no_answer
     from fieldhand.cli.bundles import is_bundle, open_mission, require_site, tell_signer
+    from fieldhand.cli.driver_options import connected, connection_of, refuse_simulation_options
     from fieldhand.cli.flight import Kept, Orders, fly, parse_speed
     from fieldhand.cli.inputs import Ground, GroundFiles, read_ground
     from fieldhand.cli.outputs import require_folder
@@ -83,7 +84,9 @@ def run(
 
     language = spoken(lang, os.environ)
     pace = parse_speed(speed)
-    connection = connection_of(on, domain, namespace, sim_time=sim_time, environ=os.environ)
+    connection = connection_of(
+        on, domain, namespace, sim_time=sim_time, environ=os.environ, options=driver_option or ()
+    )
     refuse_simulation_options(connection, world=world, speed=speed)
     under = kept or missions.missions_folder(os.environ)
     require_folder(under, f"--missions {under}")
@@ -127,6 +130,6 @@ def run(
         kept=Kept(under=under, files=files),
         bundle=bundle,
     )
-    with boarded(ground, task, connection, quiet=json, language=language) as vehicle:
+    with connected(ground, task, connection, quiet=json, language=language) as vehicle:
         given_to = replace(orders, vehicle=vehicle)
         raise SystemExit(fly(ground, task, document, given_to, planner=planned_by, authorized=authorized))

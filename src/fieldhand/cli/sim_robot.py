@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fieldhand.cli.aboard import NamespaceOption, namespace_of
+from fieldhand.cli.driver_options import NamespaceOption, namespace_of
 from fieldhand.cli.options import LenientOption, RobotOption, SiteOption
 from fieldhand.cli.outputs import refuse_standard_output, to_whole_file
 from fieldhand.execution.drivers.ros2.domain import MOST_DOMAIN
@@ -33,8 +33,7 @@ def sim_robot(
     speed: Annotated[
         float, typer.Option("--speed", help="Its seconds in one of ours; other than 1, the time is on /clock.")
     ] = 1.0,
-    transport: Annotated[str, typer.Option("--transport", help="What carries its messages: dds, or rclpy.")] = "dds",
-    dds: Annotated[bool, typer.Option("--dds", help="The same as --transport dds.")] = False,
+    on: Annotated[str, typer.Option("--on", metavar="dds|rclpy", help="What carries its messages.")] = "dds",
     domain: Annotated[
         int | None, typer.Option("--domain", min=0, max=MOST_DOMAIN, help="ROS domain; else ROS_DOMAIN_ID, else 0.")
     ] = None,
@@ -75,7 +74,7 @@ def sim_robot(
     refuse_standard_output(state, "--state")
     saved = None if state is None else read_state(state, made_for)
     interfaces = Interfaces.of(bindings.distro, bindings.interfaces)
-    node = open_transport("dds" if dds else transport, interfaces, domain)
+    node = open_transport(on, interfaces, domain)
     try:
         sim_time = bindings.use_sim_time or speed != 1.0
         simulated = SimulatedRobot(

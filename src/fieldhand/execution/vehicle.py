@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from fieldhand.clock import Clock, SimulatedWallClock, WallClock
 from fieldhand.errors import OutputError
@@ -20,9 +20,6 @@ if TYPE_CHECKING:
 #: Start of a mission whose world changes the wall clock without defining when the mission begins.
 SOME_MORNING = datetime(2026, 1, 1, 6, 0, tzinfo=UTC)
 
-#: Transports to a robot over ROS 2.
-TransportName = Literal["dds", "rclpy"]
-
 #: Receives the events of a mission.
 Writer = Callable[[Event], None]
 
@@ -33,20 +30,25 @@ def _no_limit(write: Writer) -> Writer:
 
 @dataclass(frozen=True, kw_only=True)
 class Connection:
-    """Connection to a robot over ROS 2; overrides its profile.
+    """Connection to a robot; overrides its profile.
 
     Attributes:
+        transport: Name of the driver (:mod:`fieldhand.execution.drivers.registry`).
         domain: ROS domain id.
         namespace: Namespace in place of the profile's: empty, or ``/`` and a name; None for the profile's.
         sim_time: True for a simulation that publishes ``/clock``, even if its profile does not say so.
+        options: Options of a plugin's driver, by name.
     """
 
-    transport: TransportName
+    transport: str
     domain: int = 0
     namespace: str | None = None
     sim_time: bool = False
+    options: Mapping[str, str] = field(default_factory=dict)
 
     def __str__(self) -> str:
+        if self.options:
+            return f"{self.transport}, {', '.join(f'{name}={value}' for name, value in self.options.items())}"
         at = f" as {self.namespace or '/'}" if self.namespace is not None else ""
         return f"{self.transport}, domain {self.domain}{at}"
 

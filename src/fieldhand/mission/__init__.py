@@ -6,14 +6,13 @@ request ──plan──▶ Task ──review──▶ Review ──authorize─
 from fieldhand.mission.approve import ApprovedMission, authorize
 from fieldhand.mission.documents import decode_task, open_bundle, read_task
 from fieldhand.mission.execute import carry_out, check_world, simulate
-from fieldhand.mission.plan_request import PLANNERS, Plan, make_planner, plan, transcript_path
+from fieldhand.mission.plan_request import Plan, make_planner, plan, transcript_path
 from fieldhand.mission.review_task import Review, review
 from fieldhand.mission.run import Assessment, Run, assess, report
 from fieldhand.mission.simulations import Simulation, Simulations, fly_many
 from fieldhand.mission.task_builder import build_task
 
 __all__ = [
-    "PLANNERS",
     "ApprovedMission",
     "Assessment",
     "Plan",

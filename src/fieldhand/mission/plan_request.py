@@ -12,15 +12,14 @@ from fieldhand.brief import brief_repr
 from fieldhand.errors import InputError, RequestError
 from fieldhand.files import state_folder
 from fieldhand.language import message
-from fieldhand.planning.planner import Answer, Clarify, Planned, Planner, Refused
+from fieldhand.planning.planner import Answer, Clarify, Planned, Planner, PlannerSettings, Refused
+from fieldhand.plugins import active
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.visible import find_hidden
 
 if TYPE_CHECKING:
     from fieldhand.planning.llm.chat import Chat
-
-PLANNERS = ("auto", "english", "llm")
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -56,7 +55,7 @@ def make_planner(
     """Return the planner of a name; a language model is configured from the environment.
 
     Args:
-        name: ``auto``, ``english`` or ``llm``.
+        name: ``auto``, ``english``, ``llm``, or the name of a plugin's planner.
         environ: Environment variables that configure the language model.
         transcript: File to which prompts and answers of the model are appended; else :func:`transcript_path`.
         watched: Wraps the connection to the model, for example to count its answers.
@@ -64,28 +63,21 @@ def make_planner(
     Raises:
         InputError: There is no planner of that name.
         ModelError: ``llm`` was asked for and no model is configured, or one is configured wrongly.
+        PluginError: The plugin that provides it cannot be imported.
     """
-    if name not in PLANNERS:
+    plugins = active("fieldhand.planners")
+    if name not in plugins:
         raise InputError(
             message("no planner '{name}'", name=name),
             where="--planner",
-            advice=message("choose one of {planners}", planners=", ".join(PLANNERS)),
+            advice=message("choose one of {planners}", planners=", ".join(plugins)),
         )
-    from fieldhand.planning.auto import AutoPlanner
-    from fieldhand.planning.english.planner import EnglishPlanner
-
-    if name == "english":
-        return EnglishPlanner()
-    from fieldhand.planning.llm.settings import require_settings, settings_from_environment
-
-    settings = require_settings(environ) if name == "llm" else settings_from_environment(environ)
-    if settings is None:
-        return AutoPlanner(EnglishPlanner(), None)
-    from fieldhand.planning.llm.planner import LlmPlanner
-    from fieldhand.planning.llm.transport import ModelChat
-
-    model = LlmPlanner(settings, transcript or transcript_path(environ), chat=watched(ModelChat(settings)))
-    return model if name == "llm" else AutoPlanner(EnglishPlanner(), model)
+    factory = plugins[name].load()
+    if not callable(factory):
+        raise plugins[name].error("is not callable")
+    settings = PlannerSettings(environ=environ, transcript=transcript or transcript_path(environ), watched=watched)
+    made: Planner = factory(settings)
+    return made
 
 
 def transcript_path(environ: Mapping[str, str]) -> Path:

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from fieldhand.errors import ModelError
 from fieldhand.language import joined, message
-from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Planner, Refused
+from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Planner, PlannerSettings, Refused
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
@@ -93,3 +93,27 @@ def _summary(refused: Refused) -> str:
     reasons = [reason.what for reason in refused.reasons]
     shown = joined("; ", reasons[:3])
     return message("{items}; and {count} more", items=shown, count=len(reasons) - 3) if len(reasons) > 3 else shown
+
+
+def make_auto_planner(settings: PlannerSettings) -> Planner:
+    """Return the default planner; its language model is the one that the environment configures, if any.
+
+    Raises:
+        ModelError: A model is configured wrongly.
+    """
+    from fieldhand.planning.english.planner import EnglishPlanner
+    from fieldhand.planning.llm.settings import settings_from_environment
+
+    model = settings_from_environment(settings.environ)
+    if model is None:
+        return AutoPlanner(EnglishPlanner(), None)
+    from fieldhand.planning.llm.factory import planner_with
+
+    return AutoPlanner(EnglishPlanner(), planner_with(model, settings))
+
+
+def make_english_planner(settings: PlannerSettings) -> Planner:  # noqa: ARG001  it needs none
+    """Return the planner that needs no model."""
+    from fieldhand.planning.english.planner import EnglishPlanner
+
+    return EnglishPlanner()

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import NoReturn, Protocol
+from pathlib import Path
+from typing import Any, NoReturn, Protocol
 
 from fieldhand.errors import RequestError
 from fieldhand.language import joined, message
@@ -109,6 +111,21 @@ class Refused:
 Outcome = Planned | Clarify | Refused
 
 
+@dataclass(frozen=True, kw_only=True)
+class PlannerSettings:
+    """Settings with which a planner is made.
+
+    Attributes:
+        environ: Environment variables; secrets come from nowhere else.
+        transcript: File to which prompts and answers of a language model are appended.
+        watched: Wraps the connection to a language model, for example to count its answers.
+    """
+
+    environ: Mapping[str, str]
+    transcript: Path
+    watched: Callable[[Any], Any] = lambda chat: chat
+
+
 class Planner(Protocol):
     """Turns words into a Task, or says why not. Names places; never computes coordinates."""
 
@@ -126,3 +143,7 @@ class Planner(Protocol):
             ModelError: A language model was needed and could not be used.
         """
         ...
+
+
+#: Makes a planner. Distributions register one under a name by an entry point of the group ``fieldhand.planners``.
+PlannerFactory = Callable[[PlannerSettings], Planner]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fieldhand.cli.aboard import DomainOption, NamespaceOption, OnOption, SimTimeOption
+from fieldhand.cli.driver_options import DomainOption, DriverOption, NamespaceOption, OnOption, SimTimeOption
 from fieldhand.errors import InputError
 from fieldhand.visible import print_error
 
@@ -51,18 +51,21 @@ def agent(
     domain: DomainOption = None,
     namespace: NamespaceOption = None,
     sim_time: SimTimeOption = False,
+    driver_option: DriverOption = None,
     lenient: Annotated[bool, typer.Option("--lenient", help="Read --site leniently.")] = False,
 ) -> None:
     """Wait for signed missions, and carry out, one at a time, what is told to start: in simulation, or on a robot."""
     from fieldhand.api.serving import require_extra, require_free
-    from fieldhand.cli.aboard import connection_of, refuse_simulation_options
+    from fieldhand.cli.driver_options import connection_of, refuse_simulation_options
     from fieldhand.cli.flight import parse_speed
     from fieldhand.delivery.token import read_token
     from fieldhand.program.station import compose_station
 
     require_extra()
     pace = parse_speed(speed or "1")
-    connection = connection_of(on, domain, namespace, sim_time=sim_time, environ=os.environ)
+    connection = connection_of(
+        on, domain, namespace, sim_time=sim_time, environ=os.environ, options=driver_option or ()
+    )
     refuse_simulation_options(connection, world=world, speed=speed)
     token = read_token(os.environ, token_file)
     tls = _tls(cert, key)

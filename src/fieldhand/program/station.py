@@ -145,32 +145,27 @@ def compose_station(
             seed=seed,
         )
         return Station(robot=profile, sites=places, depot=depot, crew=crew)
-    from fieldhand.execution.drivers.ros2.robot_connection import (
-        RobotPresence,
-        connected_robot,
-        effective_bindings,
-        open_node,
-    )
+    from fieldhand.execution.drivers.registry import driver_kind
     from fieldhand.program.aboard import Aboard
 
+    let_go, missing = ExitStack(), None
     with ExitStack() as stack:
         stack.callback(depot.close)
-        bindings = effective_bindings(profile, connection)
-        presence, aboard = (
-            RobotPresence(open_node(connection, bindings)[0], bindings),
-            Aboard(connection, connected_robot),
-        )
+        kind = driver_kind(connection.transport)
+        if kind.watch is not None:
+            presence = kind.watch(profile, connection)
+            let_go.callback(presence.close)
+            missing = presence.missing
+        aboard = Aboard(connection, kind.connect)
+        let_go.callback(aboard.close)
         stack.pop_all()
-    let_go = ExitStack()
-    let_go.callback(presence.close)
-    let_go.callback(aboard.close)
     return Station(
         robot=profile,
         sites=places,
         depot=depot,
         crew=Crew(depot, carry=aboard.carry, check=aboard.check, conclude=conclude, seed=seed),
         on=str(connection),
-        missing=presence.missing,
+        missing=missing or tuple,
         let_go=let_go,
     )
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, get_args
+from typing import TYPE_CHECKING
 
 from fieldhand.errors import InputError
-from fieldhand.execution.vehicle import TransportName
 
 if TYPE_CHECKING:
     from fieldhand.execution.drivers.ros2.interfaces import Interfaces
@@ -16,7 +15,7 @@ def open_transport(name: str, interfaces: Interfaces, domain: int | None = None)
     """Open a node in a ROS 2 graph.
 
     Args:
-        name: One of :data:`~fieldhand.execution.vehicle.TransportName`.
+        name: ``dds`` or ``rclpy``.
         interfaces: Types for DDS; rclpy uses the sourced ones.
         domain: ROS domain id; None for ``ROS_DOMAIN_ID`` of the environment, else 0.
 
@@ -34,6 +33,6 @@ def open_transport(name: str, interfaces: Interfaces, domain: int | None = None)
         return open_dds(interfaces, domain)
     raise InputError(
         f"there is no transport '{name[:80]}'",
-        where="--transport",
-        advice=f"give {' or '.join(get_args(TransportName))}",
+        where="--on",
+        advice="give dds or rclpy",
     )

@@ -1,12 +1,12 @@
-"""On what a mission is carried out: the options that say it, and the robot that is reached by them."""
+"""The options that choose a driver, and the connection to the robot that they name."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, get_args
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -23,14 +23,21 @@ if TYPE_CHECKING:
     from fieldhand.task.frames import Task
 
 SIMULATION = "simulation"
+#: Seconds within which the whole robot must respond.
+READY_WITHIN_S = 20.0
 
 OnOption = Annotated[
     str | None,
     typer.Option(
         "--on",
-        metavar="simulation|dds|rclpy",
-        help="On what: the simulation (default), or the robot over ROS 2: dds needs no ROS here, rclpy does.",
+        metavar="simulation|dds|rclpy|...",
+        help="On what: the simulation (default); the robot over ROS 2 (dds needs no ROS here, rclpy does); or the"
+        " driver of a plugin (fieldhand plugins).",
     ),
+]
+DriverOption = Annotated[
+    list[str] | None,
+    typer.Option("--driver-option", metavar="NAME=VALUE", help="Option of a plugin's driver; may be repeated."),
 ]
 DomainOption = Annotated[
     int | None,
@@ -45,39 +52,81 @@ SimTimeOption = Annotated[
 
 
 def connection_of(
-    on: str | None, domain: int | None, namespace: str | None, *, sim_time: bool, environ: Mapping[str, str]
+    on: str | None,
+    domain: int | None,
+    namespace: str | None,
+    *,
+    sim_time: bool,
+    environ: Mapping[str, str],
+    options: Sequence[str] | None = None,
 ) -> Connection | None:
-    """How the robot is reached by these options; None for the simulation.
+    """Return the connection to the robot that the options name; None for the simulation.
+
+    Args:
+        on: Name of the driver; None for the simulation.
+        domain, namespace, sim_time: Options of drivers for ROS 2.
+        environ: Environment variables, of which ``ROS_DOMAIN_ID`` is used.
+        options: Options of other drivers, as ``name=value``.
 
     Raises:
-        InputError: One of them cannot be used, or contradicts another.
+        InputError: An option cannot be used, or contradicts another.
+        PluginError: The driver cannot be imported.
     """
+    from fieldhand.execution.drivers.registry import driver_kind
     from fieldhand.execution.drivers.ros2.domain import domain_of
-    from fieldhand.execution.vehicle import Connection, TransportName
+    from fieldhand.execution.vehicle import Connection
 
-    if on is None or on == SIMULATION:
-        for given, option in ((domain is not None, "--domain"), (namespace is not None, "--namespace"),
-                              (sim_time, "--sim-time")):  # fmt: skip
+    simulated = on is None or on == SIMULATION
+    kind = None if on is None or simulated else driver_kind(on)
+    if kind is None or not kind.ros2:
+        for given, option in (
+            (domain is not None, "--domain"),
+            (namespace is not None, "--namespace"),
+            (sim_time, "--sim-time"),
+        ):
             if given:
                 raise InputError(
-                    message("the simulation has no {option}", option=option[2:]),
+                    message("the simulation has no {option}", option=option[2:])
+                    if simulated
+                    else message("the driver {name} has no {option}", name=str(on), option=option[2:]),
                     where=option,
                     advice=message("give --on dds with it"),
                 )
-        return None
-    transport = next((name for name in get_args(TransportName) if name == on), None)
-    if transport is None:
+    if options and (kind is None or kind.ros2):
         raise InputError(
-            message("a mission cannot be carried out on '{on}'", on=on),
-            where="--on",
-            advice=message("choose one of {what}", what=", ".join((SIMULATION, *get_args(TransportName)))),
+            message("{on} has no such options", on=on or SIMULATION),
+            where="--driver-option",
+            advice=message("leave it out; it is for drivers of plugins"),
         )
+    if on is None or kind is None:
+        return None
     return Connection(
-        transport=transport,
-        domain=domain_of(domain, environ),
+        transport=on,
+        domain=domain_of(domain, environ) if kind.ros2 else 0,
         namespace=None if namespace is None else namespace_of(namespace),
         sim_time=sim_time,
+        options=_named_values(options or ()),
     )
+
+
+def _named_values(options: Sequence[str]) -> dict[str, str]:
+    """Return options given as ``name=value``.
+
+    Raises:
+        InputError: One has no name, or no equals sign, or is given twice.
+    """
+    found: dict[str, str] = {}
+    for option in options:
+        name, equals, value = option.partition("=")
+        if not name or not equals or name in found:
+            what = message("'{option}' is given twice", option=name) if name in found else None
+            raise InputError(
+                what or message("'{option}' has not the form name=value", option=option[:80]),
+                where="--driver-option",
+                advice=message("give each option once, as name=value"),
+            )
+        found[name] = value
+    return found
 
 
 def connection_again(
@@ -89,13 +138,14 @@ def connection_again(
     *,
     sim_time: bool,
     environ: Mapping[str, str],
+    options: Sequence[str] | None = None,
 ) -> Connection | None:
-    """How the robot of a mission that goes on is reached: as it was, but for what these options say.
+    """Return the connection for resuming a mission: the one it was begun with, with these options in place of its own.
 
     Args:
-        name: The mission's.
-        begun: On which robot it was begun.
-        on, domain, namespace, sim_time, environ: As for :func:`connection_of`.
+        name: Name of the mission.
+        begun: Robot on which it was begun; None for the simulation.
+        on, domain, namespace, sim_time, environ, options: As for :func:`connection_of`.
 
     Raises:
         InputError: An option cannot be used.
@@ -105,7 +155,7 @@ def connection_again(
 
     if on is None and begun is not None:
         on = begun.by.transport
-    given = connection_of(on, domain, namespace, sim_time=sim_time, environ=environ)
+    given = connection_of(on, domain, namespace, sim_time=sim_time, environ=environ, options=options)
     missions.require_vehicle(name, begun, simulated=given is None)
     if begun is None or given is None:
         return None
@@ -115,6 +165,7 @@ def connection_again(
         domain=begun.by.domain if domain is None else given.domain,
         namespace=begun.by.namespace if namespace is None else given.namespace,
         sim_time=begun.by.sim_time or sim_time,
+        options={**begun.by.options, **given.options},
     )
 
 
@@ -141,26 +192,30 @@ def refuse_simulation_options(connection: Connection | None, *, world: Path | No
 
 
 @contextmanager
-def boarded(
+def connected(
     ground: Ground, task: Task, connection: Connection | None, *, quiet: bool, language: Language = ENGLISH
 ) -> Iterator[Vehicle | None]:
-    """The robot as long as it is needed for a Task; None for the simulation.
+    """Connect to the robot for the duration of the context; None for the simulation.
 
     Raises:
         ProfileError: The profile does not say how the robot is reached.
-        InputError: What reaches it is not installed.
-        Ros2Error: It does not answer, or not as the profile says.
+        InputError: A required package is not installed.
+        ExecutionError: The robot does not respond, or not as the profile says.
     """
     if connection is None:
         yield None
         return
     from fieldhand.cli.show import note
-    from fieldhand.execution.drivers.ros2.robot_connection import connected_robot
+    from fieldhand.execution.drivers.registry import driver_kind
 
+    kind = driver_kind(connection.transport)
     if not quiet:
-        looking = message("looking for {robot} over ROS 2 ({way})", robot=ground.robot.name, way=str(connection))
-        note(looking, language)
-    with connected_robot(ground.site, ground.robot, task, connection) as vehicle:
+        fills = {"robot": ground.robot.name, "way": str(connection)}
+        if kind.ros2:
+            note(message("looking for {robot} over ROS 2 ({way})", **fills), language)
+        else:
+            note(message("looking for {robot} ({way})", **fills), language)
+    with kind.connect(ground.site, ground.robot, task, connection, READY_WITHIN_S) as vehicle:
         yield vehicle
 
 

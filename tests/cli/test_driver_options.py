@@ -8,8 +8,8 @@ import pytest
 from typer.testing import CliRunner
 
 from fieldhand import missions
-from fieldhand.cli.aboard import connection_again, connection_of
 from fieldhand.cli.app import assemble
+from fieldhand.cli.driver_options import connection_again, connection_of
 from fieldhand.errors import ExecutionError, FieldhandError, InputError
 from fieldhand.execution.vehicle import Connection
 from support.missions.kept import inputs

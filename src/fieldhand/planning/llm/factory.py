@@ -1,0 +1,29 @@
+"""Make the planner that asks a language model."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldhand.planning.planner import Planner, PlannerSettings
+
+if TYPE_CHECKING:
+    from fieldhand.planning.llm.settings import LlmSettings
+
+
+def make_llm_planner(settings: PlannerSettings) -> Planner:
+    """Return the planner that asks the language model which the environment configures.
+
+    Raises:
+        ModelError: No model is configured, or one is configured wrongly.
+    """
+    from fieldhand.planning.llm.settings import require_settings
+
+    return planner_with(require_settings(settings.environ), settings)
+
+
+def planner_with(model: LlmSettings, settings: PlannerSettings) -> Planner:
+    """Return the planner that asks a model."""
+    from fieldhand.planning.llm.planner import LlmPlanner
+    from fieldhand.planning.llm.transport import ModelChat
+
+    return LlmPlanner(model, settings.transcript, chat=settings.watched(ModelChat(model)))
