@@ -23,7 +23,7 @@ from fieldhand.language.words import say_action, say_captures, say_name  # noqa:
 from fieldhand.places.filters.attribute_words import say_attribute, say_with_article  # noqa: E402
 from fieldhand.planning.english.languages import known_languages  # noqa: E402
 from fieldhand.planning.english.vocabulary import vocabulary  # noqa: E402
-from fieldhand.robot.loader import builtin_names, load_robot  # noqa: E402
+from fieldhand.robot.loader import load_robot, robot_names  # noqa: E402
 
 #: Words of the built-in orchard, of site files everywhere, and of Tasks: they come from data, not from the source.
 ATTRIBUTES = (
@@ -76,7 +76,7 @@ _ORDINALS = ("tree", "row", "one")
 
 
 def _of_data() -> Iterator[Entry]:
-    robots = [load_robot(name) for name in builtin_names()]
+    robots = [load_robot(name) for name in robot_names()]
     for robot in robots:
         for action in robot.actions:
             yield _entry(say_action(action.name, 2))

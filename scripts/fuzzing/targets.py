@@ -27,7 +27,7 @@ from fieldhand.exchange.mcap.writing import McapLog
 from fieldhand.execution.log import read_events
 from fieldhand.execution.world_file import load_world
 from fieldhand.robot.capabilities import capabilities_of
-from fieldhand.robot.loader import builtin_names, parse_profile, profile_bytes
+from fieldhand.robot.loader import parse_profile, profile_bytes, robot_names
 from fieldhand.site.formats.document import site_document
 from fieldhand.site.formats.files import SiteFiles
 from fieldhand.site.formats.geojson import geojson_records
@@ -236,7 +236,7 @@ TARGETS: dict[str, Target] = {
     "tree": Target(seeds=_trees, mutate=mutate_xml, read=_tree),
     "world": Target(seeds=lambda _: [WORLD], mutate=mutate_yaml, read=_world),
     "profile": Target(
-        seeds=lambda _: [profile_bytes(name)[0] for name in builtin_names()], mutate=mutate_yaml, read=_profile
+        seeds=lambda _: [profile_bytes(name)[0] for name in robot_names()], mutate=mutate_yaml, read=_profile
     ),
     "site": Target(
         seeds=lambda _: [g.orchard(), demo_path().read_bytes()], mutate=mutate_json, read=_site("site.geojson")

@@ -12,9 +12,11 @@ names it.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Collection
 from dataclasses import dataclass, replace
-from typing import Final, Literal, get_args
+from functools import lru_cache
+from typing import Any, Final, Literal, get_args
 
 from fieldhand.errors import PluginError
 
@@ -107,8 +109,6 @@ def found(group: Group, *, built_in: Collection[str] = ()) -> tuple[Plugin, ...]
         group: Kind of extension.
         built_in: Names that this package provides without an entry point; no plugin overrides them.
     """
-    from importlib.metadata import entry_points  # slow to import, and most commands need no plugin
-
     registered = [
         Plugin(
             group=group,
@@ -117,7 +117,7 @@ def found(group: Group, *, built_in: Collection[str] = ()) -> tuple[Plugin, ...]
             distribution=entry.dist.name if entry.dist else "",
             version=entry.dist.version if entry.dist else "",
         )
-        for entry in entry_points(group=group)
+        for entry in _entry_points(tuple(sys.path)).select(group=group)
     ]
     registered.sort(key=lambda p: (p.name, p.distribution != DISTRIBUTION, p.distribution, p.value))
     owners = dict.fromkeys(built_in, DISTRIBUTION)
@@ -130,6 +130,14 @@ def found(group: Group, *, built_in: Collection[str] = ()) -> tuple[Plugin, ...]
         else:
             plugins.append(replace(plugin, overridden_by=owner))
     return tuple(plugins)
+
+
+@lru_cache(maxsize=4)
+def _entry_points(path: tuple[str, ...]) -> Any:  # noqa: ARG001  another path has other distributions
+    """Return the entry points of all distributions, which are looked for once per path."""
+    from importlib.metadata import entry_points  # slow to import, and most commands need no plugin
+
+    return entry_points()
 
 
 def active(group: Group, *, built_in: Collection[str] = ()) -> dict[str, Plugin]:

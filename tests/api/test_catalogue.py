@@ -5,14 +5,14 @@ from __future__ import annotations
 from importlib import resources
 from pathlib import Path
 
-from fieldhand.robot.loader import builtin_names, load_robot
+from fieldhand.robot.loader import load_robot, robot_names
 from support.processes.browser import browser
 
 
 def test_every_built_in_robot_is_listed_and_can_be_asked_for() -> None:
     web = browser()
     listed = [robot["name"] for robot in web.get("/api/robots").json()]
-    assert tuple(listed) == builtin_names()
+    assert tuple(listed) == robot_names()
     for name in listed:
         record = web.get(f"/api/robots/{name}").json()
         assert [a["name"] for a in record["actions"]] == [a.name for a in load_robot(name).actions]
@@ -28,7 +28,7 @@ def test_the_built_in_site_is_listed() -> None:
 def test_an_unknown_robot_is_a_problem_that_names_those_there_are() -> None:
     answer = browser().get("/api/robots/husqvarna")
     assert answer.status_code == 400
-    assert all(name in answer.json()["advice"] for name in builtin_names())
+    assert all(name in answer.json()["advice"] for name in robot_names())
 
 
 def test_a_robot_is_never_read_from_a_file(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from fieldhand.errors import ProfileError
 from fieldhand.robot.bindings import ActionBinding, CallBinding, Datum, FieldBinding, NextMessage, Ros2Bindings
-from fieldhand.robot.loader import builtin_names, load_robot, parse_profile, profile_bytes
+from fieldhand.robot.loader import load_robot, parse_profile, profile_bytes, robot_names
 from fieldhand.robot.units import conversion, known_units
 from support.processes.command import fieldhand
 
@@ -260,7 +260,7 @@ def test_every_problem_is_told_at_once() -> None:
         assert part in str(error.value)
 
 
-@pytest.mark.parametrize("name", builtin_names())
+@pytest.mark.parametrize("name", robot_names())
 def test_the_builtin_robots_can_be_reached_for_everything_they_do(name: str) -> None:
     robot = load_robot(name)
     assert robot.ros2 is not None

@@ -13,7 +13,7 @@ import yaml
 
 from fieldhand.errors import ProfileError
 from fieldhand.robot.fields import Keyed
-from fieldhand.robot.loader import MAX_BYTES, builtin_names, load_robot, parse_profile, profile_bytes
+from fieldhand.robot.loader import MAX_BYTES, load_robot, parse_profile, profile_bytes, robot_names
 from fieldhand.robot.model import Level, Parameter
 from support.processes.command import fieldhand
 
@@ -216,8 +216,8 @@ def test_more_problems_than_one_are_all_told():
 @pytest.mark.parametrize(
     ("name", "expected"),
     [
-        ("huskey", "no robot or profile file 'huskey'; did you mean 'husky'? The built-in robots are amiga, husky"),
-        ("no/such.yaml", "no robot or profile file 'no/such.yaml'; The built-in robots are"),
+        ("huskey", "no robot or profile file 'huskey'; did you mean 'husky'? The installed robots are amiga, husky"),
+        ("no/such.yaml", "no robot or profile file 'no/such.yaml'; The installed robots are"),
         ("", "is not a file"),
         ("x" * 5000, "cannot be read"),
         ("a\0b", "no robot or profile file"),
@@ -240,7 +240,7 @@ def test_a_folder_and_a_large_file_are_refused(tmp_path):
 
 
 def test_the_builtin_robots_are_those_of_the_design():
-    assert builtin_names() == ("amiga", "husky")
+    assert robot_names() == ("amiga", "husky")
 
 
 def test_labels_are_read_by_language() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from fieldhand.robot.capabilities import capabilities_of, measures_of
-from fieldhand.robot.loader import builtin_names, load_robot
+from fieldhand.robot.loader import load_robot, robot_names
 from fieldhand.robot.model import Level
 from fieldhand.task.capabilities import ChoiceParameter, NumberParameter
 
@@ -34,7 +34,7 @@ def test_amiga_measures_what_the_design_says():
     }
 
 
-@pytest.mark.parametrize("name", builtin_names())
+@pytest.mark.parametrize("name", robot_names())
 def test_capabilities_say_the_same_as_the_profile(name):
     robot = load_robot(name)
     capabilities = capabilities_of(robot)
@@ -54,14 +54,14 @@ def test_capabilities_say_the_same_as_the_profile(name):
         assert capabilities.quantities[quantity.name].levels == tuple(quantity.levels)
 
 
-@pytest.mark.parametrize("name", builtin_names())
+@pytest.mark.parametrize("name", robot_names())
 def test_a_battery_lasts_hours_of_driving(name):
     robot = load_robot(name)
     hours = 100 / robot.percent(metres=3600 * robot.speed_m_s, seconds=3600)
     assert 2 < hours < 12
 
 
-@pytest.mark.parametrize("name", builtin_names())
+@pytest.mark.parametrize("name", robot_names())
 def test_low_is_below_high_and_an_ordinary_reading_can_be_neither(name):
     for quantity in load_robot(name).quantities:
         if not quantity.levels:
@@ -72,7 +72,7 @@ def test_low_is_below_high_and_an_ordinary_reading_can_be_neither(name):
         assert quantity.typical <= high
 
 
-@pytest.mark.parametrize("name", builtin_names())
+@pytest.mark.parametrize("name", robot_names())
 def test_no_two_actions_share_a_word(name):
     words = [word for action in load_robot(name).actions for word in action.words]
     assert len(words) == len(set(words))

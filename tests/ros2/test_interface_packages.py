@@ -11,7 +11,7 @@ import pytest
 from lxml import etree
 
 import fieldhand
-from fieldhand.robot.loader import builtin_names, load_robot
+from fieldhand.robot.loader import load_robot, robot_names
 
 FOLDER = Path(__file__).parents[2] / "ros2"
 
@@ -19,7 +19,7 @@ FOLDER = Path(__file__).parents[2] / "ros2"
 def defined() -> Mapping[str, Mapping[str, str]]:
     """The definitions of the built-in profiles: by package and file."""
     packages: dict[str, dict[str, str]] = defaultdict(dict)
-    for name in builtin_names():
+    for name in robot_names():
         bound = load_robot(name).ros2
         for type_name, text in {} if bound is None else bound.interfaces.items():
             package, kind, short = type_name.split("/")

@@ -14,7 +14,7 @@ from lxml import etree
 
 from fieldhand.errors import TaskError
 from fieldhand.robot.capabilities import capabilities_of
-from fieldhand.robot.loader import builtin_names, load_robot
+from fieldhand.robot.loader import load_robot, robot_names
 from fieldhand.task.capabilities import ActionCapability, Capabilities, NumberParameter
 from fieldhand.task.codec import decode, encode
 from fieldhand.task.codec_shapes import all_shapes
@@ -75,7 +75,7 @@ def test_the_good_document_is_valid():
 
 @pytest.mark.parametrize("draft", [False, True])
 def test_the_schema_is_itself_valid_and_the_same_every_time(draft):
-    for capabilities in (ROVER, *(capabilities_of(load_robot(name)) for name in builtin_names())):
+    for capabilities in (ROVER, *(capabilities_of(load_robot(name)) for name in robot_names())):
         xsd = schema_xsd(capabilities, draft=draft)
         etree.XMLSchema(etree.fromstring(xsd))
         assert xsd == schema_xsd(capabilities, draft=draft)

@@ -45,9 +45,9 @@ def _sites() -> list[dict[str, Any]]:
 
 
 def _robots() -> list[dict[str, Any]]:
-    from fieldhand.robot.loader import builtin_names
+    from fieldhand.robot.loader import robot_names
 
-    profiles = [open_robot(name) for name in builtin_names()]
+    profiles = [open_robot(name) for name in robot_names()]
     return [{"name": p.name, "description": p.description, "actions": [a.name for a in p.actions]} for p in profiles]
 
 

@@ -195,9 +195,9 @@ def open_robot(name: str) -> RobotProfile:
     Raises:
         ProfileError: There is none of that name.
     """
-    from fieldhand.robot.loader import builtin_names, load_robot
+    from fieldhand.robot.loader import load_robot, robot_names
 
-    names = builtin_names()
+    names = robot_names()
     if name not in names:
         raise ProfileError("no built-in robot has that name", where="robot", advice=f"choose one of {', '.join(names)}")
     return load_robot(name)

@@ -12,9 +12,9 @@ from fieldhand.cli.outputs import to_file, to_folder, to_named_file, to_picture
 
 def _robots() -> list[str]:
     """Return the names that a shell completes a robot with."""
-    from fieldhand.robot.loader import builtin_names
+    from fieldhand.robot.loader import robot_names
 
-    return list(builtin_names())
+    return list(robot_names())
 
 
 def _languages() -> list[str]:

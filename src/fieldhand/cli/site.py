@@ -33,7 +33,7 @@ def site(
 ) -> None:
     """Say what was understood of a site: blocks, rows, where a robot can drive, markers, zones, attributes."""
     from fieldhand.cli import show
-    from fieldhand.robot.loader import builtin_names, load_robot
+    from fieldhand.robot.loader import load_robot, robot_names
     from fieldhand.site.describe import describe_driving, report_lines, report_record
     from fieldhand.site.describe.figures import MOST_NOTES
     from fieldhand.site.drives import Drives
@@ -42,7 +42,7 @@ def site(
     opened = open_site(file, lenient=lenient)
     profile = load_robot(robot)
     drives = Drives(opened, profile.width_m / 2, profile.standoff_m)
-    others = {name: load_robot(name).width_m for name in builtin_names()}
+    others = {name: load_robot(name).width_m for name in robot_names()}
     driving = describe_driving(opened, drives, robot=profile.name, others=others)
     if geojson is not None:
         _write_geojson(opened, drives, geojson)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import difflib
 import hashlib
 from collections.abc import Sequence
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +14,7 @@ from pydantic_core import ErrorDetails
 from fieldhand.errors import ProfileError
 from fieldhand.files import FileFault, read_file
 from fieldhand.language import message, recalled
+from fieldhand.plugins import Plugin, active
 from fieldhand.robot.bindings_loader import Mismatch, bindings_of, mismatches
 from fieldhand.robot.document import (
     ActionDocument,
@@ -40,10 +40,9 @@ _MOST_PROBLEMS = 9
 GUIDE = "docs/add-a-robot.md shows a whole profile"
 
 
-def builtin_names() -> tuple[str, ...]:
-    """Names of the profiles that come with Fieldhand, in alphabetical order."""
-    folder = resources.files("fieldhand.robot") / "profiles"
-    return tuple(sorted(f.name.removesuffix(".yaml") for f in folder.iterdir() if f.name.endswith(".yaml")))
+def robot_names() -> tuple[str, ...]:
+    """Return the names of the installed robots, those of plugins among them, in alphabetical order."""
+    return tuple(active("fieldhand.robots"))
 
 
 def load_robot(name_or_path: str) -> RobotProfile:
@@ -85,9 +84,10 @@ def profile_bytes(name_or_path: str) -> tuple[bytes, str]:
     Raises:
         ProfileError: There is no such robot, or its file cannot be read.
     """
-    names = builtin_names()
-    if name_or_path in names:
-        return (resources.files("fieldhand.robot") / "profiles" / f"{name_or_path}.yaml").read_bytes(), name_or_path
+    plugins = active("fieldhand.robots")
+    names = tuple(plugins)
+    if name_or_path in plugins:
+        return _installed_profile(plugins[name_or_path]), name_or_path
     path = Path(name_or_path)
     try:
         return read_file(path, MAX_BYTES, plain=True), str(path)
@@ -107,11 +107,24 @@ def profile_bytes(name_or_path: str) -> tuple[bytes, str]:
     raise ProfileError(
         message("no robot or profile file '{name}'", name=_short(name_or_path)),
         advice=message(
-            "{hint} The built-in robots are {names}; for your own give the path of its YAML file",
+            "{hint} The installed robots are {names}; for your own give the path of its YAML file",
             hint=hint,
             names=", ".join(names),
         ),
     )
+
+
+def _installed_profile(plugin: Plugin) -> bytes:
+    """Return the YAML of an installed robot.
+
+    Raises:
+        PluginError: It cannot be imported, or is no file that can be read.
+    """
+    file = plugin.load()
+    try:
+        return bytes(file.read_bytes())  # type: ignore[attr-defined]
+    except (AttributeError, TypeError, OSError) as error:
+        raise plugin.error(f"is no profile file: {type(error).__name__}: {error}") from error
 
 
 def _short(text: str) -> str:

@@ -13,10 +13,10 @@ from fieldhand.orienteering.simulated_mission import simulate_mission
 from fieldhand_bench.orienteering.bound import with_perfect_information
 from fieldhand_bench.orienteering.certain import compare
 from fieldhand_bench.orienteering.milp import solve_milp
-from fieldhand_bench.orienteering.solvers import NAMES, Options, prepare
+from fieldhand_bench.orienteering.solvers import Options, prepare, solver_names
 from support.graphs import problem
 
-SOLVERS = [name for name in NAMES if name != "perfect"]
+SOLVERS = solver_names()
 QUICK = Options(milp_s=5.0, missions=12, simulations=300)
 
 

@@ -14,7 +14,7 @@ from fieldhand.errors import InputError, OutputError, ProfileError, TaskError
 from fieldhand.evaluation.calibration import history
 from fieldhand.evaluation.calibration.fit import calibrate
 from fieldhand.evaluation.calibration.steps import Driven, Step, steps_of
-from fieldhand.robot.loader import builtin_names, load_robot, parse_profile, profile_bytes
+from fieldhand.robot.loader import load_robot, parse_profile, profile_bytes, robot_names
 from fieldhand.robot.rewrite import figure, with_figures
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.results import Arrived, Driving, Faulted
@@ -171,7 +171,7 @@ def test_the_new_profile_differs_in_figures_alone_and_is_another_profile():
     assert all(a.partition("#")[2] == b.partition("#")[2] for a, b in changed), "comments stay"
 
 
-@pytest.mark.parametrize("name", builtin_names())
+@pytest.mark.parametrize("name", robot_names())
 def test_each_figure_of_a_profile_can_be_rewritten(name):
     robot, data = load_robot(name), profile_bytes(name)[0]
     keys = [("leg_cost", "alpha"), ("speed_m_s",), ("energy", "idle_w"), ("energy", "drive_j_per_m")]

@@ -17,7 +17,7 @@ from fieldhand.planning.llm.prompt import LONGEST_LINE, MOST_DATA, fenced, instr
 from fieldhand.planning.llm.review import read_draft, review
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.capabilities import capabilities_of
-from fieldhand.robot.loader import builtin_names, load_robot
+from fieldhand.robot.loader import load_robot, robot_names
 from fieldhand.site.model import Site
 from fieldhand.task.codec import TaskDraft
 from fieldhand.testing.scripted_chat import ScriptedChat, planner_of
@@ -39,7 +39,7 @@ def prompt(rows: int, columns: int, robot: str = "amiga") -> str:
     return "\n".join(m.text for m in opening(REQUEST, grid(rows, columns), load_robot(robot)))
 
 
-@pytest.mark.parametrize("robot", builtin_names())
+@pytest.mark.parametrize("robot", robot_names())
 def test_the_prompt_fits_into_six_thousand_tokens(robot: str) -> None:
     assert tokens(prompt(4, 5, robot)) <= 6000
 
@@ -197,7 +197,7 @@ def vineyard(rows: int = 40, vines: int = 12, varieties: tuple[str, ...] = VARIE
     )
 
 
-@pytest.mark.parametrize("robot", builtin_names())
+@pytest.mark.parametrize("robot", robot_names())
 @pytest.mark.parametrize(("rows", "vines"), [(4, 5), (29, 77)])
 def test_everything_that_can_be_named_is_in_the_prompt(robot: str, rows: int, vines: int) -> None:
     text = "\n".join(m.text for m in opening(REQUEST, vineyard(rows, vines), load_robot(robot)))

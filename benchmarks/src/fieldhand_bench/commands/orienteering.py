@@ -26,7 +26,11 @@ def bench_orienteering(
     ] = None,
     trials: Annotated[int, typer.Option("--trials", min=1, help="Missions for each graph and solver.")] = 1000,
     solvers: Annotated[
-        str, typer.Option("--solvers", help="Of online, fixed, greedy, mcts, milp, perfect; commas between.")
+        str,
+        typer.Option(
+            "--solvers",
+            help="Of online, fixed, greedy, mcts, milp, perfect (a bound) and those of plugins; commas between.",
+        ),
     ] = "online,fixed,greedy",
     milp_time: Annotated[float, typer.Option("--milp-time", min=0.1, help="Seconds that the MILP has.")] = 60.0,
     daring: Annotated[
@@ -54,12 +58,13 @@ def bench_orienteering(
     from fieldhand_bench.commands.machine import machine
     from fieldhand_bench.orienteering.graphs import load_graphs
     from fieldhand_bench.orienteering.run import run
-    from fieldhand_bench.orienteering.solvers import NAMES, Options
+    from fieldhand_bench.orienteering.solvers import Options, solver_names
 
     names = [name.strip() for name in solvers.split(",") if name.strip()]
-    unknown = [name for name in names if name not in NAMES]
+    known = (*solver_names(), "perfect")
+    unknown = [name for name in names if name not in known]
     if unknown or not names:
-        raise ProblemError(f"no solver is called '{', '.join(unknown)}'", advice=f"use some of {', '.join(NAMES)}")
+        raise ProblemError(f"no solver is called '{', '.join(unknown)}'", advice=f"use some of {', '.join(known)}")
     loaded = load_graphs(graphs)
     options = Options(seed=seed, milp_s=milp_time, daring=daring, missions=learn)
     on = machine()

@@ -90,7 +90,7 @@ def run(
         graphs: What to drive on.
         budget, failure_probability: Of every mission.
         trials: Missions for each row.
-        solvers: Names, see :data:`fieldhand_bench.orienteering.solvers.NAMES`.
+        solvers: Names, see :func:`fieldhand_bench.orienteering.solvers.solver_names`; ``perfect`` is a bound.
         options: Of the solvers.
         engine, jobs: See :func:`fieldhand_bench.orienteering.engine.spread`.
 

@@ -1,4 +1,7 @@
-"""The solvers of the benchmark by name. Each is prepared once for a problem, then drives any number of missions."""
+"""Solvers by name: entry points of the group ``fieldhand.solvers``.
+
+Each is prepared once for a problem, then drives any number of missions.
+"""
 
 from __future__ import annotations
 
@@ -10,18 +13,9 @@ from fieldhand.errors import ProblemError
 from fieldhand.orienteering.policy import Policy, State
 from fieldhand.orienteering.problem import Problem
 from fieldhand.orienteering.route import StoppingCriterion, solve
+from fieldhand.plugins import active
 
 Next = Callable[[State], int]
-
-#: Name of each, and what it is in words.
-NAMES = {
-    "online": "decides anew after every leg (this library)",
-    "fixed": "best fixed route (this library)",
-    "greedy": "greedy by reward per distance",
-    "mcts": "plain Monte Carlo tree search",
-    "milp": "sample-average MILP, HiGHS",
-    "perfect": "perfect information: a bound, no solver",
-}
 
 
 class Prepared(Protocol):
@@ -89,27 +83,61 @@ class _TreeSearch:
         return TreeSearch(self.problem, seed, self.simulations).next
 
 
+@dataclass(frozen=True, kw_only=True)
+class Solver:
+    """A solver of stochastic orienteering problems, registered under ``fieldhand.solvers``.
+
+    Attributes:
+        prepare: Does what the solver does before its missions: takes the problem and the options.
+        summary: One line for help texts.
+    """
+
+    prepare: Callable[[Problem, Options], Prepared]
+    summary: str
+
+
+def _prepare_online(problem: Problem, options: Options) -> Prepared:
+    from fieldhand.orienteering.price_tuning import tune_price
+
+    policy = Policy(problem, options.seed, risk_tolerance=options.daring)
+    return _Online(tune_price(policy, problem, options.seed + 1, options.missions))
+
+
+def _prepare_fixed(problem: Problem, options: Options) -> Prepared:
+    return _Fixed(solve(problem, options.seed, StoppingCriterion(rounds=20_000)).vertices)
+
+
+def _prepare_milp(problem: Problem, options: Options) -> Prepared:
+    from fieldhand_bench.orienteering.milp import solve_milp
+
+    return _Fixed(solve_milp(problem, options.seed, options.milp_s).vertices)
+
+
+ONLINE = Solver(prepare=_prepare_online, summary="decides anew after every leg (this library)")
+FIXED = Solver(prepare=_prepare_fixed, summary="best fixed route (this library)")
+GREEDY = Solver(prepare=lambda problem, _: _Greedy(problem), summary="greedy by reward per distance")
+MCTS = Solver(
+    prepare=lambda problem, options: _TreeSearch(problem, options.simulations), summary="plain Monte Carlo tree search"
+)
+MILP = Solver(prepare=_prepare_milp, summary="sample-average MILP, HiGHS")
+
+
+def solver_names() -> tuple[str, ...]:
+    """Return the names of all installed solvers, without importing any."""
+    return tuple(active("fieldhand.solvers"))
+
+
 def prepare(name: str, problem: Problem, options: Options) -> Prepared:
-    """Do what a solver does before its missions.
+    """Prepare a solver for a problem.
 
     Raises:
         ProblemError: No solver has that name, or it finds nothing.
+        PluginError: The solver cannot be imported, or is none.
     """
-    match name:
-        case "online":
-            from fieldhand.orienteering.price_tuning import tune_price
-
-            policy = Policy(problem, options.seed, risk_tolerance=options.daring)
-            return _Online(tune_price(policy, problem, options.seed + 1, options.missions))
-        case "fixed":
-            return _Fixed(solve(problem, options.seed, StoppingCriterion(rounds=20_000)).vertices)
-        case "greedy":
-            return _Greedy(problem)
-        case "mcts":
-            return _TreeSearch(problem, options.simulations)
-        case "milp":
-            from fieldhand_bench.orienteering.milp import solve_milp
-
-            return _Fixed(solve_milp(problem, options.seed, options.milp_s).vertices)
-        case _:
-            raise ProblemError(f"no solver is called '{name}'", advice=f"use {', '.join(NAMES)}")
+    plugins = active("fieldhand.solvers")
+    if name not in plugins:
+        raise ProblemError(f"no solver is called '{name}'", advice=f"use {', '.join(plugins)}")
+    solver = plugins[name].load()
+    if not isinstance(solver, Solver):
+        raise plugins[name].error("is no Solver")
+    return solver.prepare(problem, options)

@@ -12,9 +12,8 @@ from fieldhand.brief import brief_repr
 from fieldhand.errors import SiteError
 from fieldhand.files import FileFault, read_file
 from fieldhand.language import message, recalled
-from fieldhand.site.formats.geojson import geojson_records
+from fieldhand.plugins import active
 from fieldhand.site.formats.records import MAX_BYTES, SHAPEFILE_PARTS, Format, Records, too_big
-from fieldhand.site.formats.table import table_records
 from fieldhand.visible import visible
 
 _ENDINGS: dict[str, Format] = {
@@ -29,6 +28,8 @@ _ENDINGS: dict[str, Format] = {
     ".kmz": "zip",
     ".zip": "zip",
 }
+#: Of each built-in format, the ending under which its reader is registered.
+_MAIN_ENDINGS: dict[str, str] = {"table": "csv", "shapefile": "shp", "geopackage": "gpkg"}
 #: How files begin that can be nothing else.
 _MAGIC: dict[bytes, Format] = {
     b"SQLite format 3\0": "geopackage",
@@ -83,16 +84,24 @@ def records_of(files: SiteFiles, *, lenient: bool = False) -> Records:
 
     Raises:
         SiteError: They have no format that can be read, or not what belongs to it.
+        PluginError: The reader of a plugin cannot be imported.
     """
-    data, at = files.parts[files.name], files.source
-    form = format_of(files.name, data, at)
-    if form == "geojson":
-        return geojson_records(data, at, lenient=lenient)
-    if form == "table":
-        return table_records(data, at)
-    from fieldhand.site.formats.gis import gis_records
-
-    return gis_records(form, files.parts, at, lenient=lenient)
+    form = format_of(files.name, files.parts[files.name], files.source)
+    ending = _MAIN_ENDINGS.get(form, form)
+    plugin = active("fieldhand.formats").get(ending)
+    if plugin is None:
+        raise SiteError(
+            message("no reader of the format {format} is installed", format=ending),
+            where=files.source,
+            advice=message("install the distribution fieldhand again"),
+        )
+    reader = plugin.load()
+    if not callable(reader):
+        raise plugin.error("is not callable")
+    records = reader(files, lenient=lenient)
+    if not isinstance(records, Records):
+        raise plugin.error("does not return Records")
+    return records
 
 
 def is_plain(files: SiteFiles) -> bool:
@@ -128,7 +137,7 @@ def read_bytes(path: Path, at: str) -> bytes:
         raise SiteError(what, where=at, advice=advice) from None
 
 
-def format_of(name: str, data: bytes, at: str) -> Format:
+def format_of(name: str, data: bytes, at: str) -> str:
     """The format of a file; a beginning that can mean only one thing counts more than the ending of the name.
 
     Raises:
@@ -153,6 +162,8 @@ def format_of(name: str, data: bytes, at: str) -> Format:
         )
     if known is not None:
         return known
+    if ending[1:] in active("fieldhand.formats"):
+        return ending[1:]
     start = data[:200].removeprefix(b"\xef\xbb\xbf").lstrip()
     if start[:1] in (b"{", b"["):
         return "geojson"

@@ -46,7 +46,7 @@ _KML_OWN = (
 )
 
 
-def gis_records(form: Format, held: Mapping[str, bytes], at: str, *, lenient: bool = False) -> Records:
+def gis_records(form: str, held: Mapping[str, bytes], at: str, *, lenient: bool = False) -> Records:
     """The features of all layers, one layer after the other, in degrees WGS 84.
 
     Args:

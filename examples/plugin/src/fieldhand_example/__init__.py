@@ -1,0 +1,1 @@
+"""A driver, a planner and a robot of its own for Fieldhand."""

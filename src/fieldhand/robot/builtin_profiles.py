@@ -1,0 +1,14 @@
+"""The built-in robots as entry points of the group ``fieldhand.robots``: each is the YAML file of a profile.
+
+A distribution registers a robot in the same way: the value is a :class:`pathlib.Path`, or what
+:func:`importlib.resources.files` gives.
+"""
+
+from __future__ import annotations
+
+from importlib import resources
+
+_FOLDER = resources.files("fieldhand.robot") / "profiles"
+
+AMIGA = _FOLDER / "amiga.yaml"
+HUSKY = _FOLDER / "husky.yaml"
