@@ -48,7 +48,7 @@ def test_it_is_listed_beside_what_is_built_in(installed: dict[str, str], tmp_pat
 def test_its_planner_plans_and_its_driver_drives(installed: dict[str, str], tmp_path: Path) -> None:
     done = fieldhand(
         installed, tmp_path, "run", "survey 5 trees", "--site", "demo", "--robot", "cart", "--planner", "survey",
-        "--on", "cart", "--driver-option", "pace=1000", "--yes", "--confirm", "--events", "log.jsonl", "--json",
+        "--on", "cart", "--driver-option", "pace=100", "--yes", "--confirm", "--events", "log.jsonl", "--json",
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert json.loads(done.stdout)["planner"] == "survey"
@@ -59,7 +59,8 @@ def test_its_planner_plans_and_its_driver_drives(installed: dict[str, str], tmp_
 
 
 def test_the_demo_mission_is_driven_by_its_driver(installed: dict[str, str], tmp_path: Path) -> None:
-    done = fieldhand(installed, tmp_path, "demo", "--on", "cart", "--driver-option", "pace=1000", "-o", "out")
+    done = fieldhand(installed, tmp_path, "demo", "--on", "cart", "--driver-option", "pace=100", "-o", "out")
+    assert done.returncode in (0, 1), done.stderr
     events = [json.loads(line) for line in (tmp_path / "out" / "events.jsonl").read_text().splitlines()]
     pictures = {e["place"] for e in events if e["event"] == "action" and e["action"] == "take_thermal_picture"}
     assert len(pictures) >= 4, done.stderr  # the corners, and the optional trees that the distance allows
@@ -71,9 +72,9 @@ def test_the_demo_mission_is_driven_by_its_driver(installed: dict[str, str], tmp
 
 
 def test_a_wrong_option_is_an_error_in_one_line(installed: dict[str, str], tmp_path: Path) -> None:
-    words = ("run", "survey 5 trees", "--site", "demo", "--robot", "cart", "--planner", "survey", "--on", "cart", "--yes")
+    chosen = ("--site", "demo", "--robot", "cart", "--planner", "survey", "--on", "cart")
     for option, said in (("pace=0", "no number above 0"), ("colour=red", "no option 'colour'"), ("pace", "name=value")):
-        done = fieldhand(installed, tmp_path, *words, "--driver-option", option)
+        done = fieldhand(installed, tmp_path, "run", "survey 5 trees", *chosen, "--yes", "--driver-option", option)
         assert done.returncode == 2
         assert said in done.stderr
         assert "Traceback" not in done.stderr
@@ -86,4 +87,4 @@ def test_its_driver_keeps_the_contract_of_drivers(installed: dict[str, str], tmp
         cwd=tmp_path, env=installed, capture_output=True, text=True,
     )  # fmt: skip
     assert done.returncode == 0, done.stdout
-    assert " passed" in done.stdout
+    assert done.stdout.count(".") >= 12  # each test of the contract

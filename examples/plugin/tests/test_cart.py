@@ -16,7 +16,11 @@ class TestCart(DriverContract):
 
     def make(self, faults: CartFaults = CartFaults()) -> tuple[Driver, Clock, Site]:  # noqa: B008  frozen
         site, clock = fh.Site.demo(), SimulatedClock()
-        return CartDriver(site=site, robot=fh.Robot.load("cart"), clock=clock, at=site.start.xy, faults=faults), clock, site
+        return (
+            CartDriver(site=site, robot=fh.Robot.load("cart"), clock=clock, at=site.start.xy, faults=faults),
+            clock,
+            site,
+        )
 
     def make_blocked(self) -> tuple[Driver, Clock, Site]:
         return self.make(CartFaults(obstacle_m=5.0))

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 from fieldhand.clock import Clock, ScaledClock
 from fieldhand.errors import InputError
@@ -138,6 +139,8 @@ class CartDriver:
         return None
 
     def _start(self, goal: _Goal) -> None:
+        if not self.poll().over:
+            raise RuntimeError("a driver has goals one at a time")
         if self.lost():
             goal = replace(goal, end=Progress(state="failed", what="position lost", fault="lost"))
         self._goal = goal
@@ -194,7 +197,7 @@ def _along(path: tuple[Point, ...], metres: float) -> Point | None:
     if not path:
         return None
     left = metres
-    for (ax, ay), (bx, by) in zip(path, path[1:], strict=False):
+    for (ax, ay), (bx, by) in pairwise(path):
         length = math.dist((ax, ay), (bx, by))
         if left <= length:
             part = left / length if length > 0 else 0.0
