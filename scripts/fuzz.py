@@ -43,7 +43,7 @@ READERS = (
     *("fieldhand.approval.bundle", "fieldhand.approval.keys", "fieldhand.evaluation.calibration", "fieldhand.exchange"),
     *("fieldhand.execution.log", "fieldhand.execution.world_faults", "fieldhand.execution.world_file"),
     *("fieldhand.execution.drivers.groundtruth", "fieldhand.robot", "fieldhand.strict_yaml", "fieldhand.task"),
-    *("fieldhand.site.building", "fieldhand.site.features", "fieldhand.site.formats", "fieldhand.site.kinds"),
+    *("fieldhand.site.build_site", "fieldhand.site.features", "fieldhand.site.formats", "fieldhand.site.feature_kinds"),
 )
 NAMES = ("bundle", "task", "tree", "world", "profile", "site", "table", "log", "mcap", "key")
 

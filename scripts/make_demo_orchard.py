@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 
-from fieldhand.site.generate import demo_orchard, to_text
+from fieldhand.site.demo_orchard import demo_orchard, to_text
 from fieldhand.site.geojson import demo_path
 
 if __name__ == "__main__":

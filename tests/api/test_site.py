@@ -11,7 +11,7 @@ import pytest
 import shapely
 
 from fieldhand.site.geojson import demo_path, load_demo, parse_site
-from fieldhand.site.orchards import random_orchard
+from fieldhand.site.random_orchards import random_orchard
 from support.processes.browser import browser
 
 

@@ -12,7 +12,7 @@ from fieldhand.approval.branch_checks import driven_through
 from fieldhand.approval.checks import check, examine
 from fieldhand.forecast.visit_order import drives_for
 from fieldhand.forecast.walk_branch import walk_branch as walk_through
-from fieldhand.places.selectors import Bound, Corners, InZone, Marker, Other, Take, TreeIs, Trees, Where
+from fieldhand.places.selectors import Bound, Corners, InZone, Marker, NotVisited, Take, TreeIs, Trees, Where
 from fieldhand.site.drives import Drive
 from fieldhand.site.model import Zone
 from fieldhand.task.codec import encode
@@ -109,7 +109,7 @@ def test_several_trees_where_one_is_needed_are_an_error():
 def test_a_relative_place_that_finds_nothing_on_one_branch_is_an_error():
     site = orchard(rows=1, columns=2)
     steps = (at(TreeIs(tree="1")), at(TreeIs(tree="2")))
-    (error,) = errors(InOrder(id="", steps=(*steps, at(Take(count=1, of=Other())))), site)
+    (error,) = errors(InOrder(id="", steps=(*steps, at(Take(count=1, of=NotVisited())))), site)
     assert "n4" in str(error)
 
 

@@ -16,7 +16,7 @@ from fieldhand.places.selectors import Corners
 from fieldhand.site.drawing.blocks import block_words
 from fieldhand.site.drawing.choices import choices_picture
 from fieldhand.site.geojson import parse_site
-from fieldhand.site.orchards import random_orchard
+from fieldhand.site.random_orchards import random_orchard
 from fieldhand.task.plan import ForEach
 from fieldhand.task.results import Acted, Arrived, Driving
 from fieldhand.testing.small_orchard import husky, orchard, task_for

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from fieldhand.approval.clauses import say_act, say_condition
 from fieldhand.places import selectors as s
-from fieldhand.places.saying import say_selector
+from fieldhand.places.wording import say_selector
 from fieldhand.task import conditions as c
 from fieldhand.task.plan import Act
 from fieldhand.terms import Side, Test
@@ -49,7 +49,7 @@ SAID = [
     (s.Nearest(to=TREE, adjacent=True, of=YELLOW), None, "the yellow tree next to tree 81"),
     (s.Farthest(origin=HERE), None, "the tree farthest from there"),
     (s.Adjacent(near=TREE), None, "2 trees next to each other, beginning with the one nearest to tree 81"),
-    (s.Other(), None, "the trees not visited yet"),
+    (s.NotVisited(), None, "the trees not visited yet"),
     (s.Apart(count=3, apart_m=15.0), None, "3 trees, about 15 m from each other"),
     (
         s.Apart(count=2, apart_m=4.5, least=True, of=YELLOW),
@@ -68,14 +68,14 @@ SAID = [
     (s.Evenly(count=1, of=YELLOW), None, "the middle one of the yellow trees"),
     (s.Evenly(count=3, out_of=5), None, "3 of every 5 trees"),
     (s.Evenly(count=3, out_of=5, of=s.Rows(first="3", last="3")), None, "3 of every 5 of the trees of row 3"),
-    (s.Random(count=1), None, "one of the trees, drawn at random (seed 0)"),
-    (s.Random(count=3, seed=7, of=YELLOW), None, "3 of the yellow trees, drawn at random (seed 7)"),
+    (s.RandomSample(count=1), None, "one of the trees, drawn at random (seed 0)"),
+    (s.RandomSample(count=3, seed=7, of=YELLOW), None, "3 of the yellow trees, drawn at random (seed 7)"),
     (s.Nearest(to=TREE, adjacent=True, side="east"), None, "the tree next to tree 81, on its east side"),
     (s.InZone(zone="pond", margin_m=10.0), None, "the trees within 10 m of the zone “pond”"),
     (s.InZone(zone="pond", margin_m=10.0, outside=True), None, "the trees more than 10 m from the zone “pond”"),
-    (s.Take(count=1, of=s.Other()), None, "another tree, the nearest one not visited yet"),
-    (s.Union(parts=(TREE, s.TreeIs(tree="12"))), None, "trees 81 and 12"),
-    (s.Union(parts=(TREE, s.First())), None, "tree 81 and the first tree"),
+    (s.Take(count=1, of=s.NotVisited()), None, "another tree, the nearest one not visited yet"),
+    (s.UnionOf(parts=(TREE, s.TreeIs(tree="12"))), None, "trees 81 and 12"),
+    (s.UnionOf(parts=(TREE, s.First())), None, "tree 81 and the first tree"),
     (
         s.Where(attribute="leaf_color", test="eq", value="yellow", of=s.Extreme(side="north", count=3)),
         2,
@@ -87,7 +87,7 @@ SAID = [
         "the 3 yellow trees in the western half with the lowest yield",
     ),
     (
-        s.Farthest(origin=HERE, of=s.Other()),
+        s.Farthest(origin=HERE, of=s.NotVisited()),
         None,
         "the tree not visited yet that is farthest from there",
     ),

@@ -17,7 +17,7 @@ from fieldhand.places.selectors import (
     Farthest,
     Here,
     Nearest,
-    Other,
+    NotVisited,
     Take,
     TreeIs,
     Trees,
@@ -250,7 +250,7 @@ def test_a_site_without_an_end_marker_is_said_to_have_none():
 @settings(max_examples=40, deadline=None)
 @given(
     order=st.permutations(
-        [TreeIs(tree="3"), Corners(which=("se",)), Take(count=1, of=Other()), Farthest(origin=Here())]
+        [TreeIs(tree="3"), Corners(which=("se",)), Take(count=1, of=NotVisited()), Farthest(origin=Here())]
     )
 )
 def test_every_action_and_drive_of_a_plan_has_exactly_one_number(order):

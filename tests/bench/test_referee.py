@@ -9,7 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from fieldhand.execution.world import ActionFails, Spot, World
-from fieldhand.places.selectors import TreeIs, Trees, Union
+from fieldhand.places.selectors import TreeIs, Trees, UnionOf
 from fieldhand.task.frames import Budget, Constraints, Task
 from fieldhand.task.plan import Act, AnyOrder, ForEach, InOrder, Node, Repeat, Try, walk
 from fieldhand.task.results import Acted, Arrived, Decided, Ended, Event, Exited, Shed, Visiting
@@ -21,7 +21,7 @@ from support.missions.rig import BudgetOf, Rig, husky, of_type, orchard, task_fo
 
 PICTURE = Act(id="", action="take_thermal_picture")
 THREE = ("r0c0", "r2c3", "r3c1")
-ALL_THREE = ForEach(id="", select=Union(parts=tuple(TreeIs(tree=t) for t in THREE)), body=PICTURE)
+ALL_THREE = ForEach(id="", select=UnionOf(parts=tuple(TreeIs(tree=t) for t in THREE)), body=PICTURE)
 MANY = ForEach(id="", select=Trees(), body=PICTURE, optional=True, reward="reward")
 RIG = Rig()
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from fieldhand.site.orchards import random_orchard
+from fieldhand.site.random_orchards import random_orchard
 from support.processes.command import fieldhand
 
 

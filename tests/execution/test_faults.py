@@ -27,7 +27,7 @@ from fieldhand.execution.world import (
     WorldFault,
 )
 from fieldhand.execution.world_file import parse_world
-from fieldhand.places.selectors import TreeIs, Trees, Union
+from fieldhand.places.selectors import TreeIs, Trees, UnionOf
 from fieldhand.robot.model import Patience
 from fieldhand.site.model import Site
 from fieldhand.task.build import FAULTED_EXITS
@@ -61,7 +61,7 @@ def act(tree: str | None = None, **more: object) -> Act:
 
 
 def each(*trees: str, **more: object) -> ForEach:
-    of = Union(parts=tuple(TreeIs(tree=t) for t in trees))
+    of = UnionOf(parts=tuple(TreeIs(tree=t) for t in trees))
     return ForEach(id="", select=of, body=act(), **more)  # type: ignore[arg-type]
 
 

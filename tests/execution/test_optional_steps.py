@@ -11,7 +11,7 @@ from fieldhand.evaluation.outcome import judge
 from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.world import ActionFails, World
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
-from fieldhand.places.selectors import TreeIs, Union
+from fieldhand.places.selectors import TreeIs, UnionOf
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, InOrder, Node, OptionalStep, Repeat, StopMission, Try
 from fieldhand.task.results import Exited, Faulted, Shed
 from support.missions.rig import BudgetOf, Rig, captured, husky, of_type, task_for
@@ -99,7 +99,7 @@ def test_work_that_is_refused_half_way_gives_up_the_step_alone():
 
 
 def test_at_each_place_of_a_loop_the_guard_is_asked_anew():
-    trees = Union(parts=tuple(TreeIs(tree=f"r0c{k}") for k in range(4)))
+    trees = UnionOf(parts=tuple(TreeIs(tree=f"r0c{k}") for k in range(4)))
     task = task_for(ForEach(id="", select=trees, body=seq(act(), optional(act(count=2)))))
     result = Rig(guard=Sheds(turns=(1, 3))).fly(task)
     assert result.status == "completed"

@@ -30,7 +30,7 @@ from fieldhand.execution.world import (
 )
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
 from fieldhand.places.selector import Selector
-from fieldhand.places.selectors import Half, TreeIs, Trees, Union
+from fieldhand.places.selectors import Half, TreeIs, Trees, UnionOf
 from fieldhand.task.conditions import Compare
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Constraints, FaultedExit
@@ -64,7 +64,7 @@ def seq(*steps: Node) -> Steps:
 
 
 def each(*names: str, body: Node | None = None, **more: object) -> ForEach:
-    select: Selector = Union(parts=tuple(TreeIs(tree=n) for n in names))
+    select: Selector = UnionOf(parts=tuple(TreeIs(tree=n) for n in names))
     return ForEach(id="", select=select, body=body or act(), order="given", **more)
 
 

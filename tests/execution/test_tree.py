@@ -18,10 +18,10 @@ from fieldhand.places.selectors import (
     Here,
     Marker,
     Nearest,
-    Other,
+    NotVisited,
     Take,
     TreeIs,
-    Union,
+    UnionOf,
 )
 from fieldhand.task.conditions import Compare, TreeHas
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Node, Repeat, StopMission, Try, walk
@@ -45,7 +45,7 @@ def seq(*steps: Node) -> InOrder:
 
 
 def each(*names: str, body: Node | None = None, **more: object) -> ForEach:
-    return ForEach(id="", select=Union(parts=tuple(tree(n) for n in names)), body=body or act(), **more)
+    return ForEach(id="", select=UnionOf(parts=tuple(tree(n) for n in names)), body=body or act(), **more)
 
 
 def world(default: float, **trees: float) -> World:
@@ -146,7 +146,7 @@ def test_labels_bind_places() -> None:
 
 
 def test_relative_places_resolve_where_they_are_reached() -> None:
-    plan = seq(act(at=tree("r1c1")), act(at=Take(count=1, of=Other())), act(at=Nearest(to=Here(), fresh=True)))
+    plan = seq(act(at=tree("r1c1")), act(at=Take(count=1, of=NotVisited())), act(at=Nearest(to=Here(), fresh=True)))
     done = places(plan)
     assert done[0] == "r1c1"
     assert len(set(done)) == 3
@@ -158,7 +158,7 @@ def test_relative_places_resolve_where_they_are_reached() -> None:
 def test_for_each_resolves_once_and_binds_each_place() -> None:
     """The selector depends on what was visited; the loop keeps the places that it had when it was reached."""
     body = seq(act(at=Bound(label="t")), act(CO2, at=Nearest(to=Bound(label="t"))))
-    plan = ForEach(id="", select=Excluding(places=Half(side="north"), of=Other()), label="t", body=body)
+    plan = ForEach(id="", select=Excluding(places=Half(side="north"), of=NotVisited()), label="t", body=body)
     result = Rig().fly(plan)
     (visiting,) = of_type(result.events, Visiting)
     assert [p for a, p in captured(result.events) if a == PICTURE] == list(visiting.places)
@@ -197,11 +197,11 @@ def test_for_each_until() -> None:
 
 def test_repeat() -> None:
     assert len(places(Repeat(id="", times=3, body=act(at=tree("r0c0"))))) == 3
-    assert places(Repeat(id="", times=3, body=act(at=Take(count=1, of=Other())))) == ["r0c0", "r0c1", "r0c2"]
+    assert places(Repeat(id="", times=3, body=act(at=Take(count=1, of=NotVisited())))) == ["r0c0", "r0c1", "r0c2"]
 
 
 def test_repeat_until() -> None:
-    plan = Repeat(id="", times=9, body=act(at=Take(count=1, of=Other()), reading="r"), until=HOT)
+    plan = Repeat(id="", times=9, body=act(at=Take(count=1, of=NotVisited()), reading="r"), until=HOT)
     assert places(plan, Rig(world=world(30, r0c1=40))) == ["r0c0", "r0c1"]
     assert len(places(plan, Rig(world=world(30)))) == 9
 
@@ -280,8 +280,8 @@ def test_try_catches_a_drive_that_failed_and_goes_on_from_there() -> None:
 
 def test_try_catches_a_place_that_is_not_there() -> None:
     """After every tree was visited there is no other one."""
-    everywhere = ForEach(id="", select=Other(), body=act())
-    plan = seq(everywhere, Try(id="", body=act(at=Take(count=1, of=Other())), otherwise=act(CO2)))
+    everywhere = ForEach(id="", select=NotVisited(), body=act())
+    plan = seq(everywhere, Try(id="", body=act(at=Take(count=1, of=NotVisited())), otherwise=act(CO2)))
     result = Rig(site=orchard(1, 3)).fly(plan)
     assert result.status == "completed"
     assert [a for a, _ in captured(result.events)] == [PICTURE] * 3 + [CO2]

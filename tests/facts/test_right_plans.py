@@ -123,7 +123,7 @@ def turned(x: Any) -> Any:
 
 def written_out(x: Any) -> Any:
     """A visit to each of some named places as steps, and some captures as so many acts."""
-    if isinstance(x, p.ForEach) and isinstance(x.select, s.Union) and not x.optional and x.at_most is None:
+    if isinstance(x, p.ForEach) and isinstance(x.select, s.UnionOf) and not x.optional and x.at_most is None:
         steps = tuple(replace(x, select=part, order="best") for part in x.select.parts)
         return p.InOrder(id="", steps=steps) if all(part.single for part in x.select.parts) else x
     if isinstance(x, p.Act) and x.count > 1 and x.at is not None:

@@ -16,7 +16,7 @@ from fieldhand.forecast import branches as exploration
 from fieldhand.forecast import request_handler
 from fieldhand.forecast.branches import branches
 from fieldhand.forecast.estimate import estimate
-from fieldhand.places.selectors import Bound, Here, Nearest, Other, Take, TreeIs, Trees
+from fieldhand.places.selectors import Bound, Here, Nearest, NotVisited, Take, TreeIs, Trees
 from fieldhand.task.conditions import Compare, Level, TreeHas
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, If, InOrder, Node, OptionalStep, Repeat, StopMission, Try
@@ -242,7 +242,7 @@ def test_a_keep_out_on_one_branch_only_is_found():
 
 def test_a_place_that_only_one_branch_lacks_is_found_with_the_branch():
     few = orchard(rows=1, columns=2)
-    last = Act(id="", action="read_co2", at=Take(count=1, of=Other()))
+    last = Act(id="", action="read_co2", at=Take(count=1, of=NotVisited()))
     plan = line(picture("1", reading="r"), either(LOW, line(picture("2"), last)))
     (error,) = errors(plan, few)
     assert error.node == "n6"

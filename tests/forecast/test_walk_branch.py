@@ -7,7 +7,7 @@ import pytest
 from fieldhand.errors import PlaceError, TaskError
 from fieldhand.forecast.branches import branches
 from fieldhand.forecast.walk_branch import walk_branch
-from fieldhand.places.selectors import Bound, Here, Marker, Nearest, Other, TreeIs, Trees, Where
+from fieldhand.places.selectors import Bound, Here, Marker, Nearest, NotVisited, TreeIs, Trees, Where
 from fieldhand.task.conditions import Level
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Repeat, StopMission, Try
@@ -58,7 +58,7 @@ def test_relative_places_resolve_when_they_are_reached():
         steps=(
             picture(tree("1"), label="a"),
             picture(Nearest(to=Here(), fresh=True)),
-            picture(Nearest(to=Here(), of=Other())),
+            picture(Nearest(to=Here(), of=NotVisited())),
             picture(Bound(label="a")),
         ),
     )

@@ -30,7 +30,7 @@ from fieldhand.forecast.walk_steps import Walk
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve_one
 from fieldhand.places.selector import Selector
-from fieldhand.places.selectors import Bound, Farthest, Here, Nearest, TreeIs, Union
+from fieldhand.places.selectors import Bound, Farthest, Here, Nearest, TreeIs, UnionOf
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.site.drives import Drives
 from fieldhand.site.model import Place
@@ -156,7 +156,7 @@ class Drawn:
         near = self._chance(0.2) and not optional
         return ForEach(
             id="",
-            select=Nearest(to=Here(), count=2) if near else Union(parts=tuple(TreeIs(tree=t) for t in names)),
+            select=Nearest(to=Here(), count=2) if near else UnionOf(parts=tuple(TreeIs(tree=t) for t in names)),
             body=inner(also_optional=optional, named=named),
             label=named,
             order="given" if not optional and self._chance(0.4) else "best",
@@ -514,7 +514,7 @@ def _node(element: Any) -> str:
 
 @cache
 def _selectors(text: str) -> tuple[Selector, ...]:
-    return decode_parts(text, (TreeIs, Nearest, Farthest, Bound, Union))
+    return decode_parts(text, (TreeIs, Nearest, Farthest, Bound, UnionOf))
 
 
 def disagreements(flight: Simulated) -> list[str]:

@@ -26,7 +26,7 @@ from fieldhand.places.selectors import (
     Here,
     Marker,
     Nearest,
-    Other,
+    NotVisited,
     Rows,
     Spaced,
     Take,
@@ -34,8 +34,8 @@ from fieldhand.places.selectors import (
 )
 from fieldhand.site.geojson import parse_site
 from fieldhand.site.model import Site
-from fieldhand.site.orchards import make_orchard, random_shapes
 from fieldhand.site.projection import Projection
+from fieldhand.site.random_orchards import make_orchard, random_shapes
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, InOrder, Node, Try
 from fieldhand.task.results import Arrived, Driving, Ended, Faulted
 from support.examples import examples
@@ -142,7 +142,7 @@ def random_plan(rng: np.random.Generator, site: Site) -> Node:
         Spaced(apart_m=5.0, count=1),
     ]
     many: list[Selector] = [
-        Take(count=4, of=Other()),
+        Take(count=4, of=NotVisited()),
         Corners(),
         EveryNth(nth=int(rng.integers(5, 15))),
         Rows(first="1", last="1"),

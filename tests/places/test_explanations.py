@@ -15,7 +15,7 @@ from fieldhand.places.context import Context
 from fieldhand.places.explanation import explain, notes
 from fieldhand.places.picks.ordered import Order
 from fieldhand.places.resolution import resolve
-from fieldhand.places.saying import say_selector
+from fieldhand.places.wording import say_selector
 from fieldhand.terms import AnySide, CountedFrom, Side, Towards
 from support.sites.points import at_start, orchard, place_at, planted, site_of, without_rows
 
@@ -60,7 +60,7 @@ def _around(inner: st.SearchStrategy[s.Selector]) -> st.SearchStrategy[s.Selecto
         ),
         st.builds(s.Farthest, origin=inner, count=counts, of=inner),
         st.builds(s.Adjacent, near=inner, count=counts, of=inner),
-        st.builds(s.Other, of=inner),
+        st.builds(s.NotVisited, of=inner),
         st.builds(s.Excluding, places=inner, of=inner),
         st.builds(s.Where, attribute=st.just("n"), test=st.just("ge"), value=st.just(2.0), of=inner),
         st.builds(s.Top, attribute=st.just("n"), count=counts, of=inner),
@@ -73,7 +73,7 @@ def _around(inner: st.SearchStrategy[s.Selector]) -> st.SearchStrategy[s.Selecto
         ),
         st.builds(s.Within, distance_m=st.floats(1, 100), to=inner, of=inner),
         st.builds(s.Take, count=counts, of=inner),
-        st.builds(s.Random, count=counts, seed=st.integers(0, 3), of=inner),
+        st.builds(s.RandomSample, count=counts, seed=st.integers(0, 3), of=inner),
         st.builds(s.Spread, count=counts, of=inner),
         st.builds(s.Evenly, count=counts, out_of=st.sampled_from((0, 0, 3, 5)), of=inner),
         st.builds(s.InBlock, block=st.sampled_from(["A", "B", "z"]), of=inner),
@@ -89,7 +89,7 @@ def _around(inner: st.SearchStrategy[s.Selector]) -> st.SearchStrategy[s.Selecto
         st.builds(
             s.Spaced, apart_m=st.floats(1, 9), count=counts, zone=st.sampled_from(["", "z"]), near=inner, of=inner
         ),
-        st.builds(s.Union, parts=st.lists(inner, min_size=1, max_size=3).map(tuple)),
+        st.builds(s.UnionOf, parts=st.lists(inner, min_size=1, max_size=3).map(tuple)),
     )
 
 
@@ -215,7 +215,7 @@ def test_groups_within_groups_are_resolved_and_said_however_deep_they_nest():
     site = orchard()
     selector: s.Selector = s.Trees()
     for k in range(60):
-        near = s.Nearest(to=s.TreeIs(tree="7"), count=19 - k % 2, of=s.Union(parts=(selector, s.Trees())))
+        near = s.Nearest(to=s.TreeIs(tree="7"), count=19 - k % 2, of=s.UnionOf(parts=(selector, s.Trees())))
         selector = s.Half(side="north", of=s.Excluding(places=s.TreeIs(tree="1"), of=near))
     tracemalloc.start()
     try:

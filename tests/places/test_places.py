@@ -41,10 +41,10 @@ from fieldhand.places.selectors import (
     Marker,
     Middle,
     Nearest,
+    NotVisited,
     Ordered,
-    Other,
     Quarter,
-    Random,
+    RandomSample,
     Spaced,
     Spread,
     Successive,
@@ -52,7 +52,7 @@ from fieldhand.places.selectors import (
     Top,
     TreeIs,
     Trees,
-    Union,
+    UnionOf,
     Where,
     Within,
 )
@@ -143,7 +143,7 @@ def test_first_and_last_go_by_the_markers_else_by_the_file():
 def test_a_union_is_its_parts_in_their_order_each_place_once():
     site = orchard(markers={"start": (0, -5)})
     parts = (TreeIs(tree="9"), Marker(name="start"), Trees(), TreeIs(tree="3"))
-    assert ids(Union(parts=parts), site) == ["9", "start", *[str(k) for k in range(1, 21) if k != 9]]
+    assert ids(UnionOf(parts=parts), site) == ["9", "start", *[str(k) for k in range(1, 21) if k != 9]]
 
 
 # Halves, edges, corners
@@ -256,7 +256,7 @@ def test_the_edge_of_a_turned_orchard_is_its_outermost_row(turned):
 def test_the_middle_of_an_edge_stays_where_it_is_when_its_tree_was_visited():
     site = orchard(5, 5)
     assert ids(EdgeMiddle(side="east"), site) == ["23"]
-    assert ids(EdgeMiddle(side="east", of=Other()), site, at_start(site, visited=["23"])) == ["22"]
+    assert ids(EdgeMiddle(side="east", of=NotVisited()), site, at_start(site, visited=["23"])) == ["22"]
 
 
 @given(sites(min_size=2), counts)
@@ -325,13 +325,13 @@ def test_corners_of_a_named_group_are_its_own_and_do_not_move_when_one_was_visit
     kinds = [{"v": "Kerman"}] * 10 + [{"v": "Peters"}] * 10
     site = orchard(properties=kinds)
     assert ids(Corners(which=("ne",), of=Where(attribute="v", test="eq", value="kerman")), site) == ["10"]
-    assert ids(Corners(which=("ne",), of=Other()), site, at_start(site, visited=["20"])) == ["19"]
+    assert ids(Corners(which=("ne",), of=NotVisited()), site, at_start(site, visited=["20"])) == ["19"]
     long = site_of([(0, 0), (10, 0), (0, 10), (6, 10), (10, 2), (100, 0)])
     assert ids(
         Corners(which=("ne",), of=Within(distance_m=50.0, to=Marker(name="start"))),
         replace(long, markers={"start": place_at(5, -1)}),
     ) == ["4"]
-    assert ids(Corners(which=("ne",), of=Other()), long, at_start(long, visited=["6"])) == ["5"]
+    assert ids(Corners(which=("ne",), of=NotVisited()), long, at_start(long, visited=["6"])) == ["5"]
 
 
 # Near and far
@@ -409,12 +409,12 @@ def test_the_neighbour_on_a_side_is_the_next_tree_there_and_none_beyond_a_road()
 def test_a_draw_depends_on_seed_and_ids_only(site, data):
     count = data.draw(st.integers(1, len(site.trees)))
     seed = data.draw(st.integers(0, 5))
-    drawn = ids(Random(count=count, seed=seed), site)
+    drawn = ids(RandomSample(count=count, seed=seed), site)
     assert len(set(drawn)) == count
-    assert ids(Random(count=count, seed=seed), site, at_start(site, visited=drawn)) == drawn
+    assert ids(RandomSample(count=count, seed=seed), site, at_start(site, visited=drawn)) == drawn
     kept = data.draw(st.sets(st.sampled_from([t.place.id for t in site.trees])).map(lambda more: {*more, *drawn}))
-    some = Union(parts=tuple(TreeIs(tree=t) for t in sorted(kept)))
-    assert set(ids(Random(count=count, seed=seed, of=some), site)) == set(drawn)
+    some = UnionOf(parts=tuple(TreeIs(tree=t) for t in sorted(kept)))
+    assert set(ids(RandomSample(count=count, seed=seed, of=some), site)) == set(drawn)
 
 
 @given(sites(min_size=3, max_size=9), st.data())
@@ -482,7 +482,7 @@ def test_some_of_a_row_keep_the_order_in_which_they_are_given():
 
 def test_each_tree_is_drawn_as_often_as_any_other():
     site = site_of([(4.0 * k, 0.0) for k in range(20)])
-    times = Counter(t for seed in range(2000) for t in ids(Random(count=5, seed=seed), site))
+    times = Counter(t for seed in range(2000) for t in ids(RandomSample(count=5, seed=seed), site))
     assert len(times) == 20
     assert all(abs(n - 500) < 5 * (2000 * 0.25 * 0.75) ** 0.5 for n in times.values())
 
@@ -626,14 +626,14 @@ def test_take_from_many_trees_is_the_same_greedy_chain_with_ties_in_file_order(s
 
 def test_other_and_excluding_leave_out_what_they_say():
     site = orchard()
-    assert ids(Other(of=TreeIsIn("1", "2", "3")), site, at_start(site, visited=["2"])) == ["1", "3"]
+    assert ids(NotVisited(of=TreeIsIn("1", "2", "3")), site, at_start(site, visited=["2"])) == ["1", "3"]
     assert ids(Excluding(places=Half(side="north"), of=Half(side="west")), site) == ["1", "2", "6", "7"]
     with pytest.raises(PlaceError, match="not visited yet"):
-        ids(Other(of=TreeIs(tree="2")), site, at_start(site, visited=["2"]))
+        ids(NotVisited(of=TreeIs(tree="2")), site, at_start(site, visited=["2"]))
 
 
-def TreeIsIn(*trees: str) -> Union:  # noqa: N802
-    return Union(parts=tuple(TreeIs(tree=t) for t in trees))
+def TreeIsIn(*trees: str) -> UnionOf:  # noqa: N802
+    return UnionOf(parts=tuple(TreeIs(tree=t) for t in trees))
 
 
 @pytest.fixture
@@ -688,7 +688,7 @@ def test_attributes_compare_as_numbers_or_as_text_without_case(attributed, attri
         (InZone(zone="wet corner"), "no zone 'wet corner'.*no zones"),
         (Within(distance_m=-1.0, to=TreeIs(tree="1")), "more than 0 m"),
         (Corners(which=()), "no corner"),
-        (Union(parts=()), "no parts"),
+        (UnionOf(parts=()), "no parts"),
         (Take(count=9, of=Trees()), "9 are asked for and there are only 5"),
         (Nearest(to=TreeIs(tree="99")), "no tree '99'"),
     ],

@@ -12,7 +12,7 @@ from fieldhand.site.geojson import open_site
 
 SITE = open_site("demo")
 EXAMPLES = [kind.example(SITE) for kind in SELECTORS]
-JOINED = s.Union(parts=(s.TreeIs(tree="4"), s.Rows(first="2", last="3"), s.Corners()))
+JOINED = s.UnionOf(parts=(s.TreeIs(tree="4"), s.Rows(first="2", last="3"), s.Corners()))
 
 
 def ids(selector: s.Selector, here: str = "4") -> list[str]:
@@ -28,7 +28,7 @@ def test_members_together_are_the_places_of_a_selector(selector: s.Selector) -> 
 
 
 def test_only_a_union_has_other_members_than_itself() -> None:
-    assert [type(x) for x in EXAMPLES if x.members != (x,)] == [s.Union]
+    assert [type(x) for x in EXAMPLES if x.members != (x,)] == [s.UnionOf]
     assert JOINED.members == JOINED.parts
 
 

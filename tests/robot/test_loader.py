@@ -14,7 +14,7 @@ import yaml
 from fieldhand.errors import ProfileError
 from fieldhand.robot.fields import Keyed
 from fieldhand.robot.loader import MAX_BYTES, load_robot, parse_profile, profile_bytes, robot_names
-from fieldhand.robot.model import Level, Parameter
+from fieldhand.robot.model import LevelThreshold, Parameter
 from support.processes.command import fieldhand
 
 ROVER = {
@@ -81,8 +81,8 @@ def test_a_profile_of_the_users_own_is_read_from_its_path(tmp_path):
     assert robot.source == str(path)
     assert robot.quantity["co2"].words == ("co2", "carbon dioxide")
     assert robot.quantity["co2"].levels == {
-        "low": Level(direction="below", value=400),
-        "very high": Level(direction="above", value=900),
+        "low": LevelThreshold(direction="below", value=400),
+        "very high": LevelThreshold(direction="above", value=900),
     }
     assert robot.action["read_co2"].parameters == (
         Parameter(name="height_m", kind="number", default=1, minimum=0.5, maximum=2, unit="m"),

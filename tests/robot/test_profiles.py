@@ -6,7 +6,7 @@ import pytest
 
 from fieldhand.robot.capabilities import capabilities_of, measures_of
 from fieldhand.robot.loader import load_robot, robot_names
-from fieldhand.robot.model import Level
+from fieldhand.robot.model import LevelThreshold
 from fieldhand.task.capabilities import ChoiceParameter, NumberParameter
 
 
@@ -19,9 +19,9 @@ def test_husky_measures_what_the_design_says_and_knows_what_is_low():
     }
     low = {q.name: q.levels["low"] for q in robot.quantities}
     assert low == {
-        "canopy_temperature": Level(direction="below", value=33),
-        "ambient_temperature": Level(direction="below", value=30),
-        "co2": Level(direction="below", value=400),
+        "canopy_temperature": LevelThreshold(direction="below", value=33),
+        "ambient_temperature": LevelThreshold(direction="below", value=30),
+        "co2": LevelThreshold(direction="below", value=400),
     }
 
 

@@ -14,7 +14,7 @@ from fieldhand.site.describe import aisle_table, describe_driving, report_lines,
 from fieldhand.site.describe import driving as describe_driving_module
 from fieldhand.site.drives import Drives
 from fieldhand.site.geojson import open_site, parse_site
-from fieldhand.site.orchards import random_orchard
+from fieldhand.site.random_orchards import random_orchard
 from support.sites.points import grid, orchard, site_of
 
 NAMED = {"row_names": [str(k // 5 + 1) for k in range(20)]}

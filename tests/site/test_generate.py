@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fieldhand.site.demo_orchard import OrchardShape, Variety, demo_orchard, generate_orchard, to_text
 from fieldhand.site.drives import Drives
-from fieldhand.site.generate import OrchardShape, Variety, demo_orchard, generate_orchard, to_text
 from fieldhand.site.geojson import open_site, parse_site
-from fieldhand.site.orchards import random_orchard
+from fieldhand.site.random_orchards import random_orchard
 
 
 def test_the_same_seed_gives_the_same_orchard_and_another_seed_another():

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.errors import SiteError
-from fieldhand.site.generate import demo_orchard, to_text
+from fieldhand.site.demo_orchard import demo_orchard, to_text
 from fieldhand.site.geojson import demo_path, load_site, open_site, parse_site
 from support.sites.points import area, collection, point, read, square
 

@@ -13,7 +13,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from fieldhand.errors import SiteError
-from fieldhand.site.formats.confined import Allowance, allowance_for, read_confined
+from fieldhand.site.formats.sandbox import ReadLimits, read_limits, read_sandboxed
 from fieldhand.site.geojson import load_site
 from support.examples import examples
 from support.sites.gisfiles import kml, write_layer, zipped
@@ -201,17 +201,17 @@ def test_a_small_file_that_takes_much_memory_or_time_ends_in_one_clear_line(tmp_
     text = f'<kml xmlns="http://www.opengis.net/kml/2.2"><Document>{body}</Document></kml>'
     data = zipped(tmp_path / "bomb.kmz", {"doc.kml": text.encode()}).read_bytes()
     for allowed in (
-        Allowance(memory=300_000_000, result=10**9, cpu_s=60, wall_s=120),
-        Allowance(memory=3_000_000_000, result=1_000_000, cpu_s=60, wall_s=120),
-        Allowance(memory=3_000_000_000, result=10**9, cpu_s=1, wall_s=120),
-        Allowance(memory=3_000_000_000, result=10**9, cpu_s=60, wall_s=0.01),
+        ReadLimits(memory=300_000_000, result=10**9, cpu_s=60, wall_s=120),
+        ReadLimits(memory=3_000_000_000, result=1_000_000, cpu_s=60, wall_s=120),
+        ReadLimits(memory=3_000_000_000, result=10**9, cpu_s=1, wall_s=120),
+        ReadLimits(memory=3_000_000_000, result=10**9, cpu_s=60, wall_s=0.01),
     ):
         with pytest.raises(SiteError, match="cannot be read"):
-            read_confined("zip", {"bomb.kmz": data}, "bomb.kmz", lenient=False, allowed=allowed)
+            read_sandboxed("zip", {"bomb.kmz": data}, "bomb.kmz", lenient=False, allowed=allowed)
 
 
 def test_what_a_site_of_its_size_needs_is_allowed(tmp_path):
     shapes = [shapely.Point(LON + k % 300 * 1e-5, LAT + k // 300 * 1e-5) for k in range(20_000)]
     path = write_layer(tmp_path / "farm.gpkg", "trees", shapes, {"row": [k // 300 for k in range(20_000)]})
-    assert allowance_for(path.stat().st_size).memory <= 1_100_000_000
+    assert read_limits(path.stat().st_size).memory <= 1_100_000_000
     assert len(load_site(path).trees) == 20_000

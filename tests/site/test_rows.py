@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from fieldhand.site.geojson import load_demo, load_site
 from fieldhand.site.model import Site
-from fieldhand.site.orchards import BlockShape, make_orchard, random_orchard
 from fieldhand.site.planting import Planting
+from fieldhand.site.random_orchards import BlockShape, make_orchard, random_orchard
 from fieldhand.testing.generated.orchards import block_shapes, made_orchards, seeds, site_of_made
 from support.sites.points import grid, orchard, site_of
 

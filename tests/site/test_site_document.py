@@ -10,8 +10,8 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fieldhand.site.demo_orchard import to_text
 from fieldhand.site.formats.document import site_document
-from fieldhand.site.generate import to_text
 from fieldhand.site.geojson import load_demo, parse_site
 from support.sites.gisfiles import degrees, line
 from support.sites.points import area, point, read, square

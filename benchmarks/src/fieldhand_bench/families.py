@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from fieldhand.places.selector import Selector
-from fieldhand.places.selectors import EveryNth, Half, Nearest, Other, TreeIs, Trees, Union, Where
+from fieldhand.places.selectors import EveryNth, Half, Nearest, NotVisited, TreeIs, Trees, UnionOf, Where
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.conditions import Compare
@@ -77,7 +77,7 @@ def loops(ground: Ground) -> Node:
     """As many as fit, in rounds, up to a number, or until a reading says enough."""
     sort = ground.number(0, 3)
     if sort == 0:
-        again = Other() if ground.chance(0.3) else None
+        again = NotVisited() if ground.chance(0.3) else None
         return Repeat(id="", times=ground.number(2, 3), body=_as_many(ground, select=again))
     if sort == 1:
         return _as_many(ground, at_most=ground.number(1, 12))
@@ -154,7 +154,7 @@ def _must(ground: Ground, most: int) -> Node:
     if ground.chance(0.3):
         body = InOrder(id="", steps=(body, Act(id="", action=ground.action())))
     order: Literal["best", "given"] = "given" if ground.chance(0.3) else "best"
-    return ForEach(id="", select=Union(parts=tuple(TreeIs(tree=t) for t in trees)), body=body, order=order)
+    return ForEach(id="", select=UnionOf(parts=tuple(TreeIs(tree=t) for t in trees)), body=body, order=order)
 
 
 def _some(ground: Ground) -> Selector:
@@ -171,7 +171,7 @@ def _some(ground: Ground) -> Selector:
 
 def _few(ground: Ground, most: int) -> Selector:
     """So few trees that approval can look at every way that their readings may turn out."""
-    return Union(parts=tuple(TreeIs(tree=t) for t in ground.trees(most)))
+    return UnionOf(parts=tuple(TreeIs(tree=t) for t in ground.trees(most)))
 
 
 def _reading(ground: Ground) -> tuple[Act, Compare]:

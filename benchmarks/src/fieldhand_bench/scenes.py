@@ -14,7 +14,7 @@ from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.geojson import parse_site
 from fieldhand.site.model import Site
-from fieldhand.site.orchards import BlockShape, MadeOrchard, make_orchard, random_shapes
+from fieldhand.site.random_orchards import BlockShape, GeneratedOrchard, make_orchard, random_shapes
 
 #: The attribute that says what a tree is worth.
 WORTH = "yield_kg"
@@ -84,7 +84,7 @@ def _no_rows(rng: np.random.Generator, most_trees: int) -> BlockShape:
 
 def _planted(
     rng: np.random.Generator, shapes: tuple[BlockShape, ...], pond_m: float, fenced: bool, markers: bool
-) -> MadeOrchard:
+) -> GeneratedOrchard:
     try:
         return make_orchard(rng, shapes, pond_m=pond_m, fenced=fenced, markers=markers)
     except SiteError:
@@ -92,7 +92,7 @@ def _planted(
         return make_orchard(rng, shapes, fenced=fenced, markers=markers)
 
 
-def _with_worth(rng: np.random.Generator, made: MadeOrchard) -> bytes:
+def _with_worth(rng: np.random.Generator, made: GeneratedOrchard) -> bytes:
     features: list[dict[str, Any]] = [
         {**f, "properties": {**f["properties"], WORTH: round(float(rng.gamma(2.0, 4.0)), 1)}}
         if f["properties"].get("kind") == "tree"

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from fieldhand.language import joined, message, shaped
-from fieldhand.places.saying import say_selector
+from fieldhand.places.wording import say_selector
 from fieldhand.task import plan
 from fieldhand.task.frames import Task
 

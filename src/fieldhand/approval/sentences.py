@@ -10,9 +10,9 @@ from fieldhand.approval.resolved import Found
 from fieldhand.approval.visits import in_order, say_expected, say_expected_visits, say_ids
 from fieldhand.language import counted, message, shaped
 from fieldhand.language.words import say_marker, say_name, say_number, say_times, say_tree
-from fieldhand.places.saying import say_places, say_selector
 from fieldhand.places.selector import Selector
-from fieldhand.places.selectors import Trees, Union
+from fieldhand.places.selectors import Trees, UnionOf
+from fieldhand.places.wording import say_places, say_selector
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.conditions import Condition
@@ -240,7 +240,7 @@ class _Writer:
             return self._optional_visits(node, said, found)
         if node.at_most is not None:
             at = message("At no more than {count} of {trees}", count=node.at_most, trees=said)
-        elif isinstance(node.select, Union) and not said.startswith("trees "):
+        elif isinstance(node.select, UnionOf) and not said.startswith("trees "):
             at = message("At {place}", place=said)
         elif said.startswith("every "):
             at = message("At {every_tree}", every_tree=said)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from fieldhand.approval.resolved import Found
 from fieldhand.language import counted, message
 from fieldhand.language.words import say_rounded
-from fieldhand.places.saying import say_places, say_selector
 from fieldhand.places.selector import Selector
+from fieldhand.places.wording import say_places, say_selector
 from fieldhand.task.plan import ForEach
 
 #: Optional visits that are less likely than this are named as those that go first, where they are no more than so many.

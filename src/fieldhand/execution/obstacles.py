@@ -33,7 +33,7 @@ def avoid(attempt: Attempt, node: str, place: Place, what: str) -> None:
     ahead = path.interpolate(min(path.length, along + _AHEAD_M))
     if ahead.distance(Point(position.x, position.y)) <= 0.0:
         ahead = Point(attempt.driven[-1])
-    attempt.blockages.found((position.x, position.y), (ahead.x, ahead.y))
+    attempt.blockages.add_ahead((position.x, position.y), (ahead.x, ahead.y))
     attempt.guard.ways_are(attempt.drives)
     after = attempt.drives.linked(trees, attempt.standing)
     closed = [tree.id for tree, was, is_ in zip(trees, before, after, strict=True) if was and not is_]

@@ -102,6 +102,6 @@ class MissionTree(NodeBehavior):
 
 
 def _say_selector(selector: Selector) -> str:
-    from fieldhand.places.saying import say_selector
+    from fieldhand.places.wording import say_selector
 
     return say_selector(selector)

@@ -5,16 +5,18 @@ From the Task alone. Where the plan leaves a number to the site, to a reading or
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Literal
 
 from fieldhand.places import selectors as s
+from fieldhand.places.count_range import ONE, CountRange, exactly
 from fieldhand.places.selector import Selector
-from fieldhand.places.size import ONE, Range, exactly
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
+from fieldhand.task.codec_shapes import element_name
 from fieldhand.task.frames import Task
 from fieldhand.terms import Side, Test, Value
 
@@ -37,8 +39,8 @@ class Captures:
     node: str
     action: str
     each: int
-    places: Range
-    total: Range
+    places: CountRange
+    total: CountRange
     bound: bool
     around: frozenset[int]
 
@@ -170,8 +172,8 @@ def planned(task: Task, size: Callable[[str], int | None]) -> Planned:
 class _Around:
     """What stands around a node: distinct places, rounds, numbers, and whether it depends on anything."""
 
-    places: Range = ONE
-    rounds: Range = ONE
+    places: CountRange = ONE
+    rounds: CountRange = ONE
     numbers: frozenset[int] = frozenset()
     bound: bool = False
 
@@ -195,7 +197,7 @@ def _captures(node: p.Node, around: _Around, size: Callable[[str], int | None]) 
     if node.visits_each and node.selector is not None:
         inside = _visited(node, node.selector, inside, size(node.id), loose=loose)
     elif node.rounds is not None:
-        times = Range(low=1 if node.tested is not None else node.rounds, high=node.rounds)
+        times = CountRange(low=1 if node.tested is not None else node.rounds, high=node.rounds)
         inside = replace(inside, rounds=around.rounds.times(times), numbers=around.numbers | {node.rounds})
     for child in node.children:
         yield from _captures(child, inside, size)
@@ -207,8 +209,8 @@ def _visited(node: p.Node, select: Selector, around: _Around, size: int | None, 
     most = frozenset({node.at_most} if node.at_most is not None else ())
     if node.at_most is not None:
         high = node.at_most if inside.high is None else min(inside.high, node.at_most)
-        inside = Range(low=min(inside.low, high), high=high)
-    inside = Range(low=0, high=inside.high) if loose else inside
+        inside = CountRange(low=min(inside.low, high), high=high)
+    inside = CountRange(low=0, high=inside.high) if loose else inside
     return replace(
         around,
         places=around.places.times(inside),
@@ -281,7 +283,7 @@ def _numbers(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], .
             value = getattr(x, field.name)
             if isinstance(value, bool) or value == field.default or isinstance(x, s.Where):
                 continue
-            what = f"{type(x).__name__} {field.name}".replace("_", " ").lower()
+            what = re.sub("[-_]", " ", f"{element_name(type(x))} {field.name}")
             if isinstance(value, float):
                 yield Number(node=name, what=what, value=value, kind="length")
             elif isinstance(value, int) and abs(value) > 1:

@@ -44,7 +44,7 @@ class Sizes:
             return
         self.every.update(n for part in selector.walk() if (n := self._size(part)) is not None)
         found = self._places(selector)
-        visited = any(isinstance(part, s.Other) for part in selector.walk())
+        visited = any(isinstance(part, s.NotVisited) for part in selector.walk())
         self._of_node[node.id] = selector.size.exact if found is None or visited else len(found)
         if found:
             self._bind(node, found)

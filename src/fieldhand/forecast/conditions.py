@@ -18,7 +18,7 @@ from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
 from fieldhand.places.selectors import TreeIs, Where
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.kinds import phrase
+from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.model import Place, Site
 from fieldhand.task.conditions import AllOf, AnyOf, Between, Compare, Condition, Level, Not, TreeHas
 from fieldhand.terms import Test, Value

@@ -12,7 +12,7 @@ from fieldhand.forecast.possible_answers import BranchReadings
 from fieldhand.forecast.resource_limits import speed_of
 from fieldhand.forecast.sampled_costs import MissionSamples
 from fieldhand.forecast.walk_steps import Answer, Decision, DecisionKind, StepKind, WalkStep, never
-from fieldhand.places.context import Context, Visited
+from fieldhand.places.context import Context, VisitedIds
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.frames import Task
@@ -84,7 +84,7 @@ class WalkState:
         #: Where the walk began.
         self.beginning = context or Context(here=visit_order.start_place(drives))
         self.context = self.beginning
-        self._visited = Visited(self.beginning.visited)
+        self._visited = VisitedIds(self.beginning.visited)
         #: Where the robot itself is: the place in hand, or where a drive was blocked.
         self._standing = self.context.here
         self._speed = speed_of(task.constraints, robot)

@@ -12,7 +12,7 @@ definitions to readers):
 - ``points``: free points at a spacing or spread over a zone.
 
 ``selector`` says what every selector gives, ``selectors`` registers them; ``resolution`` resolves one, ``explanation``
-gives the way to its places, ``saying`` says it.
+gives the way to its places, ``wording`` says it.
 
 Three sorts of parts need to be told apart when they nest. *Regions and edges* (half, quarter, edge, middle of an edge)
 are those of the farm, or of the block or zone that is named: "yellow trees in the northern half" are in the northern

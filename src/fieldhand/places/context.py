@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from fieldhand.site.model import Place
 
 
-class Visited(Collection[str]):
+class VisitedIds(Collection[str]):
     """Ids in their order, each once. Never changed: what is one longer is another, and both share the ids.
 
     A walk over thousands of trees keeps one of these for each of its steps.
@@ -23,11 +23,11 @@ class Visited(Collection[str]):
         self._at = {name: k for k, name in enumerate(ids)}
         self._count = len(self._at)
 
-    def plus(self, name: str) -> Visited:
+    def plus(self, name: str) -> VisitedIds:
         """These and one more, unless it is among them."""
         if name in self:
             return self
-        longer = Visited()
+        longer = VisitedIds()
         longer._at = self._at if len(self._at) == self._count else {one: k for k, one in enumerate(self)}
         longer._at[name] = self._count
         longer._count = self._count + 1
@@ -43,7 +43,7 @@ class Visited(Collection[str]):
         return self._count
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Visited | tuple) and tuple(self) == tuple(other)
+        return isinstance(other, VisitedIds | tuple) and tuple(self) == tuple(other)
 
     def __hash__(self) -> int:
         return hash(tuple(self))

@@ -5,16 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from fieldhand.places.context import Context
-from fieldhand.places.resolution import Resolution, Step
-from fieldhand.places.saying import say_selectors
+from fieldhand.places.resolution import Resolution, ResolutionStep
 from fieldhand.places.selector import Selector
+from fieldhand.places.wording import say_selectors
 from fieldhand.site.model import Place, Site
 
 _FEW = 6
 
 
 @dataclass(frozen=True, kw_only=True)
-class Part:
+class ResolvedPart:
     """One part of a selector as it was resolved.
 
     Attributes:
@@ -48,7 +48,7 @@ class Explanation:
     """
 
     places: tuple[Place, ...]
-    parts: tuple[Part, ...]
+    parts: tuple[ResolvedPart, ...]
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -86,23 +86,23 @@ def notes(selector: Selector, site: Site, context: Context) -> tuple[str, ...]:
     """
     steps = Resolution(site, context)
     steps.spots(selector)
-    return tuple(dict.fromkeys(note for step in steps.steps for note in step.tell.notes))
+    return tuple(dict.fromkeys(note for step in steps.steps for note in step.notes.remarks))
 
 
-def _part(step: Step, words: str) -> Part:
-    return Part(
+def _part(step: ResolutionStep, words: str) -> ResolvedPart:
+    return ResolvedPart(
         selector=step.selector,
         words=words,
-        rule=step.tell.rule,
-        candidates=step.tell.candidates,
+        rule=step.notes.rule,
+        candidates=step.notes.candidates,
         chosen=len(step.found),
         ids=tuple(p.id for p in step.found.keep(slice(_FEW)).places),
-        runners_up=step.tell.runners_up,
-        notes=tuple(step.tell.notes),
+        runners_up=step.notes.runners_up,
+        notes=tuple(step.notes.remarks),
     )
 
 
-def _line(part: Part) -> str:
+def _line(part: ResolvedPart) -> str:
     of = f"{part.chosen}" if part.candidates is None else f"{part.chosen} of {part.candidates}"
     named = ", ".join(part.ids) + (f" and {part.chosen - len(part.ids)} more" if part.chosen > len(part.ids) else "")
     return "; ".join((f"{part.words}: {of} ({named})", *((part.rule,) if part.rule else ()), *part.notes))

@@ -10,15 +10,15 @@ import shapely
 
 from fieldhand.errors import PlaceError
 from fieldhand.language import message
-from fieldhand.places import spots
+from fieldhand.places import place_group
 from fieldhand.places.context import Context
-from fieldhand.places.faults import nothing
 from fieldhand.places.filters.zones import zones_called
-from fieldhand.places.neighbours.distances import Ground, Origin
-from fieldhand.places.saying import say_selector
+from fieldhand.places.neighbours.distances import Origin, ZoneGround
+from fieldhand.places.place_errors import nothing
+from fieldhand.places.place_group import PlaceGroup
+from fieldhand.places.resolution_notes import ResolutionNotes
 from fieldhand.places.selector import Selector
-from fieldhand.places.spots import Spots
-from fieldhand.places.tell import Tell
+from fieldhand.places.wording import say_selector
 from fieldhand.site.model import Place, Site
 from fieldhand.site.names import listed, short
 
@@ -48,12 +48,12 @@ def resolve_one(selector: Selector, site: Site, context: Context) -> Place:
 
 
 @dataclass(frozen=True, eq=False)
-class Step:
+class ResolutionStep:
     """A part of a selector that was resolved."""
 
     selector: Selector
-    tell: Tell
-    found: Spots
+    notes: ResolutionNotes
+    found: PlaceGroup
 
 
 class Resolution:
@@ -63,28 +63,28 @@ class Resolution:
         steps: The parts that were resolved, each after those inside it.
     """
 
-    def __init__(self, site: Site, context: Context, known: dict[str, Step] | None = None) -> None:
+    def __init__(self, site: Site, context: Context, known: dict[str, ResolutionStep] | None = None) -> None:
         self.site = site
         self.context = context
-        self.steps: list[Step] = []
-        self._known: dict[str, Step] = {} if known is None else known
-        self._told: set[str] = set()
+        self.steps: list[ResolutionStep] = []
+        self._known: dict[str, ResolutionStep] = {} if known is None else known
+        self._listed: set[str] = set()
 
-    def spots(self, selector: Selector) -> Spots:
+    def spots(self, selector: Selector) -> PlaceGroup:
         """Return the places that the selector leaves, at least one."""
         key = repr(selector)  # not the selector: one that says 1.0 is equal to one that says True
         if key not in self._known:
-            tell = Tell()
-            found = selector.resolve(self, tell)
+            notes = ResolutionNotes()
+            found = selector.resolve(self, notes)
             if not len(found):
                 raise nothing(self.site, selector)
-            self._known[key] = Step(selector, tell, found)
-        if key not in self._told:
-            self._told.add(key)
+            self._known[key] = ResolutionStep(selector, notes, found)
+        if key not in self._listed:
+            self._listed.add(key)
             self.steps.append(self._known[key])
         return self._known[key].found
 
-    def one(self, selector: Selector) -> Spots:
+    def one(self, selector: Selector) -> PlaceGroup:
         """Return the one place that the selector leaves."""
         found = self.spots(selector)
         if len(found) > 1:
@@ -101,29 +101,29 @@ class Resolution:
             )
         return found
 
-    def every_tree(self) -> Spots:
+    def every_tree(self) -> PlaceGroup:
         """Return every tree of the site, in the order of the file."""
-        return Spots.all_trees(self.site)
+        return PlaceGroup.all_trees(self.site)
 
-    def group(self, *places: Place) -> Spots:
+    def group(self, *places: Place) -> PlaceGroup:
         """Return a group of these places, each once."""
-        return Spots.of(self.site, places)
+        return PlaceGroup.of(self.site, places)
 
-    def joined(self, groups: Sequence[Spots]) -> Spots:
+    def joined(self, groups: Sequence[PlaceGroup]) -> PlaceGroup:
         """Return all places of some groups in their order, each once."""
-        return spots.joined(self.site, groups)
+        return place_group.joined(self.site, groups)
 
-    def visited(self) -> Spots:
+    def visited(self) -> PlaceGroup:
         """Return the trees that this mission has visited."""
         known = [self.site.by_id[t].index for t in self.context.visited if t in self.site.by_id]
-        return Spots(site=self.site, index=np.array(known, dtype=np.intp))
+        return PlaceGroup(site=self.site, index=np.array(known, dtype=np.intp))
 
     def origin(self, selector: Selector) -> Origin:
         """Return what distances are measured from: the zone itself where a selector is all trees of one."""
         zones = zones_called(self.site, selector.whole_zone)
-        return Ground(site=self.site, area=shapely.union_all(zones)) if zones else self.spots(selector)
+        return ZoneGround(site=self.site, area=shapely.union_all(zones)) if zones else self.spots(selector)
 
-    def ground(self, selector: Selector, of: Spots, *, picks_too: bool = True) -> Spots:
+    def ground(self, selector: Selector, of: PlaceGroup, *, picks_too: bool = True) -> PlaceGroup:
         """Return the group whose extent counts: ``of`` before visited trees (and attributes and picks) are taken out.
 
         Args:

@@ -18,16 +18,16 @@ from typing import TYPE_CHECKING, ClassVar, Literal, Self
 
 from fieldhand.language import message
 from fieldhand.language.words import say_zone
-from fieldhand.places.faults import too_few
+from fieldhand.places.count_range import ANY, ONE, CountRange, exactly
+from fieldhand.places.noun_phrase import NounPhrase, one
 from fieldhand.places.ordinals import say_ordinal, say_ranked_tree
-from fieldhand.places.phrase import Phrase, one
-from fieldhand.places.size import ANY, ONE, Range, exactly
+from fieldhand.places.place_errors import too_few
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
     from fieldhand.terms import MarkerName, Side
 
@@ -55,20 +55,20 @@ class Selector(ABC):
         """Return one as a planner would write it, for a context in which a tree is in hand and bound."""
 
     @abstractmethod
-    def resolve(self, resolution: Resolution, tell: Tell) -> Spots:
+    def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         """Return the places that are meant.
 
         Args:
             resolution: Resolves the selectors inside this one.
-            tell: Takes the rule that is applied and what a person may not expect.
+            notes: Takes the rule that is applied and what a person may not expect.
         """
 
     @abstractmethod
-    def phrase(self, saying: Saying) -> Phrase:
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
         """Return the selector in words.
 
         Args:
-            saying: Says the selectors inside this one.
+            wording: Says the selectors inside this one.
         """
 
     @property
@@ -77,7 +77,7 @@ class Selector(ABC):
         return False
 
     @property
-    def size(self) -> Range:
+    def size(self) -> CountRange:
         """The number of distinct places, by the form alone."""
         return ONE if self.single else ANY
 
@@ -171,17 +171,17 @@ class Selector(ABC):
         del picks_too
         return self
 
-    def it(self, saying: Saying) -> str:
+    def it(self, wording: SelectorWording) -> str:
         """Return the selector in words that may follow "next to"."""
-        return saying.phrase(self).say()
+        return wording.phrase(self).say()
 
-    def from_it(self, saying: Saying) -> str:
+    def from_it(self, wording: SelectorWording) -> str:
         """Return in words from where something is counted, empty where that goes without saying."""
-        return self.it(saying)
+        return self.it(wording)
 
-    def as_origin(self, saying: Saying) -> str:
+    def as_origin(self, wording: SelectorWording) -> str:
         """Return in words what something is near to or far from: a zone itself, not the trees in it."""
-        return say_zone(self.whole_zone) if self.whole_zone else self.it(saying)
+        return say_zone(self.whole_zone) if self.whole_zone else self.it(wording)
 
     def aside(self, said: str) -> str:
         """Return what stands in brackets behind the name of the one place, empty where the name is all of it.
@@ -191,9 +191,9 @@ class Selector(ABC):
         """
         return said
 
-    def nth_phrase(self, number: int, saying: Saying) -> Phrase:
+    def nth_phrase(self, number: int, wording: SelectorWording) -> NounPhrase:
         """Return the place of a number among those of this selector in words; -1 is the last."""
-        group = saying.phrase(self)
+        group = wording.phrase(self)
         if group.plain:
             said = say_ranked_tree(number)
         else:
@@ -209,19 +209,19 @@ class FromGroup(Selector):
     ground_rule: ClassVar[GroundRule] = "own"
 
     @abstractmethod
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         """Return which of some places are meant, and in which order.
 
         Args:
             of: The places of ``of``, at least one.
             resolution: Resolves the other selectors inside this one.
-            tell: Takes the rule that is applied and what a person may not expect.
+            notes: Takes the rule that is applied and what a person may not expect.
         """
 
-    def resolve(self, resolution: Resolution, tell: Tell) -> Spots:
+    def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         of = resolution.spots(self.of)
-        tell.candidates = len(of)
-        return self.choose(of, resolution, tell)
+        notes.candidates = len(of)
+        return self.choose(of, resolution, notes)
 
     @property
     def keeps_order(self) -> bool:
@@ -250,14 +250,14 @@ class Counted(FromGroup):
         return self.count == 1
 
     @property
-    def size(self) -> Range:
+    def size(self) -> CountRange:
         return exactly(self.count)
 
     @property
     def keeps_order(self) -> bool:
         return True
 
-    def need(self, candidates: Spots, resolution: Resolution) -> None:
+    def need(self, candidates: PlaceGroup, resolution: Resolution) -> None:
         """Check that there are enough to choose from.
 
         Raises:

@@ -17,7 +17,7 @@ from fieldhand.places.areas.quarter import Quarter
 from fieldhand.places.filters.excluding import Excluding
 from fieldhand.places.filters.in_block import InBlock
 from fieldhand.places.filters.in_zone import InZone
-from fieldhand.places.filters.other import Other
+from fieldhand.places.filters.not_visited import NotVisited
 from fieldhand.places.filters.where import Where
 from fieldhand.places.filters.within import Within
 from fieldhand.places.neighbours.adjacent import Adjacent
@@ -29,7 +29,7 @@ from fieldhand.places.picks.first import First
 from fieldhand.places.picks.last import Last
 from fieldhand.places.picks.nth import Nth
 from fieldhand.places.picks.ordered import Ordered
-from fieldhand.places.picks.random import Random
+from fieldhand.places.picks.random_sample import RandomSample
 from fieldhand.places.picks.spread import Spread
 from fieldhand.places.picks.take import Take
 from fieldhand.places.picks.top import Top
@@ -49,7 +49,7 @@ from fieldhand.places.sources.here import Here
 from fieldhand.places.sources.marker import Marker
 from fieldhand.places.sources.tree_is import TreeIs
 from fieldhand.places.sources.trees import Trees
-from fieldhand.places.sources.union import Union
+from fieldhand.places.sources.union_of import UnionOf
 
 SELECTORS: tuple[type[Selector], ...] = (
     Trees,
@@ -71,14 +71,14 @@ SELECTORS: tuple[type[Selector], ...] = (
     Nearest,
     Farthest,
     Adjacent,
-    Other,
+    NotVisited,
     Excluding,
     Where,
     Top,
     InZone,
     Within,
     Take,
-    Random,
+    RandomSample,
     Spread,
     Evenly,
     InBlock,
@@ -94,5 +94,5 @@ SELECTORS: tuple[type[Selector], ...] = (
     Spaced,
     Apart,
     PointsIn,
-    Union,
+    UnionOf,
 )

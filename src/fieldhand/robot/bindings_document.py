@@ -100,7 +100,7 @@ Code = Annotated[int, BeforeValidator(no_bool), Field(ge=0, le=65_535)]
 Constant = Annotated[RequestValue, PlainValidator(_constant)]
 
 
-class _Valued(Keyed):
+class _ConvertedDocument(Keyed):
     """A number in a message, and how it becomes the quantity's."""
 
     path: Path | None = None
@@ -109,7 +109,7 @@ class _Valued(Keyed):
     offset: Number | None = None
 
     @model_validator(mode="after")
-    def _converted_once(self) -> _Valued:
+    def _converted_once(self) -> _ConvertedDocument:
         if self.unit is not None and (self.scale, self.offset) != (None, None):
             raise ValueError("unit and scale or offset say the same; give the unit, or scale and offset")
         if self.scale == 0:
@@ -117,7 +117,7 @@ class _Valued(Keyed):
         return self
 
 
-class _Heard(Keyed):
+class _TopicDocument(Keyed):
     """How a topic is read."""
 
     topic: RosName
@@ -125,17 +125,17 @@ class _Heard(Keyed):
     transient: bool = False
 
     @model_validator(mode="after")
-    def _heard(self) -> _Heard:
+    def _heard(self) -> _TopicDocument:
         if self.transient and not self.reliable:
             raise ValueError("transient needs reliable; add reliable: true")
         return self
 
 
-class ReadingDocument(_Valued):
+class ReadingDocument(_ConvertedDocument):
     """``{path: temperature, unit: K}``, or the path alone."""
 
 
-class NextMessageDocument(_Valued):
+class NextMessageDocument(_ConvertedDocument):
     """A reading that is the next message of a topic."""
 
     topic: RosName
@@ -144,7 +144,7 @@ class NextMessageDocument(_Valued):
     reliable: bool = False
 
 
-class _Called(Keyed):
+class _CallDocument(Keyed):
     """What both kinds of calls have."""
 
     name: RosName
@@ -155,13 +155,13 @@ class _Called(Keyed):
     within_s: Limit | None = None
 
 
-class ActionCallDocument(_Called):
+class ActionCallDocument(_CallDocument):
     """A ROS action that makes a capture."""
 
     type: ActionType
 
 
-class ServiceCallDocument(_Called):
+class ServiceCallDocument(_CallDocument):
     """A ROS service that makes a capture."""
 
     type: ServiceType
@@ -219,7 +219,7 @@ class NavigationDocument(Keyed):
         return self
 
 
-class PositionDocument(_Heard):
+class PositionDocument(_TopicDocument):
     """Where the robot is."""
 
     type: Literal["sensor_msgs/msg/NavSatFix"] = "sensor_msgs/msg/NavSatFix"
@@ -227,21 +227,21 @@ class PositionDocument(_Heard):
     most_sigma_m: Metres = 1.0
 
 
-class BatteryDocument(_Heard, _Valued):
+class BatteryDocument(_TopicDocument, _ConvertedDocument):
     """The battery's charge."""
 
     type: MessageType = "sensor_msgs/msg/BatteryState"
     stale_s: Stale = 30.0
 
 
-class OdometryDocument(_Heard):
+class OdometryDocument(_TopicDocument):
     """What counts the metres."""
 
     type: Literal["nav_msgs/msg/Odometry"] = "nav_msgs/msg/Odometry"
     stale_s: Stale = 3.0
 
 
-class StopDocument(_Heard):
+class StopDocument(_TopicDocument):
     """An emergency stop."""
 
     type: MessageType = "std_msgs/msg/Bool"

@@ -50,7 +50,7 @@ Valued = ReadingDocument | NextMessageDocument | BatteryDocument
 
 
 @dataclass(frozen=True, kw_only=True)
-class Mismatch:
+class ProfileProblem:
     """What does not fit between the bindings and the rest of a profile: where, what, and what to do."""
 
     path: str
@@ -58,9 +58,9 @@ class Mismatch:
     advice: str
 
 
-def mismatches(document: ProfileDocument) -> tuple[Mismatch, ...]:
+def binding_problems(document: ProfileDocument) -> tuple[ProfileProblem, ...]:
     """Everything that does not fit."""
-    return () if document.ros2 is None else tuple(_mismatches(document, document.ros2))
+    return () if document.ros2 is None else tuple(_binding_problems(document, document.ros2))
 
 
 def bindings_of(document: ProfileDocument) -> Ros2Bindings | None:
@@ -85,14 +85,14 @@ def bindings_of(document: ProfileDocument) -> Ros2Bindings | None:
     )
 
 
-def _mismatches(document: ProfileDocument, ros2: Ros2Document) -> Iterator[Mismatch]:
+def _binding_problems(document: ProfileDocument, ros2: Ros2Document) -> Iterator[ProfileProblem]:
     units = {name: quantity.unit for name, quantity in document.quantities.items()}
     yield from _unreadable(ros2.battery, ros2.battery.type, "percent", "ros2.battery")
     for name, bound in ros2.actions.items():
         where = f"ros2.actions.{name}"
         action = document.actions.get(name)
         if action is None:
-            yield Mismatch(
+            yield ProfileProblem(
                 path=where, what=f"the profile has no action {name!r}", advice=_nearest(name, document.actions)
             )
             continue
@@ -108,46 +108,50 @@ def _mismatches(document: ProfileDocument, ros2: Ros2Document) -> Iterator[Misma
                 yield from _unreadable(message, message.type, units[quantity], f"{where}.topics.{quantity}")
 
 
-def _requests(bound: ActionBindingDocument, action: ActionDocument, where: str) -> Iterator[Mismatch]:
+def _requests(bound: ActionBindingDocument, action: ActionDocument, where: str) -> Iterator[ProfileProblem]:
     """What a request refers to that the action does not have."""
     call = bound.action or bound.service
     known = [*PLACE_REFERENCES, *(f"${name}" for name in action.parameters)]
     for path, value in call.request.items() if call is not None else ():
         if isinstance(value, str) and value.startswith("$") and value not in known:
             kind = "action" if bound.action is not None else "service"
-            yield Mismatch(
+            yield ProfileProblem(
                 path=f"{where}.{kind}.request.{path}",
                 what=f"{value!r} is neither a parameter of the action nor the place",
                 advice=_nearest(value, known),
             )
 
 
-def _sources(bound: ActionBindingDocument, action: ActionDocument, where: str) -> Iterator[Mismatch]:
+def _sources(bound: ActionBindingDocument, action: ActionDocument, where: str) -> Iterator[ProfileProblem]:
     """Quantities with no source, with two, or that the action does not measure."""
     call = bound.action or bound.service
     called = () if call is None else tuple(call.readings)
     for quantity in action.measures:
         if quantity not in called and quantity not in bound.topics:
-            yield Mismatch(
+            yield ProfileProblem(
                 path=where,
                 what=f"nothing says where {quantity!r} is read",
                 advice="add it to the readings of the action or service, or to topics",
             )
     for quantity in dict.fromkeys((*called, *bound.topics)):
         if quantity in called and quantity in bound.topics:
-            yield Mismatch(path=where, what=f"{quantity!r} is read twice", advice="leave it in readings or in topics")
+            yield ProfileProblem(
+                path=where, what=f"{quantity!r} is read twice", advice="leave it in readings or in topics"
+            )
         if quantity not in action.measures:
             measured = f"it measures {', '.join(action.measures)}" if action.measures else "it measures nothing"
-            yield Mismatch(path=where, what=f"the action does not measure {quantity!r}", advice=measured)
+            yield ProfileProblem(path=where, what=f"the action does not measure {quantity!r}", advice=measured)
 
 
-def _unreadable(valued: Valued, type_name: str, wanted: str, where: str) -> Iterator[Mismatch]:
+def _unreadable(valued: Valued, type_name: str, wanted: str, where: str) -> Iterator[ProfileProblem]:
     """Why a number cannot be had in the unit that is wanted."""
     path, given = _place_and_unit(valued, type_name)
     if not path:
-        yield Mismatch(path=where, what="the key 'path' is missing", advice="say where in the message the value stands")
+        yield ProfileProblem(
+            path=where, what="the key 'path' is missing", advice="say where in the message the value stands"
+        )
     if given and conversion(given, wanted) is None:
-        yield Mismatch(
+        yield ProfileProblem(
             path=where,
             what=f"{given} cannot be turned into {wanted}",
             advice=f"give scale and offset, or one of the units {', '.join(known_units())}",

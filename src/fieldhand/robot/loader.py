@@ -15,7 +15,7 @@ from fieldhand.errors import ProfileError
 from fieldhand.files import FileFault, read_file
 from fieldhand.language import message, recalled
 from fieldhand.plugins import Plugin, active
-from fieldhand.robot.bindings_loader import Mismatch, bindings_of, mismatches
+from fieldhand.robot.bindings_loader import ProfileProblem, binding_problems, bindings_of
 from fieldhand.robot.document import (
     ActionDocument,
     LevelDocument,
@@ -23,7 +23,7 @@ from fieldhand.robot.document import (
     ProfileDocument,
     QuantityDocument,
 )
-from fieldhand.robot.model import Action, Energy, LegCost, Level, Parameter, Patience, Quantity, RobotProfile
+from fieldhand.robot.model import Action, Energy, LegCost, LevelThreshold, Parameter, Patience, Quantity, RobotProfile
 from fieldhand.strict_yaml import YamlFault, read_yaml
 
 #: A profile is a page or two; a file beyond this is something else.
@@ -73,7 +73,7 @@ def parse_profile(data: bytes, *, source: str = "profile") -> RobotProfile:
         document = ProfileDocument.model_validate(content)
     except ValidationError as error:
         raise _refused([_explained(problem) for problem in error.errors(include_url=False)], source) from None
-    if found := mismatches(document):
+    if found := binding_problems(document):
         raise _refused(found, source)
     return _profile(document, sha256=hashlib.sha256(data).hexdigest(), source=source)
 
@@ -150,14 +150,14 @@ def _content(data: bytes, source: str) -> dict[Any, Any]:
     return content
 
 
-def _explained(problem: ErrorDetails) -> Mismatch:
+def _explained(problem: ErrorDetails) -> ProfileProblem:
     """A problem of one key, in words."""
     path = [str(part) for part in problem["loc"] if part != "[key]"]
     what, advice = _words_for(problem, path)
-    return Mismatch(path=".".join(path), what=what, advice=advice)
+    return ProfileProblem(path=".".join(path), what=what, advice=advice)
 
 
-def _refused(problems: Sequence[Mismatch], source: str) -> ProfileError:
+def _refused(problems: Sequence[ProfileProblem], source: str) -> ProfileError:
     """All problems of a profile as one line: of each its key path and what; what to do about the first."""
     first, *others = [(_short(problem.path), _quoted(problem.what)) for problem in problems]
     more = "; ".join(f"{key or 'the profile'}: {what}" for key, what in others[:_MOST_PROBLEMS])
@@ -242,11 +242,11 @@ def _quantity(name: str, document: QuantityDocument) -> Quantity:
     )
 
 
-def _level(document: LevelDocument) -> Level:
+def _level(document: LevelDocument) -> LevelThreshold:
     if document.below is not None:
-        return Level(direction="below", value=document.below)
+        return LevelThreshold(direction="below", value=document.below)
     assert document.above is not None  # noqa: S101  LevelDocument has exactly one of the two
-    return Level(direction="above", value=document.above)
+    return LevelThreshold(direction="above", value=document.above)
 
 
 def _action(name: str, document: ActionDocument) -> Action:

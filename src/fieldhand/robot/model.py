@@ -18,7 +18,7 @@ InDoubtPolicy = Literal["repeat", "skip"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Level:
+class LevelThreshold:
     """A word for a reading: "low" is ``below`` 33."""
 
     direction: Direction
@@ -42,7 +42,7 @@ class Quantity:
     name: str
     unit: str
     words: tuple[str, ...]
-    levels: Mapping[str, Level]
+    levels: Mapping[str, LevelThreshold]
     minimum: float
     maximum: float
     typical: float

@@ -8,8 +8,8 @@ from itertools import chain, count
 import shapely
 from shapely.geometry.base import BaseGeometry
 
+from fieldhand.site.feature_kinds import NAME_KEYS, phrase, text_of
 from fieldhand.site.features import BarrierFeature, PointFeature, gate_width_m
-from fieldhand.site.kinds import NAME_KEYS, phrase, text_of
 from fieldhand.site.model import Gate, Place, Zone
 from fieldhand.site.projection import Projection
 

@@ -52,7 +52,7 @@ class Blockages:
         self.stretches: tuple[Polygon, ...] = ()
         self.version = 0
 
-    def found(self, at: XY, towards: XY) -> Polygon:
+    def add_ahead(self, at: XY, towards: XY) -> Polygon:
         """A robot was stopped at a point by what is between it and the next.
 
         Of an obstacle on open ground that turns out to be larger each further stretch is taken twice as wide.
@@ -109,8 +109,8 @@ def _blocked_ahead(layout: Layout, at: XY, towards: XY, half_width_m: float) -> 
             _, wide = aisle.width(np.array([near, far])).tolist()
             corners = np.array([(near, v - wide), (far, v - wide), (far, v + wide), (near, v + wide)])
             strip = Polygon(frame.world(corners))
-            found = aisle.polygon.buffer(-_BEFORE_ROW_M).intersection(strip)
-            if (largest := _largest(found)) is not None:
+            add_ahead = aisle.polygon.buffer(-_BEFORE_ROW_M).intersection(strip)
+            if (largest := _largest(add_ahead)) is not None:
                 return largest
     px, py = -uy, ux
     x, y = at[0] + ux * gap, at[1] + uy * gap

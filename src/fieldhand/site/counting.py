@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from fieldhand.errors import PlaceError
 from fieldhand.language import message
 from fieldhand.language.words import COMPASS
-from fieldhand.site.kinds import phrase
+from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.model import Site
 from fieldhand.site.names import say_block
 from fieldhand.site.planting import Block, Planting, Row

@@ -19,11 +19,11 @@ from fieldhand.errors import DriveFault
 from fieldhand.language import message
 from fieldhand.language.words import say_marker, say_number, say_tree
 from fieldhand.site.driving.layout import Layout, Spot
-from fieldhand.site.driving.network import Network, network_of
+from fieldhand.site.driving.network import DrivableNetwork, network_of
 from fieldhand.site.driving.reasons import cut_off, no_stand
 from fieldhand.site.driving.roads import Roads, roads_of
-from fieldhand.site.driving.sides import Visited, few_lanes, pick
-from fieldhand.site.driving.standing import Candidate, StandingPlaces
+from fieldhand.site.driving.sides import RowVisits, few_lanes, pick
+from fieldhand.site.driving.stands import Candidate, StandingPlaces
 from fieldhand.site.model import Place, Site
 
 XY = tuple[float, float]
@@ -158,12 +158,12 @@ class Drives:
         origin = self._origin(here)
         options = self._stands.of_all(places)
         metres = self._metres(places, options, origin)
-        rows: dict[tuple[int, int], Visited] = {}
+        rows: dict[tuple[int, int], RowVisits] = {}
         keys = [self._row_of(place, candidates) for place, candidates in zip(places, options, strict=True)]
         for key, candidates, away in zip(keys, options, metres, strict=True):
             if key is not None:
                 lanes = [c.lane for c in candidates]
-                row = rows.setdefault(key, Visited(lanes[0], lanes[-1]))  # type: ignore[arg-type]
+                row = rows.setdefault(key, RowVisits(lanes[0], lanes[-1]))  # type: ignore[arg-type]
                 row.visits.append(
                     {c.lane: (c, m) for c, m in zip(candidates, away, strict=True) if c.lane and np.isfinite(m)}
                 )
@@ -227,7 +227,7 @@ class Drives:
             self._ables.update(zip(map(_key, new), found, strict=True))
         return [self._ables[_key(p)] for p in places]
 
-    def network(self) -> Network:
+    def network(self) -> DrivableNetwork:
         """Aisles, headlands, gates and the links between them, as lines."""
         return network_of(self.site, self.layout)
 

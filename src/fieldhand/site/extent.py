@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.site.features import Gathered, PointFeature
+from fieldhand.site.features import FeatureSet, PointFeature
 from fieldhand.site.formats.faults import Faults
 from fieldhand.site.projection import Projection
 
@@ -16,7 +16,7 @@ MAX_EXTENT_M = 20_000.0
 _EARTH_RADIUS_M = 6_371_000.0
 
 
-def sound_extent(gathered: Gathered, faults: Faults) -> Gathered:
+def drop_strays(gathered: FeatureSet, faults: Faults) -> FeatureSet:
     """What lies within 20 km of the middle tree; what is farther is stray, or has its coordinates swapped."""
     planted = [(p.lon, p.lat) for p in gathered.points if p.kind == "tree"]
     if not planted:

@@ -9,9 +9,7 @@ from dataclasses import dataclass, field
 from itertools import count
 from typing import Any, NoReturn
 
-from fieldhand.site.formats.faults import Faults, Unsound
-from fieldhand.site.formats.records import Records, UnusablePart
-from fieldhand.site.kinds import (
+from fieldhand.site.feature_kinds import (
     PointKind,
     ZoneKind,
     area_kind,
@@ -21,6 +19,8 @@ from fieldhand.site.kinds import (
     point_kind,
     text_of,
 )
+from fieldhand.site.formats.faults import Faults, UnusableFeature
+from fieldhand.site.formats.records import Records, UnusablePart
 from fieldhand.terms import Value
 from fieldhand.visible import find_hidden, visible
 
@@ -75,7 +75,7 @@ class BarrierFeature:
 
 
 @dataclass(kw_only=True)
-class Gathered:
+class FeatureSet:
     """What the features of a file hold, in their order.
 
     Attributes:
@@ -92,14 +92,14 @@ class Gathered:
     closed: list[int] = field(default_factory=list)
 
 
-def gather(records: Records, faults: Faults) -> Gathered:
+def gather(records: Records, faults: Faults) -> FeatureSet:
     """Sort the features into points, areas and barriers; what cannot be used goes to ``faults``."""
-    gathered = Gathered()
-    reader = _Reader(gathered, lenient=faults.lenient)
+    gathered = FeatureSet()
+    reader = _FeatureReader(gathered, lenient=faults.lenient)
     for number, feature in zip(records.numbers or count(1), records.features, strict=False):
         try:
             reader.read(number, feature)
-        except Unsound as fault:
+        except UnusableFeature as fault:
             faults.add(number, fault.what, fault.advice, needed=_keeps_out(feature))
     gathered.heights = len(reader.high)
     return gathered
@@ -136,7 +136,7 @@ def gate_width_m(properties: Mapping[str, Value]) -> float:
     match = _METRES.fullmatch(said.replace(",", "."))
     width = float(match[1]) if match else math.nan
     if not 0.1 <= width <= 100.0:
-        raise Unsound(f"its width is {_shown(said)}", "write it in metres, from 0.1 to 100, as width_m")
+        raise UnusableFeature(f"its width is {_shown(said)}", "write it in metres, from 0.1 to 100, as width_m")
     return width
 
 
@@ -154,10 +154,10 @@ def _keeps_out(feature: Any) -> bool:
     return area_kind(said)[0] != "zone" or bool(barrier_name(said))
 
 
-class _Reader:
+class _FeatureReader:
     """Reads features one after the other into ``gathered``; what they have in common is kept only once."""
 
-    def __init__(self, gathered: Gathered, *, lenient: bool) -> None:
+    def __init__(self, gathered: FeatureSet, *, lenient: bool) -> None:
         self._into = gathered
         self._lenient = lenient
         self._number = 0
@@ -298,7 +298,7 @@ class _Reader:
 
 
 def _fail(what: str, advice: str) -> NoReturn:
-    raise Unsound(what, advice)
+    raise UnusableFeature(what, advice)
 
 
 def _out_of_range(lon: float, lat: float) -> NoReturn:

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from importlib import resources
 from pathlib import Path
 
-from fieldhand.site.building import build
+from fieldhand.site.build_site import build
 from fieldhand.site.features import gather
 from fieldhand.site.formats.faults import Faults
 from fieldhand.site.formats.files import SiteFiles, read_files, records_of

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from shapely.geometry import Polygon
 
 from fieldhand.brief import brief_repr
-from fieldhand.site.kinds import ZoneKind
+from fieldhand.site.feature_kinds import ZoneKind
 from fieldhand.site.planting import Planting
 from fieldhand.site.projection import Projection
 from fieldhand.terms import Value
@@ -172,7 +172,7 @@ class Site:
 
         The same for the same orchard in another format or layout of the file; :attr:`sha256` is of the file's bytes.
         """
-        from fieldhand.site.content import content_sha256, rings_of
+        from fieldhand.site.content_hash import content_sha256, rings_of
 
         trees = [[t.place.id, t.place.lat, t.place.lon, sorted(t.properties.items())] for t in self.trees]
         markers = [[name, place.lat, place.lon] for name, place in self.markers.items()]

@@ -17,8 +17,11 @@ from functools import cache
 from types import NoneType, UnionType
 from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
+from fieldhand.places.filters.not_visited import NotVisited
+from fieldhand.places.picks.random_sample import RandomSample
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import SELECTORS
+from fieldhand.places.sources.union_of import UnionOf
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Command, Composition, FaultedExit, Task, Then
 from fieldhand.task.plan import Act, InOrder, Node, OptionalStep, Span, StopMission
@@ -60,6 +63,9 @@ _ELEMENT_NAMES: dict[type, str] = {
     InOrder: "sequence",
     OptionalStep: "optional",
     StopMission: "stop",
+    NotVisited: "other",
+    RandomSample: "random",
+    UnionOf: "union",
 }
 #: Fields with text of any length, written as elements.
 _TEXTS = {(Command, "request"), (Command, "read_as"), (Command, "assumptions"), (Command, "warnings")}

@@ -18,7 +18,7 @@ import pytest
 from fieldhand.approval.account import unaccounted
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
-from fieldhand.places.selectors import Evenly, Random, Successive
+from fieldhand.places.selectors import Evenly, RandomSample, Successive
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Outcome, Planned, Refused
 from fieldhand.robot.loader import load_robot
@@ -135,7 +135,7 @@ def test_a_draw_is_of_the_vines_that_are_meant_and_not_of_the_nearest(
     assert len({v.id for v in drawn}) == count
     assert all(is_meant(v) for v in drawn)
     selectors = [node.selector for node in walk(outcome.task.composition.plan)]
-    assert any(isinstance(part, Random) for s in selectors if s is not None for part in s.walk())
+    assert any(isinstance(part, RandomSample) for s in selectors if s is not None for part in s.walk())
     assert outcome == outcome_of(request_)
     if count >= 10:
         assert max(v.y for v in drawn) - min(v.y for v in drawn) > 20.0
@@ -223,15 +223,16 @@ Take pictures of as many vines in the north block as you can without driving mor
 """.strip().splitlines()
 #: What a plan cannot hold, of every kind that growers use; an open list.
 MODIFIERS = """
-slowly; carefully; quickly; gently; tomorrow; daily; hourly; regularly; tonight; yesterday; sometimes; weekly; every morning; each week
-on weekdays; at 6 am; before sunrise; at noon; in the morning; after the rain; during lunch; next week; last week; on Monday; in June
-once a day; every hour; for powdery mildew; for pests; for water stress; for the lab; with flash; in colour; from above; from both sides
-on the left side; facing north; in the shade; without flash; weak; sick; healthy; missing; ripe; sprayed; pruned; thirsty; infected
-flowering; shaded; a few; several; on average; at the median; per variety; unless it rains; if the weather is fine
-weather permitting; avoiding the pond; except the weak ones; and wait 10 minutes; and spray; and mow; and count the grapes; and prune
-and water it; and take a leaf sample; and record a video; and call me; the ones you did yesterday; starting at the pond; via the barn
-along the road; near the fence; backwards; diagonally; in a zigzag; clockwise; from 2 m away; at half speed; with the drone; by hand
-silently; urgently; secretly; until dark; for 10 minutes; with two robots; at 0.3 m/s; twice a day; every 10 minutes
+slowly; carefully; quickly; gently; tomorrow; daily; hourly; regularly; tonight; yesterday; sometimes; weekly; every
+morning; each week on weekdays; at 6 am; before sunrise; at noon; in the morning; after the rain; during lunch; next
+week; last week; on Monday; in June once a day; every hour; for powdery mildew; for pests; for water stress; for the
+lab; with flash; in colour; from above; from both sides on the left side; facing north; in the shade; without flash;
+weak; sick; healthy; missing; ripe; sprayed; pruned; thirsty; infected flowering; shaded; a few; several; on average; at
+the median; per variety; unless it rains; if the weather is fine weather permitting; avoiding the pond; except the weak
+ones; and wait 10 minutes; and spray; and mow; and count the grapes; and prune and water it; and take a leaf sample; and
+record a video; and call me; the ones you did yesterday; starting at the pond; via the barn along the road; near the
+fence; backwards; diagonally; in a zigzag; clockwise; from 2 m away; at half speed; with the drone; by hand silently;
+urgently; secretly; until dark; for 10 minutes; with two robots; at 0.3 m/s; twice a day; every 10 minutes
 """.replace("\n", ";").split(";")
 
 

@@ -33,7 +33,7 @@ from fieldhand.execution.world import (
     World,
     WorldFault,
 )
-from fieldhand.places.selectors import TreeIs, Trees, Union
+from fieldhand.places.selectors import TreeIs, Trees, UnionOf
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import Patience, RobotProfile
 from fieldhand.site.geojson import open_site, parse_site
@@ -117,7 +117,7 @@ def random_plan(rng: np.random.Generator, ids: list[str]) -> Node:
     def step() -> Node:
         match int(rng.integers(7)):
             case 0:
-                of = Union(parts=tuple(TreeIs(tree=i) for i in some(6)))
+                of = UnionOf(parts=tuple(TreeIs(tree=i) for i in some(6)))
                 return ForEach(id="", select=of, body=act(), order=str(rng.choice(["best", "given"])))  # type: ignore[arg-type]
             case 1:
                 return ForEach(id="", select=Trees(), body=act(), optional=True, at_most=int(rng.integers(1, 9)))
@@ -196,7 +196,7 @@ def fly(seed: int, *, demo: bool = True) -> Flown:
     charge = float(rng.choice([100.0, rng.uniform(20.0, 23.0)]))
     selectors = [s for n in walk(plan) if (s := n.selector) is not None]
     wanted = sorted(
-        {t.tree for s in selectors for t in (s.parts if isinstance(s, Union) else (s,)) if isinstance(t, TreeIs)}
+        {t.tree for s in selectors for t in (s.parts if isinstance(s, UnionOf) else (s,)) if isinstance(t, TreeIs)}
     )
     world = World(faults=random_faults(rng, open_ids, wanted), charge_percent=charge)
     events: list[Event] = []

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from shapely import MultiPoint, Polygon, box
 
 from fieldhand.errors import InputError
-from fieldhand.site.orchards import BlockShape, Ends, make_orchard
 from fieldhand.site.projection import Projection
+from fieldhand.site.random_orchards import BlockShape, Ends, make_orchard
 
 LEAST_TREES = 20
 _MISSING = 0.05

@@ -13,8 +13,8 @@ from fieldhand.places.selectors import (
     Half,
     InBlock,
     InZone,
+    NotVisited,
     Ordered,
-    Other,
     Rows,
     Take,
     Top,
@@ -40,7 +40,7 @@ def samples(site: Site) -> Mapping[str, Selector]:
         "the 10 best trees outside the zone, row by row": Ordered(
             by="rows", of=Top(attribute="yield_kg", count=10, of=InZone(zone=zone, outside=True))
         ),
-        "10 trees not visited, nearest first": Take(count=10, of=Other(of=Half(side="west"))),
+        "10 trees not visited, nearest first": Take(count=10, of=NotVisited(of=Half(side="west"))),
     }
     return {cls.__name__: cls.example(site) for cls in SELECTORS} | nested
 

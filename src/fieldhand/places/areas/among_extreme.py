@@ -6,17 +6,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.language import message
-from fieldhand.places.phrase import Phrase, many
-from fieldhand.places.picked import superlative
+from fieldhand.places.noun_phrase import NounPhrase, many
+from fieldhand.places.selection_phrase import superlative
 from fieldhand.places.selector import FromGroup, Selector
 from fieldhand.places.sources.trees import Trees
 from fieldhand.terms import Side
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -33,13 +33,13 @@ class AmongExtreme(FromGroup):
     def example(cls, site: Site) -> AmongExtreme:
         return cls(side="east")
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.areas.extent import among_extreme
 
-        return among_extreme(of, self.side, tell)
+        return among_extreme(of, self.side, notes)
 
-    def phrase(self, saying: Saying) -> Phrase:
-        group, which = saying.phrase(self.of), superlative(f"{self.side}ernmost", 2)
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        group, which = wording.phrase(self.of), superlative(f"{self.side}ernmost", 2)
         if group.plain:
             return many(message("the {northernmost} trees", northernmost=which))
         return many(message("the {northernmost} of {trees}", northernmost=which, trees=group.group()))

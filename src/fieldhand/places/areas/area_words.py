@@ -5,30 +5,30 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldhand.language import message
-from fieldhand.places.phrase import Phrase
+from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.sources.trees import Trees
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from fieldhand.places.saying import Saying
     from fieldhand.places.selector import Selector
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.terms import CornerName, Side
 
 _SIDES: tuple[Side, ...] = ("north", "east", "south", "west")
 
 
-def of_ground(of: Selector, saying: Saying) -> str:
+def of_ground(of: Selector, wording: SelectorWording) -> str:
     """Return of what a half or an edge is one, empty for the whole site (:mod:`fieldhand.places` gives the rule)."""
     ground = of.ground()
-    return "" if ground == Trees() else message("of {trees}", trees=saying.phrase(ground).group())
+    return "" if ground == Trees() else message("of {trees}", trees=wording.phrase(ground).group())
 
 
-def in_area(of: Selector, area: str, saying: Saying) -> Phrase:
+def in_area(of: Selector, area: str, wording: SelectorWording) -> NounPhrase:
     """Return the trees of a group in a region of its ground, whichever way it is nested with what else keeps trees."""
     if of.ground() == of:
-        return Phrase(after=(area,))
-    return saying.phrase(of).keeping(after=area)
+        return NounPhrase(after=(area,))
+    return wording.phrase(of).keeping(after=area)
 
 
 def sides_of_corners(corners: Sequence[CornerName]) -> tuple[Side, ...]:

@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING
 from fieldhand.language import message
 from fieldhand.language.words import CORNERS, listed
 from fieldhand.places.areas.area_words import sides_of_corners
-from fieldhand.places.faults import nothing
-from fieldhand.places.phrase import Phrase, many, one
+from fieldhand.places.count_range import CountRange, exactly
+from fieldhand.places.noun_phrase import NounPhrase, many, one
+from fieldhand.places.place_errors import nothing
 from fieldhand.places.selector import FromGroup, Selector
-from fieldhand.places.size import Range, exactly
 from fieldhand.places.sources.trees import Trees
 from fieldhand.terms import CornerName, Side
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -34,16 +34,16 @@ class Corners(FromGroup):
     def example(cls, site: Site) -> Corners:
         return cls()
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.areas.extent import corners
 
         if not self.which:
             raise nothing(resolution.site, self, "it names no corner")
-        tell.rule = "corners are those of the smallest rectangle around the trees"
+        notes.rule = "corners are those of the smallest rectangle around the trees"
         return corners(of, self.which, resolution.ground(self.of, of, picks_too=False))
 
-    def phrase(self, saying: Saying) -> Phrase:
-        group = saying.phrase(self.of)
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        group = wording.phrase(self.of)
         of = "" if group.plain else message("of {trees}", trees=group.group())
         if len(self.which) == 1:
             corner = CORNERS[self.which[0]]
@@ -68,7 +68,7 @@ class Corners(FromGroup):
         return len(self.which) == 1
 
     @property
-    def size(self) -> Range:
+    def size(self) -> CountRange:
         return exactly(len(self.which)) if self.of == Trees() else super().size
 
     @property

@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 from fieldhand.language import message
 from fieldhand.language.words import SIDES
 from fieldhand.places.areas.area_words import in_area, of_ground
-from fieldhand.places.phrase import Phrase
+from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.selector import FromGroup, Selector
 from fieldhand.places.sources.trees import Trees
 from fieldhand.terms import Side
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -34,16 +34,16 @@ class Edge(FromGroup):
     def example(cls, site: Site) -> Edge:
         return cls(side="west")
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.areas.extent import edge
 
-        tell.rule = "no tree beside them stands farther out"
+        notes.rule = "no tree beside them stands farther out"
         return edge(of, self.side, resolution.ground(self.of, of))
 
-    def phrase(self, saying: Saying) -> Phrase:
-        of = of_ground(self.of, saying)
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        of = of_ground(self.of, wording)
         return in_area(
-            self.of, message("along the {northern} edge {of_trees}", northern=SIDES[self.side], of_trees=of), saying
+            self.of, message("along the {northern} edge {of_trees}", northern=SIDES[self.side], of_trees=of), wording
         )
 
     @property

@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING
 from fieldhand.language import message
 from fieldhand.language.words import SIDES
 from fieldhand.places.areas.area_words import of_ground
-from fieldhand.places.phrase import Phrase
-from fieldhand.places.picked import picked
+from fieldhand.places.noun_phrase import NounPhrase
+from fieldhand.places.selection_phrase import picked_phrase
 from fieldhand.places.selector import Counted, Selector
 from fieldhand.places.sources.trees import Trees
 from fieldhand.terms import Side
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -34,25 +34,25 @@ class EdgeMiddle(Counted):
     def example(cls, site: Site) -> EdgeMiddle:
         return cls(side="east")
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.areas.extent import edge, from_edge_middle
         from fieldhand.places.ranks import rank
 
         ground = resolution.ground(self.of, of)
         candidates = edge(of, self.side, ground)
-        tell.candidates = len(candidates)
+        notes.candidates = len(candidates)
         self.need(candidates, resolution)
         away = from_edge_middle(candidates, self.side, ground)
         middle = message("the nearest to the middle of the {northern} edge", northern=SIDES[self.side])
-        return rank(candidates, away, self.count, tell, middle)
+        return rank(candidates, away, self.count, notes, middle)
 
-    def phrase(self, saying: Saying) -> Phrase:
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
         near = message(
             "nearest to the middle of the {northern} edge {of_trees}",
             northern=SIDES[self.side],
-            of_trees=of_ground(self.of, saying),
+            of_trees=of_ground(self.of, wording),
         )
-        return picked(saying.phrase(self.of), self.count, near)
+        return picked_phrase(wording.phrase(self.of), self.count, near)
 
     @property
     def sides(self) -> tuple[Side, ...]:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.places.spots import Spots
-from fieldhand.places.tell import Tell
+from fieldhand.places.place_group import PlaceGroup
+from fieldhand.places.resolution_notes import ResolutionNotes
 from fieldhand.site.counting import OUTWARD
 from fieldhand.site.rectangle import named_corners, smallest_rectangle
 from fieldhand.terms import CornerName, Side
@@ -42,7 +42,7 @@ class Extent:
     north: float
 
     @staticmethod
-    def around(ground: Spots) -> Extent:
+    def around(ground: PlaceGroup) -> Extent:
         """Of these places."""
         west, south = ground.xy.min(axis=0).tolist()
         east, north = ground.xy.max(axis=0).tolist()
@@ -59,28 +59,28 @@ def outward(xy: NDArray[np.float64], side: Side) -> NDArray[np.float64]:
     return np.asarray(xy @ np.array(OUTWARD[side]))
 
 
-def half(spots: Spots, side: Side, ground: Spots) -> Spots:
+def half(spots: PlaceGroup, side: Side, ground: PlaceGroup) -> PlaceGroup:
     """On that side of the middle line of the ground's extent, or on the line."""
     middle = outward(Extent.around(ground).centre[None, :], side)[0]
     return spots.keep(outward(spots.xy, side) >= middle - _ON_THE_LINE_M)
 
 
-def quarter(spots: Spots, name: CornerName, ground: Spots) -> Spots:
+def quarter(spots: PlaceGroup, name: CornerName, ground: PlaceGroup) -> PlaceGroup:
     """In both of the halves that name the quarter."""
     return half(half(spots, _SIDE[name[0]], ground), _SIDE[name[1]], ground)
 
 
-def among_extreme(spots: Spots, side: Side, tell: Tell) -> Spots:
+def among_extreme(spots: PlaceGroup, side: Side, notes: ResolutionNotes) -> PlaceGroup:
     """Less than one row spacing from the farthest to that side. (A row exactly one spacing behind is the next row.)"""
     reach = outward(spots.xy, side)
     if len(spots) < 2:
         return spots
     spacing = _row_spacing_m(spots, int(reach.argmax()))
-    tell.rule = f"less than {spacing:.1f} m, one row spacing, from the {side}ernmost"
+    notes.rule = f"less than {spacing:.1f} m, one row spacing, from the {side}ernmost"
     return spots.keep(reach > reach.max() - spacing + _ON_THE_LINE_M)
 
 
-def edge(spots: Spots, side: Side, ground: Spots) -> Spots:
+def edge(spots: PlaceGroup, side: Side, ground: PlaceGroup) -> PlaceGroup:
     """Those that no tree of the ground hides from that side: none stands farther out within 0.7 spacings to the left
     or right. It follows the outline of a farm that is turned against the compass."""
     along = outward(ground.xy, "east" if side in ("north", "south") else "north")
@@ -94,26 +94,26 @@ def edge(spots: Spots, side: Side, ground: Spots) -> Spots:
     return spots.keep(outward(spots.xy, side) >= farthest - _ON_THE_LINE_M)
 
 
-def from_edge_middle(spots: Spots, side: Side, ground: Spots) -> NDArray[np.float64]:
+def from_edge_middle(spots: PlaceGroup, side: Side, ground: PlaceGroup) -> NDArray[np.float64]:
     """Metres from the middle of that side of the smallest-area rectangle around the ground."""
     at = named_corners(smallest_rectangle(ground.xy))
     ends = [point for name, point in at.items() if _SIDE[name[0]] == side or _SIDE[name[1]] == side]
     return np.asarray(np.hypot(*(spots.xy - (ends[0] + ends[1]) / 2).T))
 
 
-def from_centre(spots: Spots, ground: Spots) -> NDArray[np.float64]:
+def from_centre(spots: PlaceGroup, ground: PlaceGroup) -> NDArray[np.float64]:
     """Metres from the centre of the ground's extent."""
     return np.asarray(np.hypot(*(spots.xy - Extent.around(ground).centre).T))
 
 
-def corners(spots: Spots, which: Iterable[CornerName], ground: Spots) -> Spots:
+def corners(spots: PlaceGroup, which: Iterable[CornerName], ground: PlaceGroup) -> PlaceGroup:
     """For each name the place nearest to that corner of the smallest-area rectangle around the ground."""
     at = named_corners(smallest_rectangle(ground.xy))
     found = [int(spots.ranked(np.hypot(*(spots.xy - at[name]).T), 1).index[0]) for name in which]
-    return Spots(site=spots.site, index=np.array(list(dict.fromkeys(found)), dtype=np.intp), others=spots.others)
+    return PlaceGroup(site=spots.site, index=np.array(list(dict.fromkeys(found)), dtype=np.intp), others=spots.others)
 
 
-def _row_spacing_m(spots: Spots, at: int) -> float:
+def _row_spacing_m(spots: PlaceGroup, at: int) -> float:
     """From row to row where that place stands; the spacing of the trees where it stands in no row or in a lone one."""
     row = int(spots.row[at])
     planting = spots.site.planting

@@ -5,17 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldhand.places.phrase import Phrase
-from fieldhand.places.picked import foremost, the_most
+from fieldhand.places.noun_phrase import NounPhrase
+from fieldhand.places.selection_phrase import foremost_phrase, the_most
 from fieldhand.places.selector import Counted, Selector
 from fieldhand.places.sources.trees import Trees
 from fieldhand.terms import Side
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -31,15 +31,15 @@ class Extreme(Counted):
     def example(cls, site: Site) -> Extreme:
         return cls(side="north", count=3)
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.areas.extent import outward
         from fieldhand.places.ranks import rank
 
         self.need(of, resolution)
-        return rank(of, -outward(of.xy, self.side), self.count, tell, the_most(f"{self.side}ernmost"))
+        return rank(of, -outward(of.xy, self.side), self.count, notes, the_most(f"{self.side}ernmost"))
 
-    def phrase(self, saying: Saying) -> Phrase:
-        return foremost(f"{self.side}ernmost", self.count, saying.phrase(self.of))
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        return foremost_phrase(f"{self.side}ernmost", self.count, wording.phrase(self.of))
 
     @property
     def sides(self) -> tuple[Side, ...]:

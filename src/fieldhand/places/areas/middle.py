@@ -6,16 +6,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.language import message
-from fieldhand.places.phrase import Phrase
-from fieldhand.places.picked import picked
+from fieldhand.places.noun_phrase import NounPhrase
+from fieldhand.places.selection_phrase import picked_phrase
 from fieldhand.places.selector import Counted, Selector
 from fieldhand.places.sources.trees import Trees
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -30,20 +30,20 @@ class Middle(Counted):
     def example(cls, site: Site) -> Middle:
         return cls()
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.areas.extent import from_centre
         from fieldhand.places.ranks import rank
 
         self.need(of, resolution)
         away = from_centre(of, resolution.ground(self.of, of, picks_too=False))
-        return rank(of, away, self.count, tell, message("the nearest to the middle"))
+        return rank(of, away, self.count, notes, message("the nearest to the middle"))
 
-    def phrase(self, saying: Saying) -> Phrase:
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
         if self.of == Trees():
             near = message("nearest to the middle of the site")
         else:
             near = message("nearest to the middle of their area")
-        return picked(saying.phrase(self.of), self.count, near)
+        return picked_phrase(wording.phrase(self.of), self.count, near)
 
     @property
     def central(self) -> bool:

@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING
 from fieldhand.language import message
 from fieldhand.language.words import CORNERS
 from fieldhand.places.areas.area_words import in_area, of_ground, sides_of_corners
-from fieldhand.places.phrase import Phrase
+from fieldhand.places.count_range import CountRange, at_most
+from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.selector import FromGroup, Selector
-from fieldhand.places.size import Range, at_most
 from fieldhand.places.sources.trees import Trees
 from fieldhand.terms import CornerName, Side
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -35,22 +35,22 @@ class Quarter(FromGroup):
     def example(cls, site: Site) -> Quarter:
         return cls(quarter="se")
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.areas.extent import EXTENT_RULE, quarter
 
-        tell.rule = EXTENT_RULE
+        notes.rule = EXTENT_RULE
         return quarter(of, self.quarter, resolution.ground(self.of, of))
 
-    def phrase(self, saying: Saying) -> Phrase:
-        of = of_ground(self.of, saying)
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        of = of_ground(self.of, wording)
         return in_area(
             self.of,
             message("in the {north_west} quarter {of_trees}", north_west=CORNERS[self.quarter], of_trees=of),
-            saying,
+            wording,
         )
 
     @property
-    def size(self) -> Range:
+    def size(self) -> CountRange:
         return at_most(self.of.size)
 
     @property

@@ -12,10 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.language import counted
-from fieldhand.places.faults import no_such_attribute, no_such_value, no_such_value_here, not_a_number, not_comparable
-from fieldhand.places.spots import Spots
-from fieldhand.places.tell import Tell
-from fieldhand.site.kinds import phrase
+from fieldhand.places.place_errors import (
+    no_such_attribute,
+    no_such_value,
+    no_such_value_here,
+    not_a_number,
+    not_comparable,
+)
+from fieldhand.places.place_group import PlaceGroup
+from fieldhand.places.resolution_notes import ResolutionNotes
+from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.model import Site
 from fieldhand.terms import Test, Value
 
@@ -48,7 +54,7 @@ class Column:
     texts: tuple[str, ...]
 
 
-def where(spots: Spots, selector: Where, tell: Tell) -> Spots:
+def where(spots: PlaceGroup, selector: Where, notes: ResolutionNotes) -> PlaceGroup:
     """Those whose attribute passes the test: as numbers if both sides are numbers, else as text without case."""
     column = column_of(spots.site, selector.attribute)
     mine = column_rows(column, spots)
@@ -71,21 +77,21 @@ def where(spots: Spots, selector: Where, tell: Tell) -> Spots:
         raise not_a_number(selector.attribute)
     if not passed.any() and selector.test == "eq":
         raise no_such_value_here(spots.site, selector, _values(spots, selector.attribute))
-    tell_lacking(int((mine.codes < 0).sum()), selector.attribute, tell)
+    note_lacking(int((mine.codes < 0).sum()), selector.attribute, notes)
     return spots.keep(passed)
 
 
-def _values(spots: Spots, attribute: str) -> tuple[Value, ...]:
+def _values(spots: PlaceGroup, attribute: str) -> tuple[Value, ...]:
     """Return the values that an attribute has among these places, each once."""
     trees = [spots.site.trees[k] for k in spots.index[spots.is_tree].tolist()]
     kept = (tree.properties[name] for tree in trees for name in tree.properties if phrase(name) == phrase(attribute))
     return tuple(dict.fromkeys(kept))
 
 
-def tell_lacking(count: int, attribute: str, tell: Tell) -> None:
+def note_lacking(count: int, attribute: str, notes: ResolutionNotes) -> None:
     """Say how many could not be judged since the file says nothing of them."""
     if count:
-        tell.note(
+        notes.remark(
             counted(
                 "{count} has no {attribute} and is left out",
                 "{count} have no {attribute} and are left out",
@@ -95,7 +101,7 @@ def tell_lacking(count: int, attribute: str, tell: Tell) -> None:
         )
 
 
-def with_number(spots: Spots, attribute: str) -> tuple[Spots, NDArray[np.float64]]:
+def with_number(spots: PlaceGroup, attribute: str) -> tuple[PlaceGroup, NDArray[np.float64]]:
     """Return all that have a number as an attribute, and their numbers."""
     column = column_of(spots.site, attribute)
     if np.isnan(column.numbers).all():
@@ -105,7 +111,7 @@ def with_number(spots: Spots, attribute: str) -> tuple[Spots, NDArray[np.float64
     return spots.keep(known), numbers[known]
 
 
-def column_rows(column: Column, spots: Spots) -> Column:
+def column_rows(column: Column, spots: PlaceGroup) -> Column:
     """The column for these places; what is no tree lacks every attribute."""
     tree = spots.is_tree
     return Column(

@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING
 
 from fieldhand.language import message
 from fieldhand.places.areas.half import Half
-from fieldhand.places.phrase import Phrase
+from fieldhand.places.count_range import CountRange, at_most
+from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.selector import FromGroup, Selector
-from fieldhand.places.size import Range, at_most
 from fieldhand.places.sources.trees import Trees
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -33,12 +33,12 @@ class Excluding(FromGroup):
     def example(cls, site: Site) -> Excluding:
         return cls(places=Half(side="south"))
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         return of.without(resolution.spots(self.places))
 
-    def phrase(self, saying: Saying) -> Phrase:
-        return saying.phrase(self.of).keeping(after=message("other than {place}", place=self.places.it(saying)))
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        return wording.phrase(self.of).keeping(after=message("other than {place}", place=self.places.it(wording)))
 
     @property
-    def size(self) -> Range:
+    def size(self) -> CountRange:
         return at_most(self.of.size)

@@ -5,17 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldhand.places.faults import no_such_block
-from fieldhand.places.phrase import Phrase
+from fieldhand.places.noun_phrase import NounPhrase
+from fieldhand.places.place_errors import no_such_block
 from fieldhand.places.selector import FromGroup, Selector
 from fieldhand.places.sources.trees import Trees
 from fieldhand.site.names import say_block
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -32,7 +32,7 @@ class InBlock(FromGroup):
     def example(cls, site: Site) -> InBlock:
         return cls(block=site.planting.blocks[0].name if site.planting.blocks else "")
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         """Return the trees by the block of that name; where there is none, by the zones of that name."""
         from fieldhand.places.filters.zones import in_block, in_zones
 
@@ -41,8 +41,8 @@ class InBlock(FromGroup):
             inside = in_zones(of, self.block)
             if inside is None:
                 raise no_such_block(resolution.site, self.block)
-            tell.rule = "that is a zone of the site"
+            notes.rule = "that is a zone of the site"
         return inside
 
-    def phrase(self, saying: Saying) -> Phrase:
-        return saying.phrase(self.of).of_block(say_block(self.block))
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        return wording.phrase(self.of).of_block(say_block(self.block))

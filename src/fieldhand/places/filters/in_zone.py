@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING
 from fieldhand.errors import PlaceError
 from fieldhand.language import Number, message
 from fieldhand.language.words import say_number, say_zone
-from fieldhand.places.faults import no_such_zone
-from fieldhand.places.phrase import Phrase
+from fieldhand.places.count_range import CountRange, at_most
+from fieldhand.places.noun_phrase import NounPhrase
+from fieldhand.places.place_errors import no_such_zone
 from fieldhand.places.selector import FromGroup, Selector
-from fieldhand.places.size import Range, at_most
 from fieldhand.places.sources.trees import Trees
 from fieldhand.site.names import short
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -39,7 +39,7 @@ class InZone(FromGroup):
     def example(cls, site: Site) -> InZone:
         return cls(zone=next((zone.name for zone in site.zones if zone.kind == "zone"), ""))
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         """Return the trees by the zones of that name; where there are none, by the block of that name."""
         from fieldhand.places.filters.zones import in_block, in_zones
 
@@ -60,11 +60,11 @@ class InZone(FromGroup):
                     where=site.name,
                     advice=message("name a zone, a tree or a marker to measure from"),
                 )
-            tell.rule = "that is a block of the site"
+            notes.rule = "that is a block of the site"
         return of.without(inside) if self.outside else inside
 
-    def phrase(self, saying: Saying) -> Phrase:
-        base, zone = saying.phrase(self.of), say_zone(self.zone)
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        base, zone = wording.phrase(self.of), say_zone(self.zone)
         if self.margin_m:
             near = {"distance": say_number(self.margin_m), "place": zone}
             if self.outside:
@@ -75,7 +75,7 @@ class InZone(FromGroup):
         return base.keeping(after=message("inside {zone}", zone=zone))
 
     @property
-    def size(self) -> Range:
+    def size(self) -> CountRange:
         return at_most(self.of.size)
 
     @property

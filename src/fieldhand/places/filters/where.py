@@ -6,18 +6,18 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldhand.places.count_range import CountRange, at_most
 from fieldhand.places.filters.attribute_words import say_whose
-from fieldhand.places.phrase import Phrase
+from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.selector import FromGroup, Selector
-from fieldhand.places.size import Range, at_most
 from fieldhand.places.sources.trees import Trees
 from fieldhand.terms import Test, Value
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 #: Attributes whose values people use as adjectives: "yellow trees", "Kerman trees".
@@ -39,17 +39,17 @@ class Where(FromGroup):
     def example(cls, site: Site) -> Where:
         return cls(attribute="variety", test="eq", value="Kerman")
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.filters.attributes import where
 
-        return where(of, self, tell)
+        return where(of, self, notes)
 
-    def phrase(self, saying: Saying) -> Phrase:
-        base = saying.phrase(self.of)
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        base = wording.phrase(self.of)
         if isinstance(self.value, str) and self.test == "eq" and _ADJECTIVAL.search(self.attribute):
             return base.keeping(before=self.value)
         return base.keeping(after=say_whose(self.attribute, self.test, self.value))
 
     @property
-    def size(self) -> Range:
+    def size(self) -> CountRange:
         return at_most(self.of.size)

@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING
 from fieldhand.errors import PlaceError
 from fieldhand.language import Number, message
 from fieldhand.language.words import say_number
-from fieldhand.places.phrase import Phrase
+from fieldhand.places.count_range import CountRange, at_most
+from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.selector import FromGroup, Selector
-from fieldhand.places.size import Range, at_most
 from fieldhand.places.sources.here import Here
 from fieldhand.places.sources.trees import Trees
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -37,7 +37,7 @@ class Within(FromGroup):
     def example(cls, site: Site) -> Within:
         return cls(distance_m=20.0, to=Here())
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.neighbours.distances import apart_from, within
 
         if not (math.isfinite(self.distance_m) and self.distance_m > 0):
@@ -48,13 +48,13 @@ class Within(FromGroup):
         to = resolution.origin(self.to)
         return within(apart_from(of, to), to, self.distance_m)
 
-    def phrase(self, saying: Saying) -> Phrase:
-        distance, place = say_number(self.distance_m), self.to.as_origin(saying)
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        distance, place = say_number(self.distance_m), self.to.as_origin(wording)
         near = message("within {distance} m of {place}", distance=distance, place=place)
-        return saying.phrase(self.of).keeping(after=near)
+        return wording.phrase(self.of).keeping(after=near)
 
     @property
-    def size(self) -> Range:
+    def size(self) -> CountRange:
         return at_most(self.of.size)
 
     @property

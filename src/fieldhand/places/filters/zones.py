@@ -7,11 +7,11 @@ import shapely
 from shapely.geometry.base import BaseGeometry
 
 from fieldhand.language import counted
-from fieldhand.places.rows.standing import in_those_rows
-from fieldhand.places.spots import Spots
-from fieldhand.places.tell import Tell
+from fieldhand.places.place_group import PlaceGroup
+from fieldhand.places.resolution_notes import ResolutionNotes
+from fieldhand.places.rows.numbers_in_row import in_those_rows
 from fieldhand.site.counting import find_block
-from fieldhand.site.kinds import phrase
+from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.model import Site
 
 
@@ -21,7 +21,7 @@ def zones_called(site: Site, name: str) -> list[BaseGeometry]:
     return [z.polygon for z in [z for z in zones if z.name == name] or zones]
 
 
-def in_zones(of: Spots, name: str, margin_m: float = 0.0) -> Spots | None:
+def in_zones(of: PlaceGroup, name: str, margin_m: float = 0.0) -> PlaceGroup | None:
     """Return those inside the zones of that name or so near to one; None where there are none."""
     zones = zones_called(of.site, name)
     if not zones:
@@ -36,20 +36,20 @@ def in_zones(of: Spots, name: str, margin_m: float = 0.0) -> Spots | None:
     return of.keep(inside)
 
 
-def in_block(of: Spots, name: str) -> Spots | None:
+def in_block(of: PlaceGroup, name: str) -> PlaceGroup | None:
     """Return those in the rows of the block of that name or number; None where there is none."""
     block = find_block(of.site, name)
     return None if block is None else in_those_rows(of, block.rows)
 
 
-def outside_keep_outs(of: Spots, tell: Tell) -> Spots:
+def outside_keep_outs(of: PlaceGroup, notes: ResolutionNotes) -> PlaceGroup:
     """Return those that a robot may drive to: where any of them will do, the others are passed over."""
     closed = np.zeros(len(of), dtype=bool)
     for zone in of.site.zones_of("keep_out"):
         shapely.prepare(zone.polygon)
         closed |= shapely.contains_xy(zone.polygon, of.xy[:, 0], of.xy[:, 1])
     if closed.any():
-        tell.note(
+        notes.remark(
             counted(
                 "{count} of them stands in a keep-out: passed over",
                 "{count} of them stand in a keep-out: passed over",

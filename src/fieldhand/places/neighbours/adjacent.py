@@ -6,18 +6,18 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.language import message
-from fieldhand.places.faults import too_few
-from fieldhand.places.phrase import Phrase, many
-from fieldhand.places.picked import picked
+from fieldhand.places.noun_phrase import NounPhrase, many
+from fieldhand.places.place_errors import too_few
+from fieldhand.places.selection_phrase import picked_phrase
 from fieldhand.places.selector import Counted, Selector
 from fieldhand.places.sources.here import Here
 from fieldhand.places.sources.trees import Trees
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -33,22 +33,22 @@ class Adjacent(Counted):
     def example(cls, site: Site) -> Adjacent:
         return cls(near=Here(), count=5)
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.neighbours.distances import side_by_side
 
         near = resolution.origin(self.near)
         self.need(of, resolution)
-        tell.rule = "each is a neighbour of one before it, in the same row first"
+        notes.rule = "each is a neighbour of one before it, in the same row first"
         found = side_by_side(of, near, self.count)
         if len(found) < self.count:
             raise too_few(resolution.site, self, self.count, len(found))
         return found
 
-    def phrase(self, saying: Saying) -> Phrase:
-        near, count = self.near.as_origin(saying), self.count
-        group = saying.phrase(self.of)
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        near, count = self.near.as_origin(wording), self.count
+        group = wording.phrase(self.of)
         if count == 1:
-            return picked(group, 1, message("nearest to {place}", place=near))
+            return picked_phrase(group, 1, message("nearest to {place}", place=near))
         if group.plain:
             return many(
                 message(

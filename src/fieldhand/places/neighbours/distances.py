@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 from shapely.geometry.base import BaseGeometry
 
-from fieldhand.places.spots import Spots
+from fieldhand.places.place_group import PlaceGroup
 from fieldhand.site.model import Site
 from fieldhand.terms import Side
 
@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Ground:
+class ZoneGround:
     """The ground of a zone, from whose outline distances are measured; no tree inside is near to it or far from it."""
 
     site: Site
@@ -27,7 +27,7 @@ class Ground:
 
 
 #: Distances are measured from the nearest of some places, or from the ground of a zone.
-Origin = Spots | Ground
+Origin = PlaceGroup | ZoneGround
 
 #: "Next to" prefers the same row among those at most this much farther than the nearest one.
 _BAND = 1.5
@@ -45,26 +45,26 @@ _TIE_M = 2e-4
 _STRAIGHT_COS = 0.87
 
 
-def distance_to(spots: Spots, origin: Origin) -> Floats:
+def distance_to(spots: PlaceGroup, origin: Origin) -> Floats:
     """Metres from each place to the nearest of ``origin``, straight; 0 inside a zone."""
-    if isinstance(origin, Ground):
+    if isinstance(origin, ZoneGround):
         return np.asarray(shapely.distance(origin.area, shapely.points(spots.xy)))
     if len(origin) == 1:
         return np.asarray(np.hypot(*(spots.xy - origin.xy[0]).T))
     return np.asarray(_index(origin).query(spots.xy)[0])
 
 
-def nearest_of(origin: Origin, spots: Spots) -> Floats:
+def nearest_of(origin: Origin, spots: PlaceGroup) -> Floats:
     """Return for each place the point of ``origin`` that is nearest to it, in metres east and north, shape (n, 2)."""
-    if isinstance(origin, Ground):
+    if isinstance(origin, ZoneGround):
         lines = shapely.shortest_line(origin.area, shapely.points(spots.xy))
         return np.asarray(shapely.get_coordinates(lines)[::2])
     return np.asarray(origin.xy[np.atleast_1d(_index(origin).query(spots.xy)[1])])
 
 
-def apart_from(spots: Spots, origin: Origin) -> Spots:
+def apart_from(spots: PlaceGroup, origin: Origin) -> PlaceGroup:
     """Those neither among nor inside ``origin``, nor the same tree entered twice in the file (within a centimetre)."""
-    if isinstance(origin, Ground):
+    if isinstance(origin, ZoneGround):
         return spots.keep(distance_to(spots, origin) > 0)
     left = spots.without(origin)
     if not len(left):
@@ -74,17 +74,17 @@ def apart_from(spots: Spots, origin: Origin) -> Spots:
     return left.keep(_index(origin).query(left.xy, distance_upper_bound=_SAME_SPOT_M)[0] > _SAME_SPOT_M)
 
 
-def next_to(spots: Spots, to: Origin, count: int) -> Spots:
+def next_to(spots: PlaceGroup, to: Origin, count: int) -> PlaceGroup:
     """The nearest, but of those at most half as far again as the nearest one the same row comes first."""
     away = distance_to(spots, to)
-    rows = to.row[to.row >= 0] if isinstance(to, Spots) else ()
+    rows = to.row[to.row >= 0] if isinstance(to, PlaceGroup) else ()
     other_row = ~np.isin(spots.row, rows) if len(rows) else np.zeros(len(spots), dtype=bool)
     tier = np.where(away <= _BAND * away.min() + 1e-9, other_row, 2)
     order = np.lexsort((spots.file_order, np.round(away, 4), tier))
     return spots.keep(order[:count])
 
 
-def on_side(spots: Spots, to: Origin, side: Side, *, next_to: bool) -> Spots:
+def on_side(spots: PlaceGroup, to: Origin, side: Side, *, next_to: bool) -> PlaceGroup:
     """Return those in the quarter of the compass around a side, seen from ``to``; the nearest of several counts.
 
     Args:
@@ -97,15 +97,15 @@ def on_side(spots: Spots, to: Origin, side: Side, *, next_to: bool) -> Spots:
     outward = {"north": step[:, 1], "east": step[:, 0], "south": -step[:, 1], "west": -step[:, 0]}[side]
     sideways = np.abs(step[:, 0] if side in ("north", "south") else step[:, 1])
     kept = (outward > 0) & (sideways <= outward)
-    if next_to and isinstance(to, Ground):
+    if next_to and isinstance(to, ZoneGround):
         kept &= np.hypot(*step.T) <= _BAND * to.site.spacing_m + 1e-9
-    elif next_to and isinstance(to, Spots):
+    elif next_to and isinstance(to, PlaceGroup):
         reach = np.array([_BAND * _apart_at(to, k) for k in range(len(to))])
         kept &= np.hypot(*step.T) <= reach[np.atleast_1d(_index(to).query(spots.xy)[1])] + 1e-9
     return spots.keep(kept)
 
 
-def _apart_at(to: Spots, k: int) -> float:
+def _apart_at(to: PlaceGroup, k: int) -> float:
     """Return how far apart neighbours stand at a place: rows and the trees along them, whichever is more."""
     site = to.site
     planting = site.planting
@@ -117,22 +117,22 @@ def _apart_at(to: Spots, k: int) -> float:
     return max(block.tree_spacing_m, 0.0 if np.isnan(block.row_spacing_m) else block.row_spacing_m)
 
 
-def within(spots: Spots, to: Origin, distance_m: float) -> Spots:
+def within(spots: PlaceGroup, to: Origin, distance_m: float) -> PlaceGroup:
     """At most that far, straight."""
-    if not len(spots) or isinstance(to, Ground) or len(to) == 1:
+    if not len(spots) or isinstance(to, ZoneGround) or len(to) == 1:
         return spots.keep(distance_to(spots, to) <= distance_m) if len(spots) else spots
     reach = distance_m + 1e-9  # the bound itself is left out
     return spots.keep(_index(to).query(spots.xy, distance_upper_bound=reach)[0] <= distance_m)
 
 
-def side_by_side(spots: Spots, near: Origin, count: int) -> Spots:
+def side_by_side(spots: PlaceGroup, near: Origin, count: int) -> PlaceGroup:
     """``count`` next to each other (fewer if there are not as many), beginning with the nearest to ``near``.
 
     Each next one is a neighbour of the last: of those at most half as far again as its nearest the same row comes
     first, then what lies straight on, then the nearest. Where the last one has no neighbour left, the line goes on
     from whichever taken one has the nearest.
     """
-    itself = np.isin(spots.index, near.index) if isinstance(near, Spots) else np.zeros(len(spots), dtype=bool)
+    itself = np.isin(spots.index, near.index) if isinstance(near, PlaceGroup) else np.zeros(len(spots), dtype=bool)
     seed = spots.ranked(np.where(itself, -1.0, distance_to(spots, near)), 1).index[0]
     from_seed = np.hypot(*(spots.xy - spots.xy[np.flatnonzero(spots.index == seed)[0]]).T)
     around = max(_AROUND, 4 * count**2)
@@ -146,7 +146,7 @@ def side_by_side(spots: Spots, near: Origin, count: int) -> Spots:
     return spots.keep(taken if taken is not None else [])
 
 
-def _chain(spots: Spots, seed: int, count: int, radius: float) -> list[int] | None:
+def _chain(spots: PlaceGroup, seed: int, count: int, radius: float) -> list[int] | None:
     """Positions of neighbour after neighbour; None where one beyond the radius from the seed might come before them."""
     taken = [int(np.flatnonzero(spots.index == seed)[0])]
     to_any = from_seed = np.hypot(*(spots.xy - spots.xy[taken[0]]).T)
@@ -168,7 +168,7 @@ def _chain(spots: Spots, seed: int, count: int, radius: float) -> list[int] | No
     return taken if len(taken) == count or np.isinf(radius) else None
 
 
-def short_drive(spots: Spots, here: tuple[float, float], count: int) -> Spots:
+def short_drive(spots: PlaceGroup, here: tuple[float, float], count: int) -> PlaceGroup:
     """``count`` of them, one after another the nearest to the last, from here on."""
     xy, order = spots.xy, spots.file_order
     left = np.arange(len(spots))
@@ -213,6 +213,6 @@ def _straight_on(xy: NDArray[np.float64], taken: list[int], band: NDArray[np.int
     return np.asarray(step @ line >= _STRAIGHT_COS * lengths)
 
 
-def _index(spots: Spots) -> Any:
+def _index(spots: PlaceGroup) -> Any:
     """The places, to ask for the nearest; quickly made, since it is asked once."""
     return cKDTree(spots.xy, balanced_tree=False, compact_nodes=False)

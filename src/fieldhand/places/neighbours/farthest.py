@@ -6,17 +6,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.language import message
-from fieldhand.places.phrase import Phrase
-from fieldhand.places.picked import picked, the_most
+from fieldhand.places.noun_phrase import NounPhrase
+from fieldhand.places.selection_phrase import picked_phrase, the_most
 from fieldhand.places.selector import Counted, Selector
 from fieldhand.places.sources.here import Here
 from fieldhand.places.sources.trees import Trees
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -32,21 +32,21 @@ class Farthest(Counted):
     def example(cls, site: Site) -> Farthest:
         return cls(origin=Here(), count=5)
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.neighbours.distances import apart_from, distance_to
         from fieldhand.places.ranks import rank
 
         origin = resolution.origin(self.origin)
         candidates = apart_from(of, origin).once(self.count if self.count > 1 else len(of))
-        tell.candidates = len(candidates)
+        notes.candidates = len(candidates)
         self.need(candidates, resolution)
-        return rank(candidates, -distance_to(candidates, origin), self.count, tell, the_most("farthest"))
+        return rank(candidates, -distance_to(candidates, origin), self.count, notes, the_most("farthest"))
 
-    def phrase(self, saying: Saying) -> Phrase:
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
         far = message("farthest from there")
-        if self.origin.from_it(saying):
-            far = message("farthest from {place}", place=self.origin.as_origin(saying))
-        return picked(saying.phrase(self.of), self.count, far)
+        if self.origin.from_it(wording):
+            far = message("farthest from {place}", place=self.origin.as_origin(wording))
+        return picked_phrase(wording.phrase(self.of), self.count, far)
 
     @property
     def measured_from(self) -> Selector:

@@ -6,18 +6,18 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.language import message
-from fieldhand.places.phrase import Phrase
-from fieldhand.places.picked import picked, the_most
+from fieldhand.places.noun_phrase import NounPhrase
+from fieldhand.places.selection_phrase import picked_phrase, the_most
 from fieldhand.places.selector import Counted, DependsOn, Selector
 from fieldhand.places.sources.here import Here
 from fieldhand.places.sources.trees import Trees
 from fieldhand.terms import AnySide, Side
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -42,7 +42,7 @@ class Nearest(Counted):
     def example(cls, site: Site) -> Nearest:
         return cls(to=Here(), count=5, adjacent=True)
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.neighbours.distances import apart_from, distance_to, next_to, on_side
         from fieldhand.places.ranks import rank
 
@@ -52,15 +52,15 @@ class Nearest(Counted):
             candidates = candidates.without(resolution.visited())
         if self.side != "any":
             candidates = on_side(candidates, to, self.side, next_to=self.adjacent)
-        tell.candidates = len(candidates)
+        notes.candidates = len(candidates)
         self.need(candidates, resolution)
         if self.adjacent and self.side == "any":
-            tell.rule = "of the nearest ones those in the same row come first"
+            notes.rule = "of the nearest ones those in the same row come first"
             return next_to(candidates, to, self.count)
-        return rank(candidates, distance_to(candidates, to), self.count, tell, the_most("nearest"))
+        return rank(candidates, distance_to(candidates, to), self.count, notes, the_most("nearest"))
 
-    def phrase(self, saying: Saying) -> Phrase:
-        place = self.to.as_origin(saying)
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        place = self.to.as_origin(wording)
         there: str = (
             message("next to {place}", place=place) if self.adjacent else message("nearest to {place}", place=place)
         )
@@ -68,7 +68,7 @@ class Nearest(Counted):
             there = _on_side(there, self.side)
         if self.fresh:
             there = message("{near} and not visited yet", near=there)
-        return picked(saying.phrase(self.of), self.count, there)
+        return picked_phrase(wording.phrase(self.of), self.count, there)
 
     @property
     def sides(self) -> tuple[Side, ...]:

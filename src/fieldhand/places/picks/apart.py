@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING
 
 from fieldhand.language import counted, message
 from fieldhand.language.words import say_number
-from fieldhand.places.phrase import Phrase, many
+from fieldhand.places.count_range import ANY, CountRange, exactly
+from fieldhand.places.noun_phrase import NounPhrase, many
 from fieldhand.places.selector import FromGroup, Selector
-from fieldhand.places.size import ANY, Range, exactly
 from fieldhand.places.sources.trees import Trees
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -34,13 +34,13 @@ class Apart(FromGroup):
     def example(cls, site: Site) -> Apart:
         return cls(apart_m=25.0, count=5)
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.picks.at_distance import at_distance
 
-        return at_distance(of.once(self.count), self, tell)
+        return at_distance(of.once(self.count), self, notes)
 
-    def phrase(self, saying: Saying) -> Phrase:
-        group, count = saying.phrase(self.of), self.count
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        group, count = wording.phrase(self.of), self.count
         if group.plain:
             trees = counted("{count} tree", "{count} trees", count)
         else:
@@ -59,5 +59,5 @@ class Apart(FromGroup):
         return self.count == 1
 
     @property
-    def size(self) -> Range:
+    def size(self) -> CountRange:
         return exactly(self.count) if self.count else ANY

@@ -11,8 +11,8 @@ import numpy as np
 from fieldhand.errors import PlaceError
 from fieldhand.language import Number, message
 from fieldhand.language.words import say_number, say_rounded
-from fieldhand.places.spots import Spots
-from fieldhand.places.tell import Tell
+from fieldhand.places.place_group import PlaceGroup
+from fieldhand.places.resolution_notes import ResolutionNotes
 from fieldhand.site.counting import row_words
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ TOLERANCE = 0.25
 _MOST_TRIES = 200
 
 
-def at_distance(of: Spots, selector: Apart, tell: Tell) -> Spots:
+def at_distance(of: PlaceGroup, selector: Apart, notes: ResolutionNotes) -> PlaceGroup:
     """The first trees that fit, each tried in turn to begin with; from there each time the one that fits best.
 
     Raises:
@@ -56,11 +56,11 @@ def at_distance(of: Spots, selector: Apart, tell: Tell) -> Spots:
         near, far = say_rounded(min(legs), 1), say_rounded(max(legs), 1)
         alike = message("trees stand where they stand: these are {metres} m apart", metres=near)
         differ = message("trees stand where they stand: these are {near} to {far} m apart", near=near, far=far)
-        tell.note(alike if near == far else differ)
+        notes.remark(alike if near == far else differ)
     return found
 
 
-def _none_among(none: str, of: Spots) -> str:
+def _none_among(none: str, of: PlaceGroup) -> str:
     """Say in which row they were looked for and how long it is, or over how much ground."""
     rows = np.unique(of.row).tolist()
     if len(rows) == 1 and rows[0] >= 0:
@@ -81,7 +81,7 @@ def _none_among(none: str, of: Spots) -> str:
     )
 
 
-def _chosen(of: Spots, count: int, metres: float, least: bool) -> list[int]:
+def _chosen(of: PlaceGroup, count: int, metres: float, least: bool) -> list[int]:
     xy = of.xy
     nearest = metres if least else metres * (1 - TOLERANCE)
     for first in range(0, len(xy), max(1, len(xy) // _MOST_TRIES)):

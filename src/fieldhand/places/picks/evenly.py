@@ -7,21 +7,21 @@ from typing import TYPE_CHECKING
 
 from fieldhand.errors import PlaceError
 from fieldhand.language import counted, message
-from fieldhand.places.faults import too_few
-from fieldhand.places.phrase import Phrase, many, one
+from fieldhand.places.count_range import CountRange, at_most, exactly
+from fieldhand.places.noun_phrase import NounPhrase, many, one
 from fieldhand.places.picks.ordered import Ordered
+from fieldhand.places.place_errors import too_few
 from fieldhand.places.rows.rows import Rows
 from fieldhand.places.selector import Counted, Selector
-from fieldhand.places.size import Range, at_most, exactly
 from fieldhand.places.sources.trees import Trees
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -39,7 +39,7 @@ class Evenly(Counted):
     def example(cls, site: Site) -> Evenly:
         return cls(count=3, out_of=5, of=Rows.example(site))
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         """Return trees at even positions of the order of the group: its own, else row by row.
 
         Of a group of which fewer than ``out_of`` are left at the end, those at the same positions are returned.
@@ -51,9 +51,9 @@ class Evenly(Counted):
                 message("{count} of every {whole} are more than there are", count=self.count, whole=self.out_of),
                 advice=message("ask for at most {count}", count=self.out_of),
             )
-        line = outside_keep_outs(of, tell).once(self.count)
+        line = outside_keep_outs(of, notes).once(self.count)
         if not self.of.keeps_order and resolution.site.planting.blocks:
-            line = Ordered(by="rows").choose(line, resolution, tell)
+            line = Ordered(by="rows").choose(line, resolution, notes)
         if not self.out_of:
             self.need(line, resolution)
             return line.keep(_even(self.count, len(line)))
@@ -61,7 +61,7 @@ class Evenly(Counted):
             raise too_few(resolution.site, self, self.count, len(line))
         left = len(line) % self.out_of
         if left:
-            tell.note(
+            notes.remark(
                 counted(
                     "the count ends with {count} tree left of {whole}",
                     "the count ends with {count} trees left of {whole}",
@@ -72,8 +72,8 @@ class Evenly(Counted):
         chosen = set(_even(self.count, self.out_of))
         return line.keep([k for k in range(len(line)) if k % self.out_of in chosen])
 
-    def phrase(self, saying: Saying) -> Phrase:
-        group = saying.phrase(self.of)
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        group = wording.phrase(self.of)
         if self.out_of:
             if group.plain:
                 return many(message("{count} of every {whole} trees", count=self.count, whole=self.out_of))
@@ -90,7 +90,7 @@ class Evenly(Counted):
         return self.count == 1 and not self.out_of
 
     @property
-    def size(self) -> Range:
+    def size(self) -> CountRange:
         return at_most(self.of.size) if self.out_of else exactly(self.count)
 
 

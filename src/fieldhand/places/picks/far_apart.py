@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from fieldhand.language import message
 from fieldhand.language.words import say_rounded
-from fieldhand.places.spots import Spots
-from fieldhand.places.tell import Tell
+from fieldhand.places.place_group import PlaceGroup
+from fieldhand.places.resolution_notes import ResolutionNotes
 
 Floats = NDArray[np.float64]
 
@@ -21,7 +21,7 @@ _STARTS = 8
 _MOST_MEASURED = 100_000_000
 
 
-def far_apart(spots: Spots, count: int, tell: Tell) -> Spots:
+def far_apart(spots: PlaceGroup, count: int, notes: ResolutionNotes) -> PlaceGroup:
     """``count`` of the places so that the two nearest of them stand far apart, in the order of the file.
 
     From a tree at the rim, each next one is that which is farthest from all taken so far (Gonzalez 1985). The least
@@ -31,7 +31,7 @@ def far_apart(spots: Spots, count: int, tell: Tell) -> Spots:
     Args:
         spots: At least ``count`` places.
         count: How many, at least 1.
-        tell: Is told how far apart they stand.
+        notes: Is told how far apart they stand.
     """
     xy = spots.xy
     away = np.hypot(*(xy - xy.mean(axis=0)).T)
@@ -40,7 +40,7 @@ def far_apart(spots: Spots, count: int, tell: Tell) -> Spots:
     starts = max(1, min(_STARTS, _MOST_MEASURED // (len(xy) * count)))
     begun = np.argsort(-away, kind="stable")[:starts]
     taken, least = max((_from(xy, int(first), count) for first in begun), key=lambda found: found[1])
-    tell.rule = message("the nearest two of them stand {metres} m apart", metres=say_rounded(least, 1))
+    notes.rule = message("the nearest two of them stand {metres} m apart", metres=say_rounded(least, 1))
     return spots.keep(sorted(taken, key=lambda k: int(spots.file_order[k])))
 
 

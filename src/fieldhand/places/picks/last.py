@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.language import message
-from fieldhand.places.phrase import Phrase, one
+from fieldhand.places.noun_phrase import NounPhrase, one
 from fieldhand.places.selector import FromGroup, Selector
 from fieldhand.places.sources.trees import Trees
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -28,14 +28,14 @@ class Last(FromGroup):
     def example(cls, site: Site) -> Last:
         return cls()
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.ranks import nearest_to_marker
 
-        found = nearest_to_marker(of, "end", tell)
+        found = nearest_to_marker(of, "end", notes)
         return of.keep([int(of.file_order.argmax())]) if found is None else found
 
-    def phrase(self, saying: Saying) -> Phrase:
-        group = saying.phrase(self.of)
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        group = wording.phrase(self.of)
         if group.plain:
             return one(message("the last tree"))
         return one(message("the last of {trees}", trees=group.group()))

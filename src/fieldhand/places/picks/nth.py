@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING
 
 from fieldhand.errors import PlaceError
 from fieldhand.language import message
-from fieldhand.places.faults import too_few
-from fieldhand.places.phrase import Phrase
+from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.picks.ordered import Ordered
+from fieldhand.places.place_errors import too_few
 from fieldhand.places.selector import FromGroup, Selector
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -33,7 +33,7 @@ class Nth(FromGroup):
     def example(cls, site: Site) -> Nth:
         return cls(nth=2, of=Ordered(by="north_to_south"))
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         if self.nth == 0:
             raise PlaceError(
                 message("places count from 1"), advice=message("ask for the first, or with -1 for the last")
@@ -42,8 +42,8 @@ class Nth(FromGroup):
             raise too_few(resolution.site, self.of, abs(self.nth), len(of))
         return of.keep([self.nth - 1 if self.nth > 0 else len(of) + self.nth])
 
-    def phrase(self, saying: Saying) -> Phrase:
-        return self.of.nth_phrase(self.nth, saying)
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        return self.of.nth_phrase(self.nth, wording)
 
     @property
     def single(self) -> bool:

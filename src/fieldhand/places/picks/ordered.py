@@ -7,19 +7,19 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 from fieldhand.language import joined, message
+from fieldhand.places.count_range import CountRange
 from fieldhand.places.filters.attribute_words import say_attribute
+from fieldhand.places.noun_phrase import NounPhrase, one
 from fieldhand.places.ordinals import say_ordinal
-from fieldhand.places.phrase import Phrase, one
-from fieldhand.places.picked import foremost, superlative
+from fieldhand.places.selection_phrase import foremost_phrase, superlative
 from fieldhand.places.selector import DependsOn, FromGroup, Selector
-from fieldhand.places.size import Range
 from fieldhand.places.sources.trees import Trees
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 Order = Literal[
@@ -77,33 +77,33 @@ class Ordered(FromGroup):
     def example(cls, site: Site) -> Ordered:
         return cls(by="rows")
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.picks.ordering import ordered
 
-        return ordered(of, self, resolution.context.here.xy, tell)
+        return ordered(of, self, resolution.context.here.xy, notes)
 
-    def phrase(self, saying: Saying) -> Phrase:
-        return replace(saying.phrase(self.of), order=self._order())
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        return replace(wording.phrase(self.of), order=self._order())
 
     @property
     def keeps_order(self) -> bool:
         return True
 
     @property
-    def size(self) -> Range:
+    def size(self) -> CountRange:
         return self.of.size
 
     @property
     def depends_on(self) -> DependsOn:
         return "nearness" if self.by in ("nearest_first", "farthest_first") else "site"
 
-    def nth_phrase(self, number: int, saying: Saying) -> Phrase:
+    def nth_phrase(self, number: int, wording: SelectorWording) -> NounPhrase:
         """Return the second northernmost, the tree with the third highest yield."""
         if number > 0 and self.by == "attribute":
-            return one(self._nth_most(number, saying.phrase(self.of)))
+            return one(self._nth_most(number, wording.phrase(self.of)))
         if number > 0 and self.by in _FOREMOST and not self.descending:
-            return _nth_foremost(_FOREMOST[self.by], number, saying.phrase(self.of))
-        return super().nth_phrase(number, saying)
+            return _nth_foremost(_FOREMOST[self.by], number, wording.phrase(self.of))
+        return super().nth_phrase(number, wording)
 
     def _order(self) -> str:
         """Return the order: "from west to east", "by yield, the highest first"."""
@@ -114,7 +114,7 @@ class Ordered(FromGroup):
             return message("by {name}, the lowest first", name=name)
         return (_BACKWARDS if self.descending else _ORDERS)[self.by]
 
-    def _nth_most(self, number: int, group: Phrase) -> str:
+    def _nth_most(self, number: int, group: NounPhrase) -> str:
         base = message("the tree") if group.plain else message("the one of {trees}", trees=group.group())
         name = say_attribute(self.attribute)[0]
         if number == 1:
@@ -128,10 +128,10 @@ class Ordered(FromGroup):
         return joined(" ", (base, most[0] if self.descending else most[1]))
 
 
-def _nth_foremost(word: str, number: int, group: Phrase) -> Phrase:
+def _nth_foremost(word: str, number: int, group: NounPhrase) -> NounPhrase:
     """Return the second northernmost tree."""
     if number == 1:
-        return foremost(word, 1, group)
+        return foremost_phrase(word, 1, group)
     rank, which = say_ordinal(number, "tree"), superlative(word, 1)
     if group.plain:
         return one(message("the {ordinal} {northernmost} tree", ordinal=rank, northernmost=which))

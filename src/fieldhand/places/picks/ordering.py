@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from fieldhand.language import counted
 from fieldhand.places.filters.attributes import column_of, column_rows
-from fieldhand.places.spots import Spots
-from fieldhand.places.tell import Tell
+from fieldhand.places.place_group import PlaceGroup
+from fieldhand.places.resolution_notes import ResolutionNotes
 from fieldhand.site.counting import need_rows, rows_from
 from fieldhand.site.model import Site
 from fieldhand.site.planting import Indices
@@ -27,13 +27,13 @@ _COMPASS: dict[Order, tuple[float, float]] = {
 }
 
 
-def ordered(spots: Spots, selector: Ordered, here: tuple[float, float], tell: Tell) -> Spots:
+def ordered(spots: PlaceGroup, selector: Ordered, here: tuple[float, float], notes: ResolutionNotes) -> PlaceGroup:
     """All of them in that order; ties by file order; last what has no row, or lacks the attribute."""
-    key, lacking = _key(spots, selector, here, tell)
+    key, lacking = _key(spots, selector, here, notes)
     if lacking.any():
         count = int(lacking.sum())
         if selector.by == "attribute":
-            tell.note(
+            notes.remark(
                 counted(
                     "{count} place lacks {attribute} and comes last",
                     "{count} places lack {attribute} and come last",
@@ -42,7 +42,7 @@ def ordered(spots: Spots, selector: Ordered, here: tuple[float, float], tell: Te
                 )
             )
         else:
-            tell.note(
+            notes.remark(
                 counted(
                     "{count} place stands in no row and comes last",
                     "{count} places stand in no row and come last",
@@ -54,7 +54,7 @@ def ordered(spots: Spots, selector: Ordered, here: tuple[float, float], tell: Te
 
 
 def _key(
-    spots: Spots, selector: Ordered, here: tuple[float, float], tell: Tell
+    spots: PlaceGroup, selector: Ordered, here: tuple[float, float], notes: ResolutionNotes
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """What they are ordered by, and which of them have none."""
     none = np.zeros(len(spots), dtype=bool)
@@ -65,7 +65,7 @@ def _key(
         case "rows":
             place, side = _row_places(spots.site)
             row = spots.row
-            tell.rule = f"rows count from {side}, the trees of each from its usual end"
+            notes.rule = f"rows count from {side}, the trees of each from its usual end"
             return np.asarray(place[row] * (len(spots.site.trees) + 1.0) + spots.rank_in_row), row < 0
         case "attribute":
             column = column_rows(column_of(spots.site, selector.attribute), spots)

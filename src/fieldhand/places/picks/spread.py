@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 from fieldhand.language import message
 from fieldhand.places.filters.where import Where
-from fieldhand.places.phrase import Phrase, many, one
+from fieldhand.places.noun_phrase import NounPhrase, many, one
 from fieldhand.places.selector import Counted, Selector
 from fieldhand.places.sources.trees import Trees
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -32,16 +32,16 @@ class Spread(Counted):
     def example(cls, site: Site) -> Spread:
         return cls(count=10, of=Where(attribute="age_years", test="gt", value=10.0))
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.filters.zones import outside_keep_outs
         from fieldhand.places.picks.far_apart import far_apart
 
-        free = outside_keep_outs(of, tell).once(self.count)
+        free = outside_keep_outs(of, notes).once(self.count)
         self.need(free, resolution)
-        return far_apart(free, self.count, tell)
+        return far_apart(free, self.count, notes)
 
-    def phrase(self, saying: Saying) -> Phrase:
-        group = saying.phrase(self.of).group()
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        group = wording.phrase(self.of).group()
         if self.count == 1:
             return one(message("of {trees} the one nearest to their middle", trees=group))
         return many(message("{count} of {trees}, spread far from each other", count=self.count, trees=group))

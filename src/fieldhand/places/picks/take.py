@@ -6,16 +6,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.language import message
-from fieldhand.places.filters.other import Other
+from fieldhand.places.filters.not_visited import NotVisited
 from fieldhand.places.filters.where import Where
-from fieldhand.places.phrase import Phrase, many, one
+from fieldhand.places.noun_phrase import NounPhrase, many, one
 from fieldhand.places.selector import Counted, DependsOn, Selector
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -32,19 +32,19 @@ class Take(Counted):
     def example(cls, site: Site) -> Take:
         return cls(count=10, of=Where(attribute="age_years", test="gt", value=10.0))
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.filters.zones import outside_keep_outs
         from fieldhand.places.neighbours.distances import short_drive
 
-        free = outside_keep_outs(of, tell).once(self.count)
+        free = outside_keep_outs(of, notes).once(self.count)
         self.need(free, resolution)
-        tell.rule = "from the place in hand to the nearest, from there to the next nearest"
+        notes.rule = "from the place in hand to the nearest, from there to the next nearest"
         return short_drive(free, resolution.context.here.xy, self.count)
 
-    def phrase(self, saying: Saying) -> Phrase:
-        inner = saying.phrase(self.of)
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        inner = wording.phrase(self.of)
         if self.count == 1:
-            if self.of == Other():
+            if self.of == NotVisited():
                 return one(message("another tree, the nearest one not visited yet"))
             return inner if inner.single else one(message("the nearest of {trees}", trees=inner.group()))
         return many(message("the {count} nearest of {trees}", count=self.count, trees=inner.group()))

@@ -15,10 +15,10 @@ from shapely.ops import unary_union
 
 from fieldhand.errors import PlaceError
 from fieldhand.language import message
-from fieldhand.places.faults import no_such_zone
-from fieldhand.places.spots import Spots
+from fieldhand.places.place_errors import no_such_zone
+from fieldhand.places.place_group import PlaceGroup
 from fieldhand.site.counting import find_block
-from fieldhand.site.kinds import phrase
+from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.model import Place, Site
 from fieldhand.site.names import short
 
@@ -34,10 +34,10 @@ MOST_POINTS = 10_000
 Floats = NDArray[np.float64]
 
 
-def free_points(site: Site, xy: Floats, ids: Sequence[str]) -> Spots:
+def free_points(site: Site, xy: Floats, ids: Sequence[str]) -> PlaceGroup:
     """Return a group of free points of these names."""
     degrees = site.projection.degrees(xy).tolist()
-    return Spots.of(
+    return PlaceGroup.of(
         site,
         [
             Place(kind="point", id=name, x=float(x), y=float(y), lat=lat, lon=lon)

@@ -17,6 +17,7 @@ from fieldhand.errors import PlaceError
 from fieldhand.language import Number, message
 from fieldhand.language.words import COMPASS, say_number, say_rounded
 from fieldhand.places.neighbours.distances import Origin, distance_to, nearest_of
+from fieldhand.places.place_group import PlaceGroup
 from fieldhand.places.points.free_ground import (
     MOST_POINTS,
     area_called,
@@ -26,8 +27,7 @@ from fieldhand.places.points.free_ground import (
     segments,
     tree_index,
 )
-from fieldhand.places.spots import Spots
-from fieldhand.places.tell import Tell
+from fieldhand.places.resolution_notes import ResolutionNotes
 from fieldhand.site import counting
 from fieldhand.site.counting import row_words, wind
 from fieldhand.site.model import Site
@@ -67,7 +67,7 @@ class _Line:
 _BESIDE = 0.4
 
 
-def on_line(spots: Spots, near: Origin, selector: Spaced, tell: Tell) -> Spots:
+def on_line(spots: PlaceGroup, near: Origin, selector: Spaced, notes: ResolutionNotes) -> PlaceGroup:
     """Points at exactly that spacing on one straight line, from its end that is nearer to ``near``.
 
     Raises:
@@ -85,15 +85,15 @@ def on_line(spots: Spots, near: Origin, selector: Spaced, tell: Tell) -> Spots:
             advice=message("ask for at most {count}", count=MOST_POINTS),
         )
     in_row = spots.keep(spots.row >= 0) if not selector.zone and site.planting.blocks else spots.keep([])
-    lines = _beside_row(in_row, near, tell) if len(in_row) else _across_area(spots, selector.zone, tell)
-    line, piece = _fitting(lines, _from(near, spots), apart, count, tell)
+    lines = _beside_row(in_row, near, notes) if len(in_row) else _across_area(spots, selector.zone, notes)
+    line, piece = _fitting(lines, _from(near, spots), apart, count, notes)
     fit = min(int(piece.length / apart + 1e-6) + 1, MOST_POINTS)
     if fit < count or not fit:
         raise _does_not_fit(site, selector, line, piece, fit)
     ends = np.array(piece.coords)[[0, -1]]
     step = (ends[1] - ends[0]) / np.hypot(*(ends[1] - ends[0]))
     xy = ends[0] + np.arange(count or fit)[:, None] * apart * step
-    tell.note(
+    notes.remark(
         message(
             "the line runs {north} {beside_row}, {metres} m long",
             north=COMPASS[wind(step)],
@@ -108,14 +108,16 @@ def on_line(spots: Spots, near: Origin, selector: Spaced, tell: Tell) -> Spots:
     return free_points(site, xy, names)
 
 
-def _fitting(lines: Iterator[_Line], near: Floats, apart: float, count: int, tell: Tell) -> tuple[_Line, LineString]:
+def _fitting(
+    lines: Iterator[_Line], near: Floats, apart: float, count: int, notes: ResolutionNotes
+) -> tuple[_Line, LineString]:
     """The first line with a piece that holds the count, and that piece from its end that is nearer to ``near``; else
     the longest piece. Without a count the longest piece of the first line with any."""
     longest: tuple[_Line, LineString] | None = None
     for line in lines:
         pieces = sorted((_begun(p, near) for p in line.pieces), key=lambda p: round(Point(near).distance(p), 3))
         if len(pieces) > 1:
-            tell.note(
+            notes.remark(
                 message(
                     "keep-outs or the boundary cut the line {beside_row} into {count} pieces; one of them is used",
                     beside_row=line.words,
@@ -158,14 +160,14 @@ def _does_not_fit(site: Site, selector: Spaced, line: _Line, piece: LineString, 
     )
 
 
-def _from(near: Origin, spots: Spots) -> Floats:
+def _from(near: Origin, spots: PlaceGroup) -> Floats:
     """Return the point from which a line is seen: the first place of ``near``, or where a zone is nearest to a tree."""
-    if isinstance(near, Spots):
+    if isinstance(near, PlaceGroup):
         return np.asarray(near.xy[0])
     return np.asarray(nearest_of(near, spots.ranked(distance_to(spots, near), 1))[0])
 
 
-def _beside_row(in_row: Spots, near: Origin, tell: Tell) -> Iterator[_Line]:
+def _beside_row(in_row: PlaceGroup, near: Origin, notes: ResolutionNotes) -> Iterator[_Line]:
     """Lines beside the row that has the tree nearest to ``near``: on its side first."""
     site = in_row.site
     nearest = in_row.ranked(distance_to(in_row, near), 1)
@@ -182,7 +184,7 @@ def _beside_row(in_row: Spots, near: Origin, tell: Tell) -> Iterator[_Line]:
     sides = inner + [k for k in (1, -1) if k not in inner]
     if abs(aside) > _ASIDE * spacing:
         sides.sort(key=lambda k: k * aside < 0)
-    tell.rule = f"{row_words(site, row)} is the nearest row"
+    notes.rule = f"{row_words(site, row)} is the nearest row"
     for side in sides:
         if side in inner:
             c, s = _course(site, block.rows[at + side], u, v)
@@ -209,7 +211,7 @@ def _course(site: Site, row: Row, u: Floats, v: Floats) -> tuple[float, float]:
     return float(offset - slope * along.mean()), float(slope)
 
 
-def _across_area(spots: Spots, zone: str, tell: Tell) -> Iterator[_Line]:
+def _across_area(spots: PlaceGroup, zone: str, notes: ResolutionNotes) -> Iterator[_Line]:
     """Straight lines through a zone, or through the extent of the trees: off the trees first, then near its middle."""
     site = spots.site
     area = area_called(site, zone) if zone else ground_of(spots.xy, site.spacing_m / 2)
@@ -219,7 +221,7 @@ def _across_area(spots: Spots, zone: str, tell: Tell) -> Iterator[_Line]:
     outline = (shapely.get_coordinates(area) - middle) @ v
     reach = float(np.hypot(*np.ptp(shapely.get_coordinates(area), axis=0)))
     free = free_part(site, area)
-    tell.rule = "a straight line " + (f"inside {short(zone)}" if zone else "through the trees")
+    notes.rule = "a straight line " + (f"inside {short(zone)}" if zone else "through the trees")
     offsets = [0.0, *np.linspace(outline.min(), outline.max(), _LINES)[1:-1].tolist()]
     found = []
     for offset in offsets:

@@ -13,6 +13,7 @@ from shapely.geometry.base import BaseGeometry
 from fieldhand import language
 from fieldhand.errors import PlaceError
 from fieldhand.language import message
+from fieldhand.places.place_group import PlaceGroup
 from fieldhand.places.points.free_ground import (
     MOST_POINTS,
     OFF_TREES_M,
@@ -21,8 +22,7 @@ from fieldhand.places.points.free_ground import (
     free_points,
     off_trees,
 )
-from fieldhand.places.spots import Spots
-from fieldhand.places.tell import Tell
+from fieldhand.places.resolution_notes import ResolutionNotes
 from fieldhand.site.model import Site
 from fieldhand.site.names import short
 
@@ -39,7 +39,7 @@ _RASTER = 40
 _ROUNDS = 8
 
 
-def over_zone(site: Site, selector: PointsIn, tell: Tell) -> Spots:
+def over_zone(site: Site, selector: PointsIn, notes: ResolutionNotes) -> PlaceGroup:
     """Points spread evenly over a zone, or its middle; off the trees by a metre where there is room.
 
     Raises:
@@ -68,7 +68,7 @@ def over_zone(site: Site, selector: PointsIn, tell: Tell) -> Spots:
             else message("all of it is kept out or outside the boundary"),
         )
     if count == 1:
-        tell.rule = "the free place nearest to the middle of its area"
+        notes.rule = "the free place nearest to the middle of its area"
         middle = np.array(area.centroid.coords[0])
         if shapely.intersects_xy(free, *middle) and off_trees(site, middle[None, :])[0] >= OFF_TREES_M:
             return free_points(
@@ -79,7 +79,7 @@ def over_zone(site: Site, selector: PointsIn, tell: Tell) -> Spots:
             raster[_nearest(raster, middle)][None, :],
             [message("the middle of {zone}", context="name", zone=selector.zone)],
         )
-    tell.rule = "each has a like share of the area"
+    notes.rule = "each has a like share of the area"
     xy = _spread(raster, count)
     xy = xy[np.lexsort((-xy[:, 1], np.round(xy[:, 0], 3)))]
     names = [

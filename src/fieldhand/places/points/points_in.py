@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 from fieldhand.language import message
 from fieldhand.language.words import say_zone
-from fieldhand.places.phrase import Phrase, many, one
+from fieldhand.places.count_range import ANY, CountRange, exactly
+from fieldhand.places.noun_phrase import NounPhrase, many, one
 from fieldhand.places.selector import Selector
-from fieldhand.places.size import ANY, Range, exactly
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -30,12 +30,12 @@ class PointsIn(Selector):
     def example(cls, site: Site) -> PointsIn:
         return cls(zone=next((zone.name for zone in site.zones if zone.kind == "zone"), ""), count=9)
 
-    def resolve(self, resolution: Resolution, tell: Tell) -> Spots:
+    def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.points.over_zone import over_zone
 
-        return over_zone(resolution.site, self, tell)
+        return over_zone(resolution.site, self, notes)
 
-    def phrase(self, saying: Saying) -> Phrase:
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
         zone = say_zone(self.zone)
         if self.count == 1:
             return one(message("the middle of {zone}", zone=zone))
@@ -46,5 +46,5 @@ class PointsIn(Selector):
         return self.count == 1
 
     @property
-    def size(self) -> Range:
+    def size(self) -> CountRange:
         return exactly(self.count) if self.count else ANY

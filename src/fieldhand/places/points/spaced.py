@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING
 
 from fieldhand.language import message
 from fieldhand.language.words import say_number, say_zone
-from fieldhand.places.phrase import Phrase, many, one
+from fieldhand.places.count_range import ANY, CountRange, exactly
+from fieldhand.places.noun_phrase import NounPhrase, many, one
 from fieldhand.places.selector import FromGroup, Selector
-from fieldhand.places.size import ANY, Range, exactly
 from fieldhand.places.sources.here import Here
 from fieldhand.places.sources.marker import Marker
 from fieldhand.places.sources.trees import Trees
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -37,14 +37,14 @@ class Spaced(FromGroup):
     def example(cls, site: Site) -> Spaced:
         return cls(apart_m=15.0)
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.points.on_line import on_line
 
-        return on_line(of, resolution.origin(self.near), self, tell)
+        return on_line(of, resolution.origin(self.near), self, notes)
 
-    def phrase(self, saying: Saying) -> Phrase:
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
         apart, count = say_number(self.apart_m), self.count
-        where, near = self._line(saying), self.near.as_origin(saying)
+        where, near = self._line(wording), self.near.as_origin(wording)
         if count == 1:
             return one(message("a point {where}, beginning at the end nearer to {place}", where=where, place=near))
         if count:
@@ -64,7 +64,7 @@ class Spaced(FromGroup):
         return self.count == 1
 
     @property
-    def size(self) -> Range:
+    def size(self) -> CountRange:
         return exactly(self.count) if self.count else ANY
 
     @property
@@ -75,9 +75,9 @@ class Spaced(FromGroup):
     def from_start(self) -> Selector:
         return replace(self, near=Marker(name="start")) if self.near == Here() else self
 
-    def _line(self, saying: Saying) -> str:
+    def _line(self, wording: SelectorWording) -> str:
         """Return on which line the points lie."""
-        group = saying.phrase(self.of)
+        group = wording.phrase(self.of)
         if self.zone:
             return message("on a line inside {zone}", zone=say_zone(self.zone))
         if group.bare and group.one_row:

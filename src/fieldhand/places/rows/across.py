@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING
 
 from fieldhand.language import message
 from fieldhand.language.words import COMPASS
-from fieldhand.places.phrase import Phrase, one
+from fieldhand.places.noun_phrase import NounPhrase, one
 from fieldhand.places.selector import Selector
 from fieldhand.places.sources.here import Here
 from fieldhand.terms import CountedFrom, Side
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -33,13 +33,13 @@ class Across(Selector):
     def example(cls, site: Site) -> Across:
         return cls()
 
-    def resolve(self, resolution: Resolution, tell: Tell) -> Spots:
-        from fieldhand.places.rows.in_hand import across
+    def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
+        from fieldhand.places.rows.along_and_across import across
 
-        return across(resolution.one(self.origin), self.side, tell)
+        return across(resolution.one(self.origin), self.side, notes)
 
-    def phrase(self, saying: Saying) -> Phrase:
-        place = self.origin.it(saying)
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        place = self.origin.it(wording)
         if self.side == "usual":
             return one(message("the tree abreast of {place} in the next row", place=place))
         return one(

@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING
 
 from fieldhand.language import message
 from fieldhand.language.words import COMPASS
-from fieldhand.places.phrase import Phrase, one
+from fieldhand.places.noun_phrase import NounPhrase, one
 from fieldhand.places.selector import Selector
 from fieldhand.places.sources.here import Here
 from fieldhand.terms import Side, Towards
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -37,13 +37,13 @@ class AlongRow(Selector):
     def example(cls, site: Site) -> AlongRow:
         return cls(trees=3)
 
-    def resolve(self, resolution: Resolution, tell: Tell) -> Spots:
-        from fieldhand.places.rows.in_hand import along_row
+    def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
+        from fieldhand.places.rows.along_and_across import along_row
 
-        return along_row(resolution.one(self.origin), self, tell)
+        return along_row(resolution.one(self.origin), self, notes)
 
-    def phrase(self, saying: Saying) -> Phrase:
-        start, way = self.origin.from_it(saying), _say_way(self.towards)
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        start, way = self.origin.from_it(wording), _say_way(self.towards)
         if self.trees == 1:
             said = message("the next tree {down_the_row}", down_the_row=way)
         else:

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from fieldhand.errors import PlaceError
 from fieldhand.language import counted, message
-from fieldhand.places.rows.standing import blocks_of, standing
-from fieldhand.places.spots import Spots
-from fieldhand.places.tell import Tell
+from fieldhand.places.place_group import PlaceGroup
+from fieldhand.places.resolution_notes import ResolutionNotes
+from fieldhand.places.rows.numbers_in_row import blocks_of, numbers_in_row
 from fieldhand.site.counting import (
     need_rows,
     numbered_by_file,
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 Mask = NDArray[np.bool_]
 
 
-def in_row(spots: Spots, selector: InRow, tell: Tell) -> Spots:
+def in_row(spots: PlaceGroup, selector: InRow, notes: ResolutionNotes) -> PlaceGroup:
     """Those with such numbers in their row.
 
     Whole rows whose trees the file numbers go by the file's numbers, unless a side is named to count from; else the
@@ -45,19 +45,19 @@ def in_row(spots: Spots, selector: InRow, tell: Tell) -> Spots:
     if first * last > 0 and first > last:
         first, last = last, first
     way, side = _ways(spots, selector.counted_from)
-    number, count = standing(spots, way)
+    number, count = numbers_in_row(spots, way)
     low, high = (np.where(n < 0, count + 1 + n, n) for n in (first, last))
     kept = (number >= low) & (number <= high) & (number > 0)
-    tell.rule = f"trees in a row count from {side}"
+    notes.rule = f"trees in a row count from {side}"
     if selector.counted_from == "usual":
-        kept = _by_own_numbers(spots, kept, (first, last), tell)
+        kept = _by_own_numbers(spots, kept, (first, last), notes)
     if not kept.any():
         raise _no_such_tree_in_row(spots, selector, count)
-    _tell_short_rows(spots, max(first, last), count, tell)
+    _note_short_rows(spots, max(first, last), count, notes)
     return spots.keep(kept)
 
 
-def every_nth(spots: Spots, selector: EveryNth, tell: Tell) -> Spots:
+def every_nth(spots: PlaceGroup, selector: EveryNth, notes: ResolutionNotes) -> PlaceGroup:
     """Those whose number among the group in their row is ``start``, ``start + nth``, and so on.
 
     Where no row has as many trees, the count goes on from row to row: "every 50th tree" is not the first of every row.
@@ -68,11 +68,11 @@ def every_nth(spots: Spots, selector: EveryNth, tell: Tell) -> Spots:
             advice=message("ask for every tree, every second tree, ...; the first tree of a row is tree 1"),
         )
     way, side = _ways(spots, selector.counted_from)
-    number, _ = standing(spots, way)
-    tell.rule = f"the trees that stand are counted, in each row from {side}"
+    number, _ = numbers_in_row(spots, way)
+    notes.rule = f"the trees that stand are counted, in each row from {side}"
     outside = int((number == 0).sum())
     if outside:
-        tell.note(
+        notes.remark(
             counted(
                 "{count} tree stands in no row and cannot be counted",
                 "{count} trees stand in no row and cannot be counted",
@@ -81,12 +81,12 @@ def every_nth(spots: Spots, selector: EveryNth, tell: Tell) -> Spots:
         )
     if 0 < number.max(initial=0) < selector.nth:
         number = _row_by_row(spots, number)
-        tell.rule = f"the trees that stand are counted row by row, in each row from {side}"
-        tell.note(message("no row has {count} of them, so the count goes on from row to row", count=selector.nth))
+        notes.rule = f"the trees that stand are counted row by row, in each row from {side}"
+        notes.remark(message("no row has {count} of them, so the count goes on from row to row", count=selector.nth))
     return spots.keep((number >= selector.start) & ((number - selector.start) % selector.nth == 0))
 
 
-def _row_by_row(spots: Spots, number: Indices) -> Indices:
+def _row_by_row(spots: PlaceGroup, number: Indices) -> Indices:
     """The numbers in their rows counted on from one row to the next; 0 stays what is in no row."""
     counted = np.flatnonzero(number)
     row = spots.site.planting.row_of[spots.index[counted]]
@@ -95,7 +95,7 @@ def _row_by_row(spots: Spots, number: Indices) -> Indices:
     return on
 
 
-def _ways(spots: Spots, side: CountedFrom) -> tuple[Indices, str]:
+def _ways(spots: PlaceGroup, side: CountedFrom) -> tuple[Indices, str]:
     """For each row of the site the way in which its trees count, and from where, of the blocks of the group."""
     site = spots.site
     planting = need_rows(site)
@@ -120,7 +120,7 @@ def _ways(spots: Spots, side: CountedFrom) -> tuple[Indices, str]:
     return way, " or ".join(sides)
 
 
-def _by_own_numbers(spots: Spots, kept: Mask, ends: tuple[int, int], tell: Tell) -> Mask:
+def _by_own_numbers(spots: PlaceGroup, kept: Mask, ends: tuple[int, int], notes: ResolutionNotes) -> Mask:
     """The same choice by the file's numbers, in rows that it numbers and of which the group has every tree."""
     site = spots.site
     rows = spots.row
@@ -135,11 +135,11 @@ def _by_own_numbers(spots: Spots, kept: Mask, ends: tuple[int, int], tell: Tell)
         low, high = (n if n > 0 else int(slots[len(slots) + n]) if -n <= len(slots) else 0 for n in ends)
         number = row.slots[site.planting.rank[spots.index[mine]]]
         kept[mine] = (number >= low) & (number <= high)
-        tell.rule = "trees in a row go by their numbers in the file"
+        notes.rule = "trees in a row go by their numbers in the file"
     return kept
 
 
-def _no_such_tree_in_row(spots: Spots, selector: InRow, count: Indices) -> PlaceError:
+def _no_such_tree_in_row(spots: PlaceGroup, selector: InRow, count: Indices) -> PlaceError:
     site = spots.site
     rows = np.unique(spots.row[spots.row >= 0]).tolist()
     said = message("trees {first} to {last}", first=selector.first, last=selector.last)
@@ -160,12 +160,12 @@ def _no_such_tree_in_row(spots: Spots, selector: InRow, count: Indices) -> Place
     )
 
 
-def _tell_short_rows(spots: Spots, last: int, count: Indices, tell: Tell) -> None:
+def _note_short_rows(spots: PlaceGroup, last: int, count: Indices, notes: ResolutionNotes) -> None:
     short_rows = np.unique(spots.row[(count > 0) & (count < last)]).tolist()
-    if short_rows and tell.rule.startswith("trees in a row count"):
+    if short_rows and notes.rule.startswith("trees in a row count"):
         names = [row_words(spots.site, spots.site.planting.rows[k]) for k in short_rows]
         trees = counted("{count} tree", "{count} trees", last)
         if len(names) == 1:
-            tell.note(message("{row} has fewer than {trees} to choose from", row=names[0], trees=trees))
+            notes.remark(message("{row} has fewer than {trees} to choose from", row=names[0], trees=trees))
         else:
-            tell.note(message("{rows} have fewer than {trees} to choose from", rows=listed(names), trees=trees))
+            notes.remark(message("{rows} have fewer than {trees} to choose from", rows=listed(names), trees=trees))

@@ -6,18 +6,18 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.language import joined, message
+from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.ordinals import say_ordinal
-from fieldhand.places.phrase import Phrase
 from fieldhand.places.rows.counted_from import many_from
 from fieldhand.places.selector import FromGroup, Selector
 from fieldhand.places.sources.trees import Trees
 from fieldhand.terms import CountedFrom
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -38,19 +38,19 @@ class EveryNth(FromGroup):
     def example(cls, site: Site) -> EveryNth:
         return cls(nth=3)
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.rows.by_number import every_nth
 
-        return every_nth(of, self, tell)
+        return every_nth(of, self, notes)
 
-    def phrase(self, saying: Saying) -> Phrase:
-        group = saying.phrase(self.of)
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        group = wording.phrase(self.of)
         said = self._of_rows(group) if group.bare else self._of_trees(group.group())
         if self.start != 1:
             said = message("{trees}, from the {ordinal} on", trees=said, ordinal=say_ordinal(self.start, "one"))
         return many_from(said, self.counted_from)
 
-    def _of_rows(self, group: Phrase) -> str:
+    def _of_rows(self, group: NounPhrase) -> str:
         each = "" if group.row else message("of each row")
         of = joined(" ", [part for part in (each, group.of_what) if part])
         match self.nth:

@@ -6,18 +6,18 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.language import message
+from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.ordinals import say_ordinal, say_ranked_tree
-from fieldhand.places.phrase import Phrase
 from fieldhand.places.rows.counted_from import many_from
 from fieldhand.places.selector import FromGroup, Selector
 from fieldhand.places.sources.trees import Trees
 from fieldhand.terms import CountedFrom
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -41,15 +41,15 @@ class InRow(FromGroup):
     def example(cls, site: Site) -> InRow:
         return cls(first=2, last=-2)
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.rows.by_number import in_row
 
-        return in_row(of, self, tell)
+        return in_row(of, self, notes)
 
-    def phrase(self, saying: Saying) -> Phrase:
-        return many_from(self._of_rows(saying.phrase(self.of)), self.counted_from)
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        return many_from(self._of_rows(wording.phrase(self.of)), self.counted_from)
 
-    def _of_rows(self, group: Phrase) -> str:
+    def _of_rows(self, group: NounPhrase) -> str:
         """Return trees 4 to 9 of whichever rows the group stands in."""
         numbered = self._numbers()
         if not group.bare:

@@ -6,16 +6,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.language import message
-from fieldhand.places.phrase import Phrase
+from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.selector import FromGroup, Selector
 from fieldhand.places.sources.here import Here
 from fieldhand.places.sources.trees import Trees
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -34,13 +34,13 @@ class RowOf(FromGroup):
     def example(cls, site: Site) -> RowOf:
         return cls(over=1)
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.rows.row_range import row_of
 
-        return row_of(of, resolution.spots(self.origin), self.over, tell)
+        return row_of(of, resolution.spots(self.origin), self.over, notes)
 
-    def phrase(self, saying: Saying) -> Phrase:
-        return saying.phrase(self.of).of_rows(_row_of(self.over, self.origin.from_it(saying)), one=True)
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        return wording.phrase(self.of).of_rows(_row_of(self.over, self.origin.from_it(wording)), one=True)
 
     @property
     def row_of(self) -> Selector:

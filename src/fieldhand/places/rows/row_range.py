@@ -10,11 +10,11 @@ import numpy as np
 from fieldhand.errors import PlaceError
 from fieldhand.language import counted, message, words
 from fieldhand.language.words import COMPASS
-from fieldhand.places.faults import no_such_row, row_in_several_blocks
-from fieldhand.places.rows.in_hand import tree_in_hand
-from fieldhand.places.rows.standing import blocks_of, in_those_rows
-from fieldhand.places.spots import Spots
-from fieldhand.places.tell import Tell
+from fieldhand.places.place_errors import no_such_row, row_in_several_blocks
+from fieldhand.places.place_group import PlaceGroup
+from fieldhand.places.resolution_notes import ResolutionNotes
+from fieldhand.places.rows.along_and_across import reference_tree
+from fieldhand.places.rows.numbers_in_row import blocks_of, in_those_rows
 from fieldhand.site.counting import (
     block_words,
     find_row,
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from fieldhand.places.rows.rows import Rows
 
 
-def in_rows(spots: Spots, selector: Rows, ground: Spots, tell: Tell) -> Spots:
+def in_rows(spots: PlaceGroup, selector: Rows, ground: PlaceGroup, notes: ResolutionNotes) -> PlaceGroup:
     """Those in a range of rows, or in every so many of them.
 
     A row that is called by name or number is looked for in the blocks of the ground; without one, each block counts.
@@ -49,21 +49,23 @@ def in_rows(spots: Spots, selector: Rows, ground: Spots, tell: Tell) -> Spots:
         )
     chosen: list[Row] = []
     if selector.first or selector.last:
-        chosen = list(_range(site, blocks, selector, tell))
+        chosen = list(_range(site, blocks, selector, notes))
     else:
         for block in blocks:
             rows, side = rows_from(site, block, selector.counted_from)
             chosen += rows[:: selector.every]
-            tell.rule = f"rows count from {side}" + (", in each block" if len(blocks) > 1 else "")
+            notes.rule = f"rows count from {side}" + (", in each block" if len(blocks) > 1 else "")
     return in_those_rows(spots, chosen)
 
 
-def row_of(spots: Spots, origin: Spots, over: int, tell: Tell) -> Spots:
+def row_of(spots: PlaceGroup, origin: PlaceGroup, over: int, notes: ResolutionNotes) -> PlaceGroup:
     """Those in the rows of the origin, or so many rows over."""
     site = spots.site
     planting = need_rows(site)
     rows = np.unique(origin.row)
-    own = {int(planting.row_of[tree_in_hand(origin.keep([k]), tell)]) for k in np.flatnonzero(origin.row < 0).tolist()}
+    own = {
+        int(planting.row_of[reference_tree(origin.keep([k]), notes)]) for k in np.flatnonzero(origin.row < 0).tolist()
+    }
     chosen: list[Row] = []
     for row in sorted(own | set(rows[rows >= 0].tolist())):
         mine = planting.rows[row]
@@ -91,11 +93,11 @@ def row_of(spots: Spots, origin: Spots, over: int, tell: Tell) -> Spots:
                 ),
             )
         chosen.append(in_order[at])
-    tell.rule = f"that is {listed([row_words(site, row) for row in chosen])}"
+    notes.rule = f"that is {listed([row_words(site, row) for row in chosen])}"
     return in_those_rows(spots, chosen)
 
 
-def _range(site: Site, blocks: Sequence[Block], selector: Rows, tell: Tell) -> Sequence[Row]:
+def _range(site: Site, blocks: Sequence[Block], selector: Rows, notes: ResolutionNotes) -> Sequence[Row]:
     """The rows from first to last; they are of one block, and no other block has both."""
     found: list[tuple[Block, Sequence[Row]]] = []
     by_number = selector.counted_from != "usual"
@@ -106,7 +108,7 @@ def _range(site: Site, blocks: Sequence[Block], selector: Rows, tell: Tell) -> S
         if first is not None and last is not None:
             step = selector.every if last >= first else -selector.every
             found.append((block, rows[first : last + 1 : step] if step > 0 else _backwards(rows, first, last, step)))
-            tell.rule = f"rows count from {side}"
+            notes.rule = f"rows count from {side}"
     if not found:
         raise _no_such_range(site, blocks, selector)
     if len(found) > 1:

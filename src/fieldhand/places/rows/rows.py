@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING
 from fieldhand.language import message
 from fieldhand.language.words import COMPASS
 from fieldhand.places.filters.in_block import InBlock
+from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.ordinals import say_ordinal
-from fieldhand.places.phrase import Phrase
 from fieldhand.places.selector import FromGroup, Selector
 from fieldhand.places.sources.trees import Trees
 from fieldhand.terms import CountedFrom
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -46,14 +46,14 @@ class Rows(FromGroup):
     def example(cls, site: Site) -> Rows:
         return cls(first="2", last="-2", every=2, of=InBlock.example(site))
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.rows.row_range import in_rows
 
-        return in_rows(of, self, resolution.ground(self.of, of), tell)
+        return in_rows(of, self, resolution.ground(self.of, of), notes)
 
-    def phrase(self, saying: Saying) -> Phrase:
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
         rows, single = self._said()
-        return saying.phrase(self.of).of_rows(rows, one=single)
+        return wording.phrase(self.of).of_rows(rows, one=single)
 
     def _said(self) -> tuple[str, bool]:
         """Return the rows that are meant, without the trees in them, and True if it is one: "row 3", "all rows"."""

@@ -6,19 +6,19 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldhand.language import joined, message
-from fieldhand.places.faults import too_few
-from fieldhand.places.phrase import Phrase, many
-from fieldhand.places.picked import picked
+from fieldhand.places.noun_phrase import NounPhrase, many
+from fieldhand.places.place_errors import too_few
+from fieldhand.places.selection_phrase import picked_phrase
 from fieldhand.places.selector import Counted, Selector
 from fieldhand.places.sources.here import Here
 from fieldhand.places.sources.marker import Marker
 from fieldhand.places.sources.trees import Trees
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -38,21 +38,21 @@ class Successive(Counted):
     def example(cls, site: Site) -> Successive:
         return cls(count=4)
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
-        from fieldhand.places.rows.in_hand import longest_run, successive
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
+        from fieldhand.places.rows.along_and_across import longest_run, successive
 
         near = resolution.origin(self.near)
         self.need(of, resolution)
-        found = successive(of, near, self.count, tell)
+        found = successive(of, near, self.count, notes)
         if len(found) < self.count:
             raise too_few(resolution.site, self, self.count, longest_run(of))
         return found
 
-    def phrase(self, saying: Saying) -> Phrase:
-        group = saying.phrase(self.of)
-        near, count = self.near.as_origin(saying), self.count
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        group = wording.phrase(self.of)
+        near, count = self.near.as_origin(wording), self.count
         if count == 1:
-            return picked(group, 1, message("nearest to {place}", place=near))
+            return picked_phrase(group, 1, message("nearest to {place}", place=near))
         if group.bare:
             each = "" if group.one_row else message("of one row")
             where = joined(" ", [part for part in (each, group.of_what) if part])

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 from fieldhand.errors import PlaceError
 from fieldhand.language import message
-from fieldhand.places.phrase import Phrase, one
+from fieldhand.places.noun_phrase import NounPhrase, one
 from fieldhand.places.selector import DependsOn, Selector
 from fieldhand.site.names import listed, short
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 #: The label that an example uses.
@@ -32,7 +32,7 @@ class Bound(Selector):
     def example(cls, site: Site) -> Bound:
         return cls(label=EXAMPLE_LABEL)
 
-    def resolve(self, resolution: Resolution, tell: Tell) -> Spots:
+    def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         bound = resolution.context.bound
         places = bound.get(self.label, ())
         if not places:
@@ -43,8 +43,8 @@ class Bound(Selector):
             )
         return resolution.group(*places)
 
-    def phrase(self, saying: Saying) -> Phrase:
-        return one(saying.names.get(self.label) or message("the place called “{label}”", label=self.label))
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        return one(wording.names.get(self.label) or message("the place called “{label}”", label=self.label))
 
     @property
     def keeps_order(self) -> bool:

@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.language import message
-from fieldhand.places.phrase import Phrase, one
+from fieldhand.places.noun_phrase import NounPhrase, one
 from fieldhand.places.selector import DependsOn, Selector
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -25,10 +25,10 @@ class Here(Selector):
     def example(cls, site: Site) -> Here:
         return cls()
 
-    def resolve(self, resolution: Resolution, tell: Tell) -> Spots:
+    def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         return resolution.group(resolution.context.here)
 
-    def phrase(self, saying: Saying) -> Phrase:
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
         return one(message("the place reached before"))
 
     @property
@@ -39,9 +39,9 @@ class Here(Selector):
     def depends_on(self) -> DependsOn:
         return "mission"
 
-    def it(self, saying: Saying) -> str:
+    def it(self, wording: SelectorWording) -> str:
         """Return "that place": "there" would be no English ("next to there")."""
         return message("that place")
 
-    def from_it(self, saying: Saying) -> str:
+    def from_it(self, wording: SelectorWording) -> str:
         return ""

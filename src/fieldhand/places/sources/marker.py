@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 from fieldhand.errors import PlaceError
 from fieldhand.language import message
 from fieldhand.language.words import say_marker
-from fieldhand.places.phrase import Phrase, one
+from fieldhand.places.noun_phrase import NounPhrase, one
 from fieldhand.places.selector import Selector
 from fieldhand.terms import MarkerName
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Place, Site
 
 
@@ -30,10 +30,10 @@ class Marker(Selector):
     def example(cls, site: Site) -> Marker:
         return cls(name="start")
 
-    def resolve(self, resolution: Resolution, tell: Tell) -> Spots:
+    def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         return resolution.group(self._place(resolution))
 
-    def phrase(self, saying: Saying) -> Phrase:
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
         return one(say_marker(self.name))
 
     def aside(self, said: str) -> str:

@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.language.words import say_tree
-from fieldhand.places.faults import no_such_tree
-from fieldhand.places.phrase import Phrase, one
+from fieldhand.places.noun_phrase import NounPhrase, one
+from fieldhand.places.place_errors import no_such_tree
 from fieldhand.places.selector import Selector
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -28,13 +28,13 @@ class TreeIs(Selector):
     def example(cls, site: Site) -> TreeIs:
         return cls(tree=site.trees[len(site.trees) // 2].place.id)
 
-    def resolve(self, resolution: Resolution, tell: Tell) -> Spots:
+    def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         site = resolution.site
         if self.tree not in site.by_id:
             raise no_such_tree(site, self.tree)
         return resolution.group(site.by_id[self.tree].place)
 
-    def phrase(self, saying: Saying) -> Phrase:
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
         return one(say_tree(self.tree))
 
     def aside(self, said: str) -> str:

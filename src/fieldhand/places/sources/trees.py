@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldhand.places.phrase import Phrase
+from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.selector import Selector
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
@@ -24,8 +24,8 @@ class Trees(Selector):
     def example(cls, site: Site) -> Trees:
         return cls()
 
-    def resolve(self, resolution: Resolution, tell: Tell) -> Spots:
+    def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         return resolution.every_tree()
 
-    def phrase(self, saying: Saying) -> Phrase:
-        return Phrase()
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        return NounPhrase()

@@ -28,7 +28,7 @@ def named_trees(bag: Bag) -> Found:
     trees = tuple(s.TreeIs(tree=tree) for tree in bag.ids)
     if len(trees) == 1:
         return Found(selector=trees[0])
-    return Found(selector=s.Union(parts=trees), many=True, each=bag.each)
+    return Found(selector=s.UnionOf(parts=trees), many=True, each=bag.each)
 
 
 def quantity_alone(bag: Bag, group: Group, phrase: NounPhrase, relations: list[Term]) -> Found:

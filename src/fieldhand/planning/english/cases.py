@@ -135,7 +135,7 @@ class Cases(Hand):
         body = d.Block(
             steps=[d.Capture(action=run[0].action, count=run[0].count, said=_spans(step.said for step in run))]
         )
-        places = s.Union(parts=tuple(step.at for step in run if step.at is not None))
+        places = s.UnionOf(parts=tuple(step.at for step in run if step.at is not None))
         loop = d.Loop(select=places, body=body, order="given", said=_spans(step.at_said for step in run))
         del steps[-len(run) :]
         self.told.root.add(loop)

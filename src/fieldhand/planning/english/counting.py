@@ -109,7 +109,7 @@ def _in_rows(found: Found, part: Part, count: int | None, plural: bool) -> Found
     number = count or 1
     if found.one_by_one:
         parts: tuple[s.Selector, ...] = tuple(s.Take(count=number, of=row) for row in found.one_by_one)
-        return Found(selector=s.Union(parts=parts), many=True, each=True)
+        return Found(selector=s.UnionOf(parts=parts), many=True, each=True)
     if counts_each(found, part) and not isinstance(found.selector, s.Successive):
         raise Question(
             message(

@@ -225,7 +225,7 @@ class Discourse(Elliptic):
             raise Question(message("'{said}': at each of which places?", context="question", said=text_of(part.terms)))
         if found is not None and found.object_only:  # "at yet another one"
             number = found.counted or 1
-            found = Found(selector=s.Take(count=number, of=s.Other()), many=number > 1, counted=number)
+            found = Found(selector=s.Take(count=number, of=s.NotVisited()), many=number > 1, counted=number)
         if found is None and self._loop is None and any(t.kind == "ASMANY" for o in part.objects for t in o.quantity):
             found = Found(selector=s.Trees(), many=True)
         if found is not None and found.all_or_these and self._loop is not None:

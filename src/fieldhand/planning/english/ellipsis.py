@@ -104,13 +104,13 @@ class Elliptic(Leaving):
         if loop is None or loop not in self._sentence_steps or part.places is None:
             return False
         if part.listed and may_be_listed(loop.select):
-            self._listing, loop.select = loop, s.Union(parts=())
+            self._listing, loop.select = loop, s.UnionOf(parts=())
         if self._listing is not loop or loop.select.members == (loop.select,):
             return False
         found = self._related(part)
         if found.here or found.object_only or found.optional or found.at_most is not None:
             raise unclear(part.terms, message("is that one of the places?"), message("name the places in one list"))
-        loop.select = s.Union(parts=(*loop.select.members, *found.selector.members))
+        loop.select = s.UnionOf(parts=(*loop.select.members, *found.selector.members))
         loop.said += part.said
         if part.then:
             loop.order = "given"

@@ -136,7 +136,7 @@ class Hand:
             )
         self._scope.steps = self._scope.steps[: -len(stops)]
         said = tuple(span for stop in stops for span in stop.said)
-        places = s.Union(parts=tuple(stop.place for stop in stops))
+        places = s.UnionOf(parts=tuple(stop.place for stop in stops))
         self._loop = d.Loop(select=places, body=d.Block(), order="given", said=said)
         self._scope.add(self._loop)
 
@@ -307,7 +307,7 @@ class Hand:
                 spoken.append(place)
         if len(spoken) < 2:
             return None
-        return Found(selector=s.Extreme(side=terms[0].value, of=s.Union(parts=tuple(spoken[-2:]))))
+        return Found(selector=s.Extreme(side=terms[0].value, of=s.UnionOf(parts=tuple(spoken[-2:]))))
 
     def _check_rows(self, found: Found, part: Part) -> None:
         """ "5 trees down", "that row", "across the aisle": from a tree that has been spoken of."""

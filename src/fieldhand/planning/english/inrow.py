@@ -67,11 +67,11 @@ def named_in_rows(bag: Bag, group: Group, site: Site) -> Found:
         raise bag.fault(message("from which side are they counted?"), message("say 'from the north', for example"))
     side: CountedFrom = "usual" if counted is None else counted.value.side
     parts = tuple(s.InRow(first=first, last=last, counted_from=side, of=of) for first, last in spans)
-    selector: s.Selector = parts[0] if len(parts) == 1 else s.Union(parts=parts)
+    selector: s.Selector = parts[0] if len(parts) == 1 else s.UnionOf(parts=parts)
     several = several_rows(of, group, site)
     if not several and counted is None and _by_id(bag, of, selector, site):
         trees = tuple(s.TreeIs(tree=name) for name in bag.ids)
-        selector = trees[0] if len(trees) == 1 else s.Union(parts=trees)
+        selector = trees[0] if len(trees) == 1 else s.UnionOf(parts=trees)
     bag.finish()
     many = len(numbers) > 1 or several
     return Found(selector=selector, many=many, each=bag.each or bool(group.one_by_one), assumed=group.assumed)
@@ -84,7 +84,7 @@ def excepted_in_rows(bag: Bag, group: Group, site: Site) -> s.Selector:
         Question: Both can be meant.
         Unclear: Neither can.
     """
-    trees = s.Union(parts=tuple(s.TreeIs(tree=name) for name in bag.ids))
+    trees = s.UnionOf(parts=tuple(s.TreeIs(tree=name) for name in bag.ids))
     by_id = trees.parts[0] if len(bag.ids) == 1 else trees
     whole = trees_named(group.area, site)
     known = not group.area.relative
@@ -231,7 +231,7 @@ def ends_of_rows(bag: Bag, group: Group, site: Site) -> Found:
                 message("which end is meant is said in two ways"), message("say 'the northern end of row 3'")
             )
         bag.take("NEAREST")
-        nearest = s.Nearest(to=group.anchor, of=s.Union(parts=(first, last)))
+        nearest = s.Nearest(to=group.anchor, of=s.UnionOf(parts=(first, last)))
         return Found(selector=nearest, counted=1, assumed=group.assumed)
     if start is not None or side != "usual":
         bag.any = False
@@ -240,7 +240,7 @@ def ends_of_rows(bag: Bag, group: Group, site: Site) -> Found:
         asked = message("'{said}': which of the two ends?", context="question", said=text_of(bag.phrase.terms))
         raise Question(asked, _AMBIGUOUS_ENDS, terms=bag.phrase.terms, words=_ENDS_IN_WORDS)
     if plural or bag.each:
-        return Found(selector=s.Union(parts=(first, last)), many=True, each=each, assumed=group.assumed)
+        return Found(selector=s.UnionOf(parts=(first, last)), many=True, each=each, assumed=group.assumed)
     said_as = message(
         "'{said}' is the one where the count along the row ends.", context="assumption", said=text_of(bag.phrase.terms)
     )
@@ -295,7 +295,7 @@ def parted(area: s.Selector) -> tuple[s.Selector, list[s.Where]]:
     if area.members != (area,):
         found = [parted(part) for part in area.members]
         if all(one[1] == found[0][1] for one in found):
-            return s.Union(parts=tuple(one[0] for one in found)), found[0][1]
+            return s.UnionOf(parts=tuple(one[0] for one in found)), found[0][1]
     of = getattr(area, "of", None)
     if of is None:
         return area, []
@@ -345,7 +345,7 @@ def next_in_row(bag: Bag, group: Group) -> Found | None:
     parts = tuple(s.AlongRow(trees=k, towards=towards, origin=origin) for k in range(1, number + 1))
     if number == 1:
         return Found(selector=parts[0], counted=1)
-    return Found(selector=s.Union(parts=parts), many=True, counted=number)
+    return Found(selector=s.UnionOf(parts=parts), many=True, counted=number)
 
 
 def opposite(bag: Bag, group: Group, site: Site) -> Found:

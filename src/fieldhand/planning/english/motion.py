@@ -39,7 +39,7 @@ class Motion(Until):
             self._go_to_rows(found, part)
             return
         if found.object_only:
-            found = Found(selector=s.Take(count=found.counted or 1, of=s.Other()), many=(found.counted or 1) > 1)
+            found = Found(selector=s.Take(count=found.counted or 1, of=s.NotVisited()), many=(found.counted or 1) > 1)
         if found.region and part.kind != "visit":
             self._area_gone_to = text_of(part.places.terms)
             found = Found(selector=found.selector if found.selector.named_marker else self._one_of(found.selector))

@@ -24,7 +24,8 @@ MOST_ONE_BY_ONE = 60
 #: Selectors that pick from all that is left: said of each row, they are said once for each.
 _PICKS = (
     s.Top, s.Extreme, s.AmongExtreme, s.Middle, s.EdgeMiddle, s.Nearest, s.Farthest, s.Adjacent, s.Take, s.Successive,
-    s.Random, s.Spread, s.Evenly, s.First, s.Last, s.Corners, s.Nth, s.Spaced, s.Edge, s.Half, s.Quarter, s.Ordered,
+    s.RandomSample, s.Spread, s.Evenly, s.First, s.Last, s.Corners, s.Nth, s.Spaced, s.Edge, s.Half, s.Quarter,
+    s.Ordered,
 )  # fmt: skip
 
 
@@ -76,13 +77,13 @@ def distributed(found: Found, group: Group, bag: Bag) -> Found:
             message("name some rows"),
         )
     parts = tuple(swapped(found.selector, group.rows, one) for one in group.one_by_one)
-    return Found(selector=s.Union(parts=parts), many=True, each=True, assumed=found.assumed)
+    return Found(selector=s.UnionOf(parts=parts), many=True, each=True, assumed=found.assumed)
 
 
 def spread_over(selector: s.Selector, area: s.Selector, ones: Iterable[s.Selector]) -> s.Selector:
     """A selection of an area, made of each of its parts."""
     parts = tuple(swapped(selector, area, one) for one in ones)
-    return parts[0] if len(parts) == 1 else s.Union(parts=parts)
+    return parts[0] if len(parts) == 1 else s.UnionOf(parts=parts)
 
 
 def counted_from(selector: s.Selector, side: Side) -> s.Selector:

@@ -84,7 +84,7 @@ def _area(bag: Bag, group: Group, site: Site) -> Found:
     count, one, tree = bag.count, bag.count == 1, bag.take("TREE")
     area = group.kept(filtered(bag, region(bag, group.area), site))
     if bag.another or bag.take("OTHER") is not None:
-        area = s.Other(of=area)
+        area = s.NotVisited(of=area)
     if tree is None and not (count or bag.any or bag.each or bag.as_many or bag.up_to):
         return Found(selector=area, region=True, many=True)
     del one
@@ -115,7 +115,7 @@ def _trees(bag: Bag, group: Group, site: Site) -> Found:
     name = attribute_of(bag, ranked.value[0], None, site) if ranked is not None else ""
     of = group.kept(filtered(bag, of, site))
     if bag.take("OTHER") is not None or bag.another:
-        of = s.Other(of=of)
+        of = s.NotVisited(of=of)
     found = _by_rows(bag, of, group, ranked, site)
     if found is not None:
         return found
@@ -163,7 +163,7 @@ def _by_nearness(bag: Bag, of: s.Selector, group: Group, plural: bool) -> Found 
     if bag.take("FARTHEST", "FAR") is not None:
         return _ranked(bag, of, plural, lambda n, base: s.Farthest(origin=near, count=n, of=base))
     if bag.more and (group.anchor is not None or bag.has("NEARBY", "NEAREST")):
-        bag.more, of = False, s.Other(of=of)  # "three more trees around it"
+        bag.more, of = False, s.NotVisited(of=of)  # "three more trees around it"
     if group.anchor is not None:
         bag.take("NEAREST", "NEARBY")
         beside = group.beside
@@ -279,7 +279,7 @@ def _some_of(bag: Bag, of: s.Selector, *, plural: bool, site: Site, single: bool
         return Found(selector=of, many=True, at_most=count)
     if bag.more:
         bag.more = False
-        of = s.Other(of=of)
+        of = s.NotVisited(of=of)
     if isinstance(of, s.Middle | s.EdgeMiddle) and not bag.each:
         number = count or 1
         return Found(selector=replace(of, count=number), many=number > 1, counted=number)
@@ -322,7 +322,7 @@ def _drawn(bag: Bag, of: s.Selector, seed: int, *, plural: bool) -> Found:
     if plural and bag.count is None:
         raise how_many(bag.phrase, ("5", "10"), of_all=True)
     number = bag.count or 1
-    return Found(selector=s.Random(count=number, seed=seed, of=of), many=number > 1, counted=number)
+    return Found(selector=s.RandomSample(count=number, seed=seed, of=of), many=number > 1, counted=number)
 
 
 def _spread(bag: Bag, of: s.Selector, *, plural: bool) -> Found:

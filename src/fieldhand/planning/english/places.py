@@ -128,7 +128,7 @@ def find(places: Places, site: Site) -> Found:
             places.terms, message("these rows cannot be said together"), message("say each in a sentence of its own")
         )
     return Found(
-        selector=s.Union(parts=tuple(f.selector for f in found)),
+        selector=s.UnionOf(parts=tuple(f.selector for f in found)),
         many=True,
         each=any(f.each for f in found),
         region=rows,
@@ -435,7 +435,7 @@ def _describes(bag: Bag) -> bool:
 
 def beyond(metres: float, of: s.Selector) -> s.Selector:
     """What is left out where trees are to be at least so far from a place: those nearer to it, and itself."""
-    return s.Union(parts=(of, s.Within(distance_m=metres, to=of)))
+    return s.UnionOf(parts=(of, s.Within(distance_m=metres, to=of)))
 
 
 def _near_zone(zone: str, relation: Term) -> Found:

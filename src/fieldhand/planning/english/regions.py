@@ -40,8 +40,8 @@ def corners(bag: Bag, of: s.Selector) -> Found:
     if bag.another or bag.take("OTHER") is not None:
         number = bag.count or (1 if not plural else None)
         if number is None:
-            return Found(selector=s.Other(of=everything), many=True)
-        return Found(selector=s.Take(count=number, of=s.Other(of=everything)), many=number > 1, counted=number)
+            return Found(selector=s.NotVisited(of=everything), many=True)
+        return Found(selector=s.Take(count=number, of=s.NotVisited(of=everything)), many=number > 1, counted=number)
     if bag.count is not None and bag.count < len(names):
         if bag.definite or bag.each:
             raise Question(
@@ -96,7 +96,7 @@ def middle(bag: Bag, of: s.Selector) -> Found:
     if tree is not None and tree.plural and bag.count is None:
         raise how_many(bag.phrase, asked=message("how many trees in the middle?", context="question"))
     if bag.another or bag.take("OTHER") is not None:
-        of = s.Other(of=of)
+        of = s.NotVisited(of=of)
     count = bag.count or 1
     many, counted = count > 1, bag.count
     edge, direction = bag.take("EDGE", "FINISH"), bag.take("DIR")
@@ -132,7 +132,7 @@ def extremes(bag: Bag, kept: Callable[[s.Selector], s.Selector], of: s.Selector)
     of = kept(of)
     rank = bag.take("ORD")
     if bag.another or bag.take("OTHER") is not None:
-        of = s.Other(of=of)
+        of = s.NotVisited(of=of)
     count = bag.count or 1
     if len(side) == 2:
         if rank is not None or count > 1 or (tree is not None and tree.plural):
@@ -168,7 +168,7 @@ def region(bag: Bag, of: s.Selector) -> s.Selector:
             return of
         if bag.take("EDGE") is not None:  # "the edge of the orchard": all around it
             sides: tuple[Side, ...] = ("north", "east", "south", "west")
-            return s.Union(parts=tuple(s.Edge(side=side, of=of) for side in sides))
+            return s.UnionOf(parts=tuple(s.Edge(side=side, of=of) for side in sides))
         if bag.has("FINISH"):
             raise bag.fault(
                 message("which trees are meant does not stand there"), message("say 'the tree nearest to the end'")

@@ -32,7 +32,7 @@ def as_many_as(steps: list[d.Step], found: Found) -> Found:
         before = next((at for step in reversed(steps) if isinstance(at := selects(step), s.Take)), before)
     if not isinstance(before, s.Take):
         return found
-    fresh = s.Other(of=found.selector)
+    fresh = s.NotVisited(of=found.selector)
     return replace(found, selector=replace(before, of=fresh), many=before.count > 1, counted=before.count)
 
 

@@ -101,7 +101,7 @@ def _blocks(bag: Bag, of: s.Selector, site: Site) -> Found:
                 message("this site has block {there}", there=there),
             )
     blocks = tuple(s.InBlock(block=known[name.lower()], of=of) for name in dict.fromkeys(names))
-    one = blocks[0] if len(blocks) == 1 else s.Union(parts=blocks)
+    one = blocks[0] if len(blocks) == 1 else s.UnionOf(parts=blocks)
     return Found(selector=one, many=True, region=True, rows=True, each=bag.each, one_by_one=blocks if bag.each else ())
 
 
@@ -128,7 +128,7 @@ def some_block(bag: Bag, group: Group, site: Site) -> Found:
     of = group.kept(group.area)
     blocks = tuple(s.InBlock(block=name, of=of) for name in names)
     return Found(
-        selector=s.Union(parts=blocks), many=True, region=True, rows=True, each=True, one_by_one=blocks,
+        selector=s.UnionOf(parts=blocks), many=True, region=True, rows=True, each=True, one_by_one=blocks,
         assumed=group.assumed,
     )  # fmt: skip
 
@@ -202,7 +202,7 @@ def _numbered(bag: Bag, of: s.Selector, site: Site) -> Found:
         )
     areas = of.members if all(isinstance(part, s.InBlock) for part in of.members) else (of,)
     parts = tuple(s.Rows(first=first, last=last, every=nth, of=area) for area in areas for first, last in ranges)
-    selector = parts[0] if len(parts) == 1 else s.Union(parts=parts)
+    selector = parts[0] if len(parts) == 1 else s.UnionOf(parts=parts)
     return _area(selector, bag, site, several=(named is not None and named.plural) or len(areas) > 1)
 
 

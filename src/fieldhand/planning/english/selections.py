@@ -12,7 +12,7 @@ from fieldhand.places import selectors as s
 
 def says_how_many(selector: s.Selector) -> bool:
     """Return True if the words of a selection say how many trees are meant ("the 4 oldest", "the corners")."""
-    return isinstance(selector, s.Take | s.Top | s.Extreme | s.Nearest | s.Adjacent | s.Corners | s.Union)
+    return isinstance(selector, s.Take | s.Top | s.Extreme | s.Nearest | s.Adjacent | s.Corners | s.UnionOf)
 
 
 def may_be_listed(selector: s.Selector) -> bool:
@@ -29,7 +29,7 @@ def named_places(selector: s.Selector) -> tuple[s.Selector, ...]:
     """Return the places that were named one by one, parts of a list or corners; none if they were not."""
     if isinstance(selector, s.Corners):
         return tuple(replace(selector, which=(corner,)) for corner in selector.which)
-    return selector.members if isinstance(selector, s.Union) else ()
+    return selector.members if isinstance(selector, s.UnionOf) else ()
 
 
 def names_here(selector: s.Selector) -> bool:
@@ -49,7 +49,7 @@ def measures_from_here(selector: s.Selector) -> bool:
 
 def may_be_near(selector: s.Selector) -> bool:
     """Return True if the robot may be there, or close by, when it is named: it depends on where the robot is."""
-    return any(isinstance(part, s.Here | s.Take | s.Other | s.RowOf | s.Nearest) for part in selector.walk())
+    return any(isinstance(part, s.Here | s.Take | s.NotVisited | s.RowOf | s.Nearest) for part in selector.walk())
 
 
 def so_many_nearby(selector: s.Selector | None, count: int) -> s.Selector | None:
@@ -89,7 +89,7 @@ def skips_rows(selector: s.Selector) -> bool:
 
 def names_several_rows(rows: s.Selector) -> bool:
     """Return True if several rows or blocks are named one by one or as a range ("rows 2 and 4", "rows 2 to 5")."""
-    return isinstance(rows, s.Union) or (isinstance(rows, s.Rows) and rows.first != rows.last)
+    return isinstance(rows, s.UnionOf) or (isinstance(rows, s.Rows) and rows.first != rows.last)
 
 
 def are_several_rows(rows: s.Selector) -> bool:

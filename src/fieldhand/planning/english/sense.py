@@ -125,7 +125,7 @@ def _is_far_for_nothing(step: d.Step, after: d.Step | None) -> bool:
     """ "Move as far away as possible for a picture of another tree": that tree is meant to be far away."""
     far = isinstance(step, d.Go) and isinstance(step.place, s.Farthest)
     at = after.at if isinstance(after, d.Capture) else None
-    return far and at is not None and isinstance(at.any_of, s.Other)
+    return far and at is not None and isinstance(at.any_of, s.NotVisited)
 
 
 def _is_tested_twice(step: d.Step, after: d.Step | None) -> bool:

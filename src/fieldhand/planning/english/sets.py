@@ -15,7 +15,7 @@ from fieldhand.planning.english.syntax import NounPhrase
 from fieldhand.terms import AnySide
 
 #: Selectors that keep a tree or not by itself, whatever the others are: their order does not matter.
-FILTERS = (s.Where, s.InZone, s.Within, s.Excluding, s.Other)
+FILTERS = (s.Where, s.InZone, s.Within, s.Excluding, s.NotVisited)
 #: Selectors that are about rows: which trees are in a row does not depend on the others that are left.
 BY_ROWS = (s.Rows, s.RowOf, s.InBlock)
 
@@ -116,7 +116,7 @@ class Group:
             for zone in zones:
                 selector = replace(zone, outside=True, of=selector)
             if others:
-                places = others[0] if len(others) == 1 else s.Union(parts=others)
+                places = others[0] if len(others) == 1 else s.UnionOf(parts=others)
                 selector = s.Excluding(places=places, of=selector)
         return selector
 
@@ -131,7 +131,7 @@ def inside(outer: s.Selector, inner: s.Selector) -> s.Selector:
     if outer == s.Trees():
         return inner
     if outer.members != (outer,):
-        return s.Union(parts=tuple(inside(part, inner) for part in outer.members))
+        return s.UnionOf(parts=tuple(inside(part, inner) for part in outer.members))
     return outer.around(inside(outer.of, inner)) if isinstance(outer, FromGroup) else outer
 
 

@@ -148,7 +148,7 @@ def _places_of(loop: d.Loop, site: Site) -> list[s.Selector] | None:
     if named and named != (select,) and all(part.single for part in named):
         return list(named)
     if isinstance(select, s.Take):
-        of, fresh = select.of, s.Other(of=select.of)
+        of, fresh = select.of, s.NotVisited(of=select.of)
         return [s.Take(count=1, of=of if k == 0 and of.relative else fresh) for k in range(select.count)]
     if select.relative:
         return None

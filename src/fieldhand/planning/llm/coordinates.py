@@ -14,7 +14,7 @@ from typing import Any
 
 from fieldhand.places import selectors
 from fieldhand.planning.llm.review import Problem
-from fieldhand.site.kinds import phrase
+from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.model import Site
 from fieldhand.task import conditions, plan
 from fieldhand.task.codec import TaskDraft

@@ -18,7 +18,7 @@ from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import Bound, InRow
 from fieldhand.planning.foreseen import foreseeable
 from fieldhand.planning.llm.quotes import place_quotes
-from fieldhand.site.kinds import phrase
+from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.model import Place, Site
 from fieldhand.task import conditions, plan
 from fieldhand.task.capabilities import Capabilities

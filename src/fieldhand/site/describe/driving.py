@@ -13,7 +13,7 @@ from shapely.geometry import LineString, MultiPoint
 from fieldhand.site.describe.aisles import AisleSummary, Lane, aisle_summary, lane_middle, lanes
 from fieldhand.site.describe.rows import shortened
 from fieldhand.site.drives import Drives
-from fieldhand.site.driving.network import Network
+from fieldhand.site.driving.network import DrivableNetwork
 from fieldhand.site.model import Site
 
 #: On a site of no more trees than this each tree is asked for; on a larger one those near to anything in the way.
@@ -103,7 +103,9 @@ def describe_driving(
     )
 
 
-def _driven(site: Site, between: Sequence[Lane], aisles: Sequence[AisleSummary], network: Network) -> list[bool]:
+def _driven(
+    site: Site, between: Sequence[Lane], aisles: Sequence[AisleSummary], network: DrivableNetwork
+) -> list[bool]:
     """Along which of the aisles a line of the network runs."""
     lines = shapely.STRtree([LineString(line.points) for line in network.of("aisle")])
     return [

@@ -10,7 +10,7 @@ import numpy as np
 from shapely.geometry import MultiPoint
 
 from fieldhand.site.describe.rows import BlockSummary, block_summary, shortened
-from fieldhand.site.kinds import ZoneKind, number_text
+from fieldhand.site.feature_kinds import ZoneKind, number_text
 from fieldhand.site.model import Site
 from fieldhand.site.rectangle import smallest_rectangle
 from fieldhand.terms import Value

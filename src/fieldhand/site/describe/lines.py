@@ -23,7 +23,7 @@ from fieldhand.site.describe.rows import (
     row_table,
     table_lines,
 )
-from fieldhand.site.kinds import ZoneKind, number_text
+from fieldhand.site.feature_kinds import ZoneKind, number_text
 from fieldhand.site.model import Site
 from fieldhand.site.names import listed
 

@@ -17,7 +17,7 @@ from fieldhand.site.counting import rows_from
 from fieldhand.site.describe.figures import SiteSummary, describe, value_text
 from fieldhand.site.describe.lines import figure_words, marker_words
 from fieldhand.site.describe.rows import block_summary, counting_words, direction_words, shortened
-from fieldhand.site.kinds import ZoneKind
+from fieldhand.site.feature_kinds import ZoneKind
 from fieldhand.site.model import Site, Zone
 from fieldhand.terms import Value
 

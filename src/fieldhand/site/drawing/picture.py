@@ -22,7 +22,7 @@ from fieldhand.site.drawing.names import labels_on, name_ground, name_markers
 from fieldhand.site.drawing.rows import LONGEST_NAME, draw_rows, name_trees
 from fieldhand.site.drawing.saving import save_figure
 from fieldhand.site.drawing.ways import draw_closed, draw_unreachable, draw_ways
-from fieldhand.site.driving.network import Network
+from fieldhand.site.driving.network import DrivableNetwork
 from fieldhand.site.model import Site
 from fieldhand.site.names import short
 
@@ -40,7 +40,7 @@ _LETTER, _MOST_FOR_NAMES = 5.6, 90.0
 
 
 def save_site_picture(
-    site: Site, path: Path, network: Network | None = None, driving: DrivingSummary | None = None
+    site: Site, path: Path, network: DrivableNetwork | None = None, driving: DrivingSummary | None = None
 ) -> None:
     """Draw the site into a picture file; the ending says which kind (``.png``, ``.svg``, ``.pdf``).
 
@@ -56,7 +56,7 @@ def save_site_picture(
     save_figure(figure, path)
 
 
-def site_picture(site: Site, network: Network | None = None, driving: DrivingSummary | None = None) -> Figure:
+def site_picture(site: Site, network: DrivableNetwork | None = None, driving: DrivingSummary | None = None) -> Figure:
     """The picture as a figure that belongs to no window.
 
     Args:
@@ -145,7 +145,7 @@ def _in_short(site: Site) -> str:
     return ", ".join(words)
 
 
-def _write_legend(figure: Figure, site: Site, network: Network | None, driving: DrivingSummary | None) -> None:
+def _write_legend(figure: Figure, site: Site, network: DrivableNetwork | None, driving: DrivingSummary | None) -> None:
     """What the marks mean, of those that are there."""
     from matplotlib.lines import Line2D
 

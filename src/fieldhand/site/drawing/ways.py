@@ -10,7 +10,7 @@ import numpy as np
 from fieldhand.site.describe.aisles import lane_middle, lane_name, lanes
 from fieldhand.site.drawing import colours
 from fieldhand.site.drawing.ground import MANY, points_a_metre
-from fieldhand.site.driving.network import LineKind, Network
+from fieldhand.site.driving.network import DrivableNetwork, LineKind
 from fieldhand.site.model import Site
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ _THINNEST, _WIDEST, _LINE = 0.5, 14.0, 0.8
 _BANDS: dict[LineKind, str] = {"aisle": colours.LANE, "headland": colours.HEADLAND}
 
 
-def draw_ways(ax: Axes, network: Network, width_m: float) -> None:
+def draw_ways(ax: Axes, network: DrivableNetwork, width_m: float) -> None:
     """The lines of the network: aisles and headlands as wide as the robot, links thin."""
     from matplotlib.collections import LineCollection
 

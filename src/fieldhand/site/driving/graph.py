@@ -38,7 +38,7 @@ class Links:
 
 
 @dataclass(frozen=True, eq=False)
-class Rows:
+class ShortestWays:
     """Metres from each of some places to every node, shape (p, n), and the node before on that way (-1: the place)."""
 
     metres: Points
@@ -90,11 +90,11 @@ class Graph:
             _make_symmetric(found)
         return found
 
-    def rows(self, places: Sequence[Links]) -> Rows:
+    def rows(self, places: Sequence[Links]) -> ShortestWays:
         """Shortest ways from places outside the graph; inf where there is none."""
         n, p = self.count, len(places)
         if n == 0 or p == 0:
-            return Rows(np.zeros((p, n)), np.zeros((p, n), dtype=np.int32))
+            return ShortestWays(np.zeros((p, n)), np.zeros((p, n), dtype=np.int32))
         own = np.cumsum([len(a.nodes) for a in places])
         starts = np.concatenate([self._matrix.indptr, self._matrix.indptr[-1] + own]).astype(np.int32)
         tails = np.concatenate([self._matrix.indices, *(a.nodes.astype(np.int32) for a in places)])
@@ -102,7 +102,7 @@ class Graph:
         matrix = csr_matrix((lengths, tails, starts), shape=(n + p, n + p))
         metres, before = dijkstra(matrix, directed=True, indices=np.arange(n, n + p), return_predecessors=True)
         before = np.where(before >= n, -1, before)
-        return Rows(np.ascontiguousarray(metres[:, :n]), np.ascontiguousarray(before[:, :n], dtype=np.int32))
+        return ShortestWays(np.ascontiguousarray(metres[:, :n]), np.ascontiguousarray(before[:, :n], dtype=np.int32))
 
 
 def between(rows: Points, links: Sequence[Links]) -> Points:
@@ -135,7 +135,7 @@ def _make_symmetric(metres: Points) -> None:
             two[:] = one.T
 
 
-def chain(rows: Rows, place: int, node: int) -> list[int]:
+def chain(rows: ShortestWays, place: int, node: int) -> list[int]:
     """The nodes on the way from a place of the rows to this node, which is the last of them."""
     nodes = [node]
     while (node := int(rows.before[place, node])) >= 0:

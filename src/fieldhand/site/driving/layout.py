@@ -16,7 +16,7 @@ from shapely.ops import unary_union
 
 from fieldhand.site.driving.aisles import Aisle, Aisles
 from fieldhand.site.driving.free import Area, free_ground
-from fieldhand.site.driving.graph import Indices, Links, Points, Rows, chain
+from fieldhand.site.driving.graph import Indices, Links, Points, ShortestWays, chain
 from fieldhand.site.driving.visibility import Visibility
 from fieldhand.site.model import Site
 
@@ -77,7 +77,7 @@ class Layout:
         self.graph = self.visibility.graph
         self._spots: dict[XY, Spot] = {}
         self._links: dict[XY, Links] = {}
-        self._remembered: dict[XY, Rows] = {}
+        self._remembered: dict[XY, ShortestWays] = {}
 
     # --- where a point is -------------------------------------------------------------------------------------
 
@@ -224,7 +224,7 @@ class Layout:
         feet = _Feet.of(spots)
         return np.minimum(*self._straight(feet, feet, i, j))
 
-    def _rows(self, spot: Spot) -> Rows:
+    def _rows(self, spot: Spot) -> ShortestWays:
         """Return the ways from a spot to every corner; those of the last few spots are remembered."""
         if spot.xy not in self._remembered:
             if len(self._remembered) >= _REMEMBERED:

@@ -51,7 +51,7 @@ class NetworkLine:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Network:
+class DrivableNetwork:
     """The lines of one site for one robot: aisles, headlands, gates, links. Empty where there are no rows or gates.
 
     A drive follows them where it can, and turns in and out of them where that is shorter.
@@ -64,14 +64,14 @@ class Network:
         return tuple(line for line in self.lines if line.kind == kind)
 
 
-def network_of(site: Site, layout: Layout) -> Network:
+def network_of(site: Site, layout: Layout) -> DrivableNetwork:
     """Return what a robot can drive along on this site."""
     driven = [
         *(line for aisle in layout.aisles.all for line in _aisle(site, layout, aisle)),
         *(line for group in layout.aisles.groups for line in _headlands(site, layout, group)),
     ]
     gates = [_gate(site, gate) for gate in site.gates]
-    return Network(lines=(*driven, *gates, *_links(layout, driven)))
+    return DrivableNetwork(lines=(*driven, *gates, *_links(layout, driven)))
 
 
 def aisle_name(site: Site, aisle: Aisle) -> str:

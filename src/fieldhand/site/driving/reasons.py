@@ -12,7 +12,7 @@ from fieldhand.language import Number, counted, message
 from fieldhand.site.driving.aisles import Aisle
 from fieldhand.site.driving.graph import Points
 from fieldhand.site.driving.layout import Layout, Spot
-from fieldhand.site.driving.standing import Candidate
+from fieldhand.site.driving.stands import Candidate
 
 #: Ground that reaches so little out of an aisle lies in it.
 _TOUCH_M = 0.01

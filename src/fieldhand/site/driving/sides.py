@@ -6,14 +6,14 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from fieldhand.site.driving.standing import Candidate, Lane
+from fieldhand.site.driving.stands import Candidate, Lane
 
 #: What a choice takes: lanes to drive through, then metres to the stands from where the robot is.
 Cost = tuple[int, float]
 
 
 @dataclass(frozen=True)
-class Visited:
+class RowVisits:
     """The visits of one row: for each the candidates that can be driven to, by lane, with the metres to them."""
 
     below: Lane
@@ -21,7 +21,7 @@ class Visited:
     visits: list[Mapping[Lane, tuple[Candidate, float]]] = field(default_factory=list)
 
 
-def few_lanes(rows: Mapping[tuple[int, int], Visited], used: frozenset[Lane]) -> dict[tuple[int, int], Lane]:
+def few_lanes(rows: Mapping[tuple[int, int], RowVisits], used: frozenset[Lane]) -> dict[tuple[int, int], Lane]:
     """For each row, (group, line), the lane that is preferred for it.
 
     Row by row across a group: what is best for the rows so far, once with the lane above the last row driven through
@@ -49,7 +49,7 @@ def few_lanes(rows: Mapping[tuple[int, int], Visited], used: frozenset[Lane]) ->
     return chosen
 
 
-def _taken(row: Visited, lane: Lane) -> tuple[frozenset[Lane], float]:
+def _taken(row: RowVisits, lane: Lane) -> tuple[frozenset[Lane], float]:
     """Which lanes the row's visits take where this one is preferred, and the metres to their stands."""
     lanes, metres = set(), 0.0
     for visit in row.visits:

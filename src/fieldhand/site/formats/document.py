@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 from shapely.geometry.polygon import orient
 
-from fieldhand.site.kinds import BLOCK_KEYS, COLUMN_KEYS, POSITION_KEYS, area_kind, row_of, text_of
+from fieldhand.site.feature_kinds import BLOCK_KEYS, COLUMN_KEYS, POSITION_KEYS, area_kind, row_of, text_of
 from fieldhand.site.model import Site, Tree, Zone
 from fieldhand.terms import Value
 
 if TYPE_CHECKING:
-    from fieldhand.site.driving.network import Network
+    from fieldhand.site.driving.network import DrivableNetwork
 
 Feature = dict[str, Any]
 
@@ -27,7 +27,7 @@ _DECIMALS = 8
 _ZONE_WORDS = {"boundary": ("boundary",), "keep_out": ("keep-out",), "zone": ("zone", "named zone")}
 
 
-def site_document(site: Site, network: Network | None = None) -> dict[str, Any]:
+def site_document(site: Site, network: DrivableNetwork | None = None) -> dict[str, Any]:
     """The site as a GeoJSON FeatureCollection.
 
     Trees have ``row``, ``block`` and ``position`` as properties where they stand in a row. Rows, aisles, headlands and
@@ -95,7 +95,7 @@ def _rows(site: Site) -> Iterator[Feature]:
         yield _line(site, site.xy[row.trees], properties)
 
 
-def _drivable(site: Site, network: Network) -> Iterator[Feature]:
+def _drivable(site: Site, network: DrivableNetwork) -> Iterator[Feature]:
     for line in network.lines:
         properties = {"kind": line.kind, "name": line.name, "length_m": round(line.length_m, 2)}
         yield _line(site, line.points, properties)

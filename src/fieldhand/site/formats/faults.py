@@ -11,7 +11,7 @@ MOST_TOLD = 10
 _MOST_NUMBERS = 5
 
 
-class Unsound(Exception):  # never leaves the reader
+class UnusableFeature(Exception):  # never leaves the reader
     """A feature that cannot be used.
 
     Args:

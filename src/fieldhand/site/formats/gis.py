@@ -1,7 +1,7 @@
 """Shapefile, GeoPackage, KML and KMZ to records, with GDAL (pyogrio, the extra ``gis``).
 
 GDAL is a large program that obeys what it finds in a file. So it runs in a process of its own with little memory and
-time (:mod:`fieldhand.site.formats.confined`), and gets only copies in a folder of their own, in the formats that we
+time (:mod:`fieldhand.site.formats.sandbox`), and gets only copies in a folder of their own, in the formats that we
 mean, after a look at what is in them, and no network.
 """
 
@@ -18,13 +18,13 @@ from pathlib import Path
 from typing import Any
 
 from fieldhand.errors import SiteError
+from fieldhand.site.feature_kinds import KIND_KEYS, area_kind, barrier_name, point_kind, text_of
 from fieldhand.site.formats.archive import unpack
-from fieldhand.site.formats.confined import read_confined
+from fieldhand.site.formats.file_checks import check_geopackage, check_kml
 from fieldhand.site.formats.geojson import geojson_records
-from fieldhand.site.formats.guards import check_geopackage, check_kml
 from fieldhand.site.formats.records import SHAPEFILE_PARTS, Format, Records, UnusablePart
+from fieldhand.site.formats.sandbox import read_sandboxed
 from fieldhand.site.formats.table import table_records, value_of
-from fieldhand.site.kinds import KIND_KEYS, area_kind, barrier_name, point_kind, text_of
 from fieldhand.visible import visible
 
 MAX_LAYERS = 100
@@ -60,7 +60,7 @@ def gis_records(form: str, held: Mapping[str, bytes], at: str, *, lenient: bool 
     """
     if form != "zip":
         _require_extra(at)
-    return read_confined(form, held, at, lenient=lenient)
+    return read_sandboxed(form, held, at, lenient=lenient)
 
 
 def read_here(form: Format, held: Mapping[str, bytes], at: str, *, lenient: bool = False) -> Records:

@@ -1,4 +1,4 @@
-"""The process in which GDAL reads a file (:mod:`fieldhand.site.formats.confined` starts it)."""
+"""The process in which GDAL reads a file (:mod:`fieldhand.site.formats.sandbox` starts it)."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from fieldhand.errors import SiteError
-from fieldhand.site.formats.confined import ASKED, RESULT, as_json
+from fieldhand.site.formats.sandbox import ASKED, RESULT, as_json
 
 
 def main(folder: Path) -> int:

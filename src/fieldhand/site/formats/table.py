@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from fieldhand.errors import SiteError
+from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.features import readable
-from fieldhand.site.formats.faults import Unsound
+from fieldhand.site.formats.faults import UnusableFeature
 from fieldhand.site.formats.records import Records, UnusablePart
-from fieldhand.site.kinds import phrase
 from fieldhand.visible import visible
 
 # fmt: off
@@ -139,7 +139,7 @@ def _column(name: str, at: str, line: int) -> str:
     """
     try:
         return readable(name.strip(), "header")
-    except Unsound as fault:
+    except UnusableFeature as fault:
         raise SiteError(fault.what, where=f"{at}, line {line}", advice=fault.advice) from None
 
 

@@ -4,7 +4,7 @@
 - ``infer``: rows from bare points. ``patches`` finds which way rows run in small patches of trees, ``regions`` puts
   patches that agree together, ``tracing`` follows lines of trees there, ``grouping`` makes blocks of them,
   ``evidence`` throws out what scattered trees would show as well, ``settle`` gives trees on their own a home.
-- ``draw`` puts both together, and ``assemble`` numbers blocks, rows and planting positions.
+- ``combine`` puts both together, and ``assemble`` numbers blocks, rows and planting positions.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 
 from fieldhand.site.planting import Planting
 from fieldhand.site.rows.assemble import assemble
-from fieldhand.site.rows.draw import draw
+from fieldhand.site.rows.combine import combine
 from fieldhand.site.rows.labels import linked
 from fieldhand.site.rows.named import named_rows
-from fieldhand.site.rows.settle import SeenBlock
+from fieldhand.site.rows.refine import SeenBlock
 from fieldhand.terms import Value
 
 #: Trees nearer to each other than this, in metres, are one tree entered twice.
@@ -42,7 +42,7 @@ def planting_of(xy: NDArray[np.float64], rows: Sequence[str], properties: Sequen
     """
     named = named_rows(rows, properties, xy)
     seen = _seen(xy) if (named.row_of < 0).any() else []
-    return assemble(xy, draw(xy, named, seen))
+    return assemble(xy, combine(xy, named, seen))
 
 
 def _seen(xy: NDArray[np.float64]) -> list[SeenBlock]:

@@ -20,7 +20,7 @@ _FOLLOW = 0.35
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Drawn:
+class FoundRows:
     """Rows as they were found, in no order yet.
 
     Attributes:
@@ -48,7 +48,7 @@ class Drawn:
     why: str = ""
 
 
-def assemble(xy: Floats, drawn: Drawn) -> Planting:
+def assemble(xy: Floats, drawn: FoundRows) -> Planting:
     """Rows numbered and in order, each tree with its planting position."""
     members = groups(drawn.row_of, len(drawn.block_of))
     blocks = [
@@ -100,7 +100,7 @@ def across_of(bearing_deg: float) -> Floats:
     return np.array([y, -x]) if 45.0 < bearing_deg < 135.0 else np.array([-y, x])
 
 
-def _block(xy: Floats, drawn: Drawn, block: int, rows: list[tuple[int, Indices]]) -> Block:
+def _block(xy: Floats, drawn: FoundRows, block: int, rows: list[tuple[int, Indices]]) -> Block:
     inside = np.concatenate([trees for _, trees in rows])
     turned = bearing(xy[inside], np.repeat(np.arange(len(rows)), [len(trees) for _, trees in rows]))
     along, across = along_of(turned), across_of(turned)

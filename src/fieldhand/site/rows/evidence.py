@@ -22,7 +22,7 @@ _LANE = (0.5, 0.85)
 _OFTEN_MISSING, _MISSING = 0.3, 0.8
 
 
-def for_rows(xy: Floats, rows: Sequence[Indices], way: Floats, spacing: float) -> float:
+def log_likelihood_ratio(xy: Floats, rows: Sequence[Indices], way: Floats, spacing: float) -> float:
     """The logarithm of how much likelier trees stand like this in rows than anyhow.
 
     Four things speak for rows: trees stand close to the row's line, a whole number of tree spacings from each other,
@@ -57,7 +57,7 @@ def for_rows(xy: Floats, rows: Sequence[Indices], way: Floats, spacing: float) -
     return (trees - len(rows) - 1) * (straight + even) + lane - gaps
 
 
-def needed(trees: int) -> float:
+def required_evidence(trees: int) -> float:
     """How much must speak for rows among so many trees: more trees line up by chance in more ways."""
     return 6.0 + 0.9 * math.log(max(trees, 1))
 
@@ -91,12 +91,12 @@ def _in_the_lanes(xy: Floats, rows: Sequence[Indices], way: Floats, spacing: flo
     return int((row_of[i][beside] >= 0).sum() + (row_of[j][beside] >= 0).sum())
 
 
-def sure_of_way(evidence: float, enough: float, wider: float, walked: float) -> float:
+def bearing_confidence(evidence: float, enough: float, wider: float, walked: float) -> float:
     """That rows run this way, 0 to 1: that they are rows at all, and that the lines across them are not the rows.
 
     Args:
-        evidence: :func:`for_rows`.
-        enough: :func:`needed`.
+        evidence: :func:`log_likelihood_ratio`.
+        enough: :func:`required_evidence`.
         wider: How many times as far apart the rows are as the lines of trees across them; inf where there are none.
         walked: Part of the steps from tree to tree, in the order of the file, that go along the rows, of those that go
             along or across; 0.5 where that says nothing.
@@ -107,7 +107,9 @@ def sure_of_way(evidence: float, enough: float, wider: float, walked: float) -> 
     return rows_at_all * which
 
 
-def sure_of_row(xy: Floats, trees: Indices, way: Floats, tree_spacing: float, row_spacing: float, off: float) -> float:
+def row_confidence(
+    xy: Floats, trees: Indices, way: Floats, tree_spacing: float, row_spacing: float, off: float
+) -> float:
     """That these trees are a row and no others are in it, 0 to 1, where the rows run this way.
 
     Each tree's chance to be nearer to its own row than to the next one, from how far trees stand beside their rows

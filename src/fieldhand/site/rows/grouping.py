@@ -19,7 +19,7 @@ _BESIDE = 1.5
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class TracedRow:
     """A row while it is being found: its trees from one end, with their places along and across."""
 
     trees: Indices
@@ -33,17 +33,17 @@ class Line:
         return float(np.mean(self.across[low : max(k + 4, low + 1)]))
 
 
-def lines_of(local: Floats, label: Indices) -> list[Line]:
+def lines_of(local: Floats, label: Indices) -> list[TracedRow]:
     """The rows of these labels (negative ones left out), each along its way."""
     found = []
     for own in groups(label, int(label.max(initial=-1)) + 1):
         if len(own):
             ordered = own[np.argsort(local[own, 1], kind="stable")]
-            found.append(Line(ordered, local[ordered, 1], local[ordered, 0]))
+            found.append(TracedRow(ordered, local[ordered, 1], local[ordered, 0]))
     return found
 
 
-def row_spacing(lines: list[Line], guess: float) -> float:
+def row_spacing(lines: list[TracedRow], guess: float) -> float:
     """The middle of the distances from rows to the next one beside them."""
     ordered = sorted((line for line in lines if len(line.trees) > 1), key=lambda line: float(line.across.mean()))
     middle = np.array([float(line.across.mean()) for line in ordered])
@@ -63,7 +63,7 @@ def row_spacing(lines: list[Line], guess: float) -> float:
 
 
 def together(
-    lines: list[Line], spacing: float, *, trusted: bool = False, sides: NDArray[np.intp] | None = None
+    lines: list[TracedRow], spacing: float, *, trusted: bool = False, sides: NDArray[np.intp] | None = None
 ) -> Indices:
     """Label rows by the block they are in: those side by side at about the row spacing.
 
@@ -89,7 +89,7 @@ def together(
     return linked(count, pairs[:, 0], pairs[:, 1])
 
 
-def _beside(a: Line, b: Line, spacing: float, trusted: bool) -> bool:
+def _beside(a: TracedRow, b: TracedRow, spacing: float, trusted: bool) -> bool:
     low, high = max(a.along[0], b.along[0]), min(a.along[-1], b.along[-1])
     if low - high > _BESIDE * spacing:
         return False

@@ -7,13 +7,21 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.site.rows.evidence import for_rows, needed, sure_of_row, sure_of_way
-from fieldhand.site.rows.grouping import Line, lines_of, row_spacing, together
+from fieldhand.site.rows.evidence import bearing_confidence, log_likelihood_ratio, required_evidence, row_confidence
+from fieldhand.site.rows.grouping import TracedRow, lines_of, row_spacing, together
 from fieldhand.site.rows.patches import PATCH, SMALL_PATCH, patches_of
+from fieldhand.site.rows.refine import RowRefinement, SeenBlock
 from fieldhand.site.rows.regions import Region, absorbed, assign, line_regions, regions_of, rows_run
 from fieldhand.site.rows.roads import parted, rejoined
-from fieldhand.site.rows.settle import SeenBlock, Settling
-from fieldhand.site.rows.tracing import bridge, part_twins, pooled_slope, spacing_along, spacing_of, trace, turned
+from fieldhand.site.rows.tracing import (
+    join_across_gaps,
+    pooled_slope,
+    spacing_along,
+    spacing_of,
+    split_double_rows,
+    trace,
+    turned,
+)
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -42,7 +50,7 @@ def seen_blocks(xy: Floats) -> list[SeenBlock]:
         taken = np.concatenate([trees for block in new for trees in block.rows])
         left = np.setdiff1d(left, taken, assume_unique=True)
     found = [block for alike in _alike(found) for block in (_again(xy, alike) if len(alike) > 1 else alike)]
-    return [_judged(xy, block) for block in Settling(xy, found).settled()]
+    return [_judged(xy, block) for block in RowRefinement(xy, found).settled()]
 
 
 def _alike(blocks: list[SeenBlock]) -> list[list[SeenBlock]]:
@@ -70,7 +78,7 @@ def _again(xy: Floats, blocks: list[SeenBlock]) -> list[SeenBlock]:
     local = turned(xy[trees], np.array([first.way[1], -first.way[0]]))
     lean = [float(_slope(block.way, first.way)) for block in blocks]
     slope = np.repeat(lean, [sum(map(len, block.rows)) for block in blocks])
-    lines = lines_of(local, bridge(local, slope, label, first.tree_spacing))
+    lines = lines_of(local, join_across_gaps(local, slope, label, first.tree_spacing))
     return _put_together(trees, lines, first)
 
 
@@ -88,8 +96,8 @@ def _blocks_among(xy: Floats, trees: Indices, size: int) -> list[SeenBlock]:
         return []
     owner = absorbed(xy[trees], assign(xy, trees, regions), regions)
     found = [block for k, region in enumerate(regions) for block in _blocks_of(xy, trees[owner == k], region)]
-    enough = needed(len(trees))
-    return [b for b in found if for_rows(xy, b.rows, b.way, b.tree_spacing) > enough]
+    enough = required_evidence(len(trees))
+    return [b for b in found if log_likelihood_ratio(xy, b.rows, b.way, b.tree_spacing) > enough]
 
 
 def _judged(xy: Floats, block: SeenBlock) -> SeenBlock:
@@ -99,13 +107,13 @@ def _judged(xy: Floats, block: SeenBlock) -> SeenBlock:
     squares = sum(float(((xy[trees] @ across - (xy[trees] @ across).mean()) ** 2).sum()) for trees in block.rows)
     off = float(np.sqrt(squares / max(count - len(block.rows), 1)))
     wide = block.row_spacing if len(block.rows) > 1 else float("inf")
-    sure = sure_of_way(
-        for_rows(xy, block.rows, block.way, block.tree_spacing),
-        needed(len(xy)),
+    sure = bearing_confidence(
+        log_likelihood_ratio(xy, block.rows, block.way, block.tree_spacing),
+        required_evidence(len(xy)),
         block.wider if len(block.rows) > 1 else float("inf"),
         block.walked,
     )
-    rows = [sure * sure_of_row(xy, trees, block.way, block.tree_spacing, wide, off) for trees in block.rows]
+    rows = [sure * row_confidence(xy, trees, block.way, block.tree_spacing, wide, off) for trees in block.rows]
     return replace(block, sure=sure, rows_sure=rows)
 
 
@@ -127,10 +135,10 @@ def _blocks_of(xy: Floats, trees: Indices, region: Region) -> list[SeenBlock]:
             slope = np.full(len(trees), lean)
     spacing = spacing_of(local, label) or spacing
     label = trace(local, slope, spacing)
-    label = bridge(local, slope, label, spacing)
+    label = join_across_gaps(local, slope, label, spacing)
     if straight:
         local = local - np.column_stack([local[:, 1] * slope, np.zeros(len(local))])
-        label = part_twins(local, label, spacing)
+        label = split_double_rows(local, label, spacing)
         spacing = spacing_of(local, label) or spacing
     lines = lines_of(local, label)
     rows = [line for line in lines if len(line.trees) >= 3]
@@ -161,7 +169,7 @@ def _way(wave: Floats, slope: float) -> Floats:
     return np.asarray(way / np.hypot(*way))
 
 
-def _put_together(trees: Indices, lines: list[Line], like: SeenBlock) -> list[SeenBlock]:
+def _put_together(trees: Indices, lines: list[TracedRow], like: SeenBlock) -> list[SeenBlock]:
     """Blocks of these rows, else like that one; a block has a row of three trees."""
     block_of = together(lines, like.row_spacing)
     return [

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.site.kinds import BLOCK_KEYS, COLUMN_KEYS, POSITION_KEYS, text_of
+from fieldhand.site.feature_kinds import BLOCK_KEYS, COLUMN_KEYS, POSITION_KEYS, text_of
 from fieldhand.site.rows.labels import groups, linked
 from fieldhand.terms import Value
 
@@ -22,7 +22,7 @@ _MOST = 0.8
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Named:
+class NamedRows:
     """What the file says.
 
     Attributes:
@@ -38,7 +38,7 @@ class Named:
     positions: Floats
 
 
-def named_rows(rows: Sequence[str], properties: Sequence[Mapping[str, Value]], xy: Floats) -> Named:
+def named_rows(rows: Sequence[str], properties: Sequence[Mapping[str, Value]], xy: Floats) -> NamedRows:
     """Return rows, blocks and positions of the file, as far as they make sense.
 
     A name is a row's if the trees that share it stand on a line. Trees that share it and stand on several are several
@@ -57,9 +57,9 @@ def named_rows(rows: Sequence[str], properties: Sequence[Mapping[str, Value]], x
                 own = positions if np.isfinite(positions).any() else _numbers(along)
                 if not _restarts(own, row_of):
                     own = np.full(count, np.nan)
-                return Named(row_of=row_of, names=kept, block_names=tuple(within), positions=own)
+                return NamedRows(row_of=row_of, names=kept, block_names=tuple(within), positions=own)
     none = np.full(count, -1, dtype=np.intp)
-    return Named(row_of=none, names=(), block_names=tuple(blocks), positions=np.full(count, np.nan))
+    return NamedRows(row_of=none, names=(), block_names=tuple(blocks), positions=np.full(count, np.nan))
 
 
 def _number(text: str) -> float:

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.site.rows.grouping import Line, together
+from fieldhand.site.rows.grouping import TracedRow, together
 from fieldhand.site.rows.labels import groups
 
 Floats = NDArray[np.float64]
@@ -61,7 +61,7 @@ class Strip:
     closed: bool = False
 
 
-def roads(lines: Sequence[Line], spacing: float, wide: float) -> list[Strip]:
+def roads(lines: Sequence[TracedRow], spacing: float, wide: float) -> list[Strip]:
     """The roads through these rows, ``spacing`` from tree to tree and ``wide`` from row to row."""
     gaps = [np.flatnonzero(np.diff(line.along) > 2 * _FREE * spacing) for line in lines]
     planted = sum(len(line.trees) for line in lines)
@@ -89,7 +89,7 @@ def roads(lines: Sequence[Line], spacing: float, wide: float) -> list[Strip]:
 class _Beside:
     """Rows beside a row."""
 
-    def __init__(self, lines: Sequence[Line], wide: float) -> None:
+    def __init__(self, lines: Sequence[TracedRow], wide: float) -> None:
         self._lines, self._wide = lines, wide
         middle = np.array([float(line.across.mean()) for line in lines])
         self._order = np.argsort(middle, kind="stable")
@@ -128,7 +128,7 @@ class _Beside:
 
 
 def _unflanked(
-    lines: Sequence[Line], row: int, gaps: NDArray[np.intp], beside: _Beside, spacing: float
+    lines: Sequence[TracedRow], row: int, gaps: NDArray[np.intp], beside: _Beside, spacing: float
 ) -> list[tuple[int, float]]:
     """Gaps of a row, and where in them no row next to it has a tree beside."""
     if not len(gaps):
@@ -142,7 +142,7 @@ def _unflanked(
     return [(int(gaps[k]), float(x)) for k, x in zip(gap[free], at[free], strict=True)]
 
 
-def _strip(lines: Sequence[Line], row: int, at: float, beside: _Beside, spacing: float, wide: float) -> Strip:
+def _strip(lines: Sequence[TracedRow], row: int, at: float, beside: _Beside, spacing: float, wide: float) -> Strip:
     """What is free of trees there, from one row on, until a row runs through it."""
     strip = Strip(at=at, gaps={row: int(np.searchsorted(lines[row].along, at)) - 1})
     visited, ahead = {row}, [(row, at)]
@@ -181,7 +181,7 @@ def _askew(at: float, first: float, last: float, free: float, reach: float) -> f
 
 
 def _is_road(
-    lines: Sequence[Line], strip: Strip, spacing: float, wide: float, planted: int, missing: float, places: int
+    lines: Sequence[TracedRow], strip: Strip, spacing: float, wide: float, planted: int, missing: float, places: int
 ) -> bool:
     widths = np.array([lines[row].along[k + 1] - lines[row].along[k] for row, k in strip.gaps.items()]) / spacing
     if not _rows_at_both_sides(lines, strip):
@@ -216,7 +216,7 @@ def _is_road(
     return bool(chance < np.log(_BY_CHANCE))
 
 
-def _overhang(lines: Sequence[Line], strip: Strip, spacing: float) -> float:
+def _overhang(lines: Sequence[TracedRow], strip: Strip, spacing: float) -> float:
     """The logarithm of how likely a row runs on past the strip as far as this one, where all beside it end before it.
 
     The rows beside it say how unevenly rows end.
@@ -236,7 +236,7 @@ def _overhang(lines: Sequence[Line], strip: Strip, spacing: float) -> float:
     return -min(over / (_PAST * uneven), _MOST_PAST)
 
 
-def _rows_at_both_sides(lines: Sequence[Line], strip: Strip) -> bool:
+def _rows_at_both_sides(lines: Sequence[TracedRow], strip: Strip) -> bool:
     """Whether each side has a row of three trees or more."""
     before = [k + 1 for k in strip.gaps.values()] + [len(lines[row].trees) for row in strip.before]
     after = [len(lines[row].trees) - k - 1 for row, k in strip.gaps.items()]
@@ -249,7 +249,7 @@ def _lost(widths: Floats) -> float:
     return float(np.maximum(np.maximum(np.rint(widths - 0.1) - 1.0, widths - 1.3), 0.0).sum())
 
 
-def parted(lines: list[Line], spacing: float, wide: float) -> list[list[Line]]:
+def parted(lines: list[TracedRow], spacing: float, wide: float) -> list[list[TracedRow]]:
     """A block's rows, cut where roads lead through; one list of rows for each part."""
     strips = roads(lines, spacing, wide)
     if not strips:
@@ -258,11 +258,11 @@ def parted(lines: list[Line], spacing: float, wide: float) -> list[list[Line]]:
     for strip in strips:
         for row, k in strip.gaps.items():
             cuts.setdefault(row, []).append(k + 1)
-    pieces: list[Line] = []
+    pieces: list[TracedRow] = []
     of_row: list[int] = []
     for row, line in enumerate(lines):
         for own in np.split(np.arange(len(line.trees)), sorted(set(cuts.get(row, ())))):
-            pieces.append(Line(line.trees[own], line.along[own], line.across[own]))
+            pieces.append(TracedRow(line.trees[own], line.along[own], line.across[own]))
             of_row.append(row)
     middle = np.array([float(piece.along.mean()) for piece in pieces])
     sides = []
@@ -273,7 +273,7 @@ def parted(lines: list[Line], spacing: float, wide: float) -> list[list[Line]]:
     return [[pieces[k] for k in own] for own in groups(label, int(label.max()) + 1)]
 
 
-def rejoined(lines: list[Line], spacing: float) -> list[Line]:
+def rejoined(lines: list[TracedRow], spacing: float) -> list[TracedRow]:
     """Rows of a block put together again that a hole parts, a pond say, where rows on both sides of it run past."""
     long = [k for k, line in enumerate(lines) if len(line.trees) > 2]
     first = np.array([lines[k].along[0] for k in long])
@@ -294,7 +294,7 @@ def rejoined(lines: list[Line], spacing: float) -> list[Line]:
     merged = dict(enumerate(lines))
     for k, other in sorted(ahead.items(), key=lambda pair: float(lines[pair[0]].along[-1])):
         a, b = merged[into[k]], merged.pop(other)
-        merged[into[k]] = Line(
+        merged[into[k]] = TracedRow(
             *(
                 np.concatenate(both)
                 for both in zip((a.trees, a.along, a.across), (b.trees, b.along, b.across), strict=True)

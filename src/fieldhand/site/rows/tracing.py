@@ -88,17 +88,17 @@ def pooled_slope(local: Floats, label: Indices) -> float:
     return float((off[:, 0] * off[:, 1]).sum() / max((off[:, 1] ** 2).sum(), 1e-12))
 
 
-def bridge(local: Floats, slope: Floats, label: Indices, spacing: float) -> Indices:
+def join_across_gaps(local: Floats, slope: Floats, label: Indices, spacing: float) -> Indices:
     """Join pieces that carry on in line across a gap. Labels from 0."""
     for _ in range(3):
-        joined = _bridged_once(local, slope, label, spacing)
+        joined = _joined_once(local, slope, label, spacing)
         if joined.max(initial=-1) == label.max(initial=-1):
             return joined
         label = joined
     return label
 
 
-def _bridged_once(local: Floats, slope: Floats, label: Indices, spacing: float) -> Indices:
+def _joined_once(local: Floats, slope: Floats, label: Indices, spacing: float) -> Indices:
     from scipy.spatial import cKDTree
 
     pieces = groups(label, int(label.max(initial=-1)) + 1)
@@ -137,7 +137,7 @@ def _end(local: Floats, slope: Floats, trees: Indices, *, first: bool) -> tuple[
     return float(across.mean()), float(local[at, 1]), lean
 
 
-def part_twins(local: Floats, label: Indices, spacing: float) -> Indices:
+def split_double_rows(local: Floats, label: Indices, spacing: float) -> Indices:
     """Part rows that are two close beside each other: trees on either side of a free strip along all of the row.
 
     Args:

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from fieldhand.site.geojson import parse_site
 from fieldhand.site.model import Site
-from fieldhand.site.orchards import BlockShape, MadeOrchard, make_orchard
+from fieldhand.site.random_orchards import BlockShape, GeneratedOrchard, make_orchard
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -31,7 +31,7 @@ def block_shapes(draw: st.DrawFn, *, most_rows: int = 7, most_along: int = 10, j
 @st.composite
 def made_orchards(
     draw: st.DrawFn, *, most_blocks: int = 2, surrounded: bool = True, named: bool = False
-) -> MadeOrchard:
+) -> GeneratedOrchard:
     """Draw an orchard of a few blocks, with what is true of it.
 
     Args:
@@ -58,6 +58,6 @@ def orchard_sites(draw: st.DrawFn, *, most_blocks: int = 2, surrounded: bool = T
     return site_of_made(draw(made_orchards(most_blocks=most_blocks, surrounded=surrounded, named=named)))
 
 
-def site_of_made(made: MadeOrchard) -> Site:
+def site_of_made(made: GeneratedOrchard) -> Site:
     """Return the site that the made orchard's file is read as."""
     return parse_site(made.to_bytes(), name="made")

@@ -1,6 +1,7 @@
 """Makes orchards of any kind whose rows are known: blocks, bearings, gaps, uneven planting, with or without names.
 
-:mod:`fieldhand.site.generate` makes one orchard with everything in it, to show; these are to measure and to test with.
+:mod:`fieldhand.site.demo_orchard` makes one orchard with everything in it, to show; these are to measure and to test
+with.
 """
 
 from __future__ import annotations
@@ -60,7 +61,7 @@ class BlockShape:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class MadeOrchard:
+class GeneratedOrchard:
     """An orchard and what is true of it.
 
     Attributes:
@@ -137,7 +138,7 @@ def make_orchard(
     pond_m: float = 0.0,
     fenced: bool = False,
     markers: bool = False,
-) -> MadeOrchard:
+) -> GeneratedOrchard:
     """Plant these blocks beside each other.
 
     Args:
@@ -186,7 +187,7 @@ def make_orchard(
         {"type": "Feature", "properties": said, "geometry": {"type": "Point", "coordinates": place}}
         for said, place in zip(told, degrees, strict=True)
     ]
-    return MadeOrchard(
+    return GeneratedOrchard(
         collection={"type": "FeatureCollection", "name": "made orchard", "features": [*features, *points]},
         xy=xy,
         row_of=row_of.astype(np.intp),
@@ -239,7 +240,7 @@ def random_orchard(
     named: Named = "none",
     shuffled: bool = True,
     strays: int = 0,
-) -> MadeOrchard:
+) -> GeneratedOrchard:
     """An orchard of about so many trees: :func:`random_shapes`, then :func:`make_orchard`."""
     rng = np.random.default_rng(seed)
     shapes = random_shapes(rng, trees=trees, blocks=blocks, bearing_deg=bearing_deg, missing=missing, jitter=jitter)

@@ -27,7 +27,7 @@ _PASSED = ("PATH", "PYTHONPATH", "LD_LIBRARY_PATH", "LANG", "LC_ALL", "SYSTEMROO
 
 
 @dataclass(frozen=True, kw_only=True)
-class Allowance:
+class ReadLimits:
     """Bounds on reading files of so many bytes.
 
     Attributes:
@@ -42,9 +42,9 @@ class Allowance:
     wall_s: float
 
 
-def allowance_for(size: int) -> Allowance:
+def read_limits(size: int) -> ReadLimits:
     """Return what files of so many bytes may take: a measured site of 100,000 trees needs a third of it."""
-    return Allowance(
+    return ReadLimits(
         memory=min(1_000_000_000 + 20 * size, 3_000_000_000),
         result=min(16_000_000 + 20 * size, 300_000_000),
         cpu_s=20 + size // 1_000_000,
@@ -52,8 +52,8 @@ def allowance_for(size: int) -> Allowance:
     )
 
 
-def read_confined(
-    form: str, held: Mapping[str, bytes], at: str, *, lenient: bool, allowed: Allowance | None = None
+def read_sandboxed(
+    form: str, held: Mapping[str, bytes], at: str, *, lenient: bool, allowed: ReadLimits | None = None
 ) -> Records:
     """Return the records of files, read in a process of its own.
 
@@ -64,7 +64,7 @@ def read_confined(
     Raises:
         SiteError: The files cannot be read, or not with what it may take.
     """
-    allowed = allowed or allowance_for(sum(map(len, held.values())))
+    allowed = allowed or read_limits(sum(map(len, held.values())))
     with tempfile.TemporaryDirectory(prefix="fieldhand-") as made:
         folder = Path(made)
         for number, data in enumerate(held.values()):
@@ -128,7 +128,7 @@ def _plain(value: Any) -> Any:
     return value.tolist() if hasattr(value, "tolist") else str(value)
 
 
-def _records(result: Path, status: int, allowed: Allowance, at: str) -> Records:
+def _records(result: Path, status: int, allowed: ReadLimits, at: str) -> Records:
     try:
         size = result.stat().st_size if status == 0 else -1
         if not 0 <= size <= allowed.result:
@@ -148,7 +148,7 @@ def _records(result: Path, status: int, allowed: Allowance, at: str) -> Records:
         raise _too_much(allowed, at) from None
 
 
-def _too_much(allowed: Allowance, at: str) -> SiteError:
+def _too_much(allowed: ReadLimits, at: str) -> SiteError:
     return SiteError(
         f"the file cannot be read with what a file of its size may take"
         f" ({allowed.memory / 1e9:.1f} GB of memory, {allowed.cpu_s} s), or broke its reader",

@@ -49,7 +49,7 @@ class SeenBlock:
     rows_sure: list[float] = field(default_factory=list)
 
 
-class Settling:
+class RowRefinement:
     """Rows that trees come to and go from.
 
     Args:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True, kw_only=True)
-class Range:
+class CountRange:
     """A number between ``low`` and ``high`` (None: no bound)."""
 
     low: int
@@ -17,21 +17,21 @@ class Range:
         """The number, where there is only one."""
         return self.low if self.low == self.high else None
 
-    def times(self, other: Range) -> Range:
+    def times(self, other: CountRange) -> CountRange:
         """So many of so many."""
         high = None if self.high is None or other.high is None else self.high * other.high
-        return Range(low=self.low * other.low, high=high)
+        return CountRange(low=self.low * other.low, high=high)
 
 
-ONE = Range(low=1, high=1)
-ANY = Range(low=0, high=None)
+ONE = CountRange(low=1, high=1)
+ANY = CountRange(low=0, high=None)
 
 
-def exactly(number: int) -> Range:
+def exactly(number: int) -> CountRange:
     """Return the range of one number."""
-    return Range(low=number, high=number)
+    return CountRange(low=number, high=number)
 
 
-def at_most(size: Range) -> Range:
+def at_most(size: CountRange) -> CountRange:
     """Return the range of what is left of so many places after some of them were taken out."""
-    return Range(low=0, high=size.high)
+    return CountRange(low=0, high=size.high)

@@ -6,13 +6,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from fieldhand.places.spots import Spots
+from fieldhand.places.place_group import PlaceGroup
 from fieldhand.site.counting import need_rows
 from fieldhand.site.model import Site
 from fieldhand.site.planting import Block, Indices, Row
 
 
-def standing(spots: Spots, way: Indices) -> tuple[Indices, Indices]:
+def numbers_in_row(spots: PlaceGroup, way: Indices) -> tuple[Indices, Indices]:
     """For each place its number among those of the group in its row, and how many of the group its row has.
 
     Args:
@@ -33,7 +33,7 @@ def standing(spots: Spots, way: Indices) -> tuple[Indices, Indices]:
     return np.where(row >= 0, number, 0), sizes[row + 1]
 
 
-def blocks_of(site: Site, spots: Spots) -> tuple[Block, ...]:
+def blocks_of(site: Site, spots: PlaceGroup) -> tuple[Block, ...]:
     """The blocks in which these places stand, in the site's order."""
     planting = need_rows(site)
     rows = spots.row
@@ -41,7 +41,7 @@ def blocks_of(site: Site, spots: Spots) -> tuple[Block, ...]:
     return tuple(planting.blocks[k] for k in np.unique(of_row[np.unique(rows[rows >= 0])]).tolist())
 
 
-def in_those_rows(spots: Spots, rows: Sequence[Row]) -> Spots:
+def in_those_rows(spots: PlaceGroup, rows: Sequence[Row]) -> PlaceGroup:
     """Return those that stand in some rows."""
     chosen = np.zeros(len(spots.site.trees) + 1, dtype=bool)
     for row in rows:

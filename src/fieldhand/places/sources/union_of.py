@@ -8,43 +8,43 @@ from typing import TYPE_CHECKING
 from fieldhand.language import message
 from fieldhand.language.words import listed
 from fieldhand.places.areas.corners import Corners
-from fieldhand.places.faults import nothing
-from fieldhand.places.phrase import Phrase, many
+from fieldhand.places.count_range import CountRange
+from fieldhand.places.noun_phrase import NounPhrase, many
 from fieldhand.places.picks.first import First
 from fieldhand.places.picks.last import Last
+from fieldhand.places.place_errors import nothing
 from fieldhand.places.selector import Selector
-from fieldhand.places.size import Range
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
 @dataclass(frozen=True, kw_only=True)
-class Union(Selector):
+class UnionOf(Selector):
     """All places of the parts, in their order, each once."""
 
     parts: tuple[Selector, ...]
 
     @classmethod
-    def example(cls, site: Site) -> Union:
+    def example(cls, site: Site) -> UnionOf:
         return cls(parts=(First(), Last(), Corners()))
 
-    def resolve(self, resolution: Resolution, tell: Tell) -> Spots:
+    def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         if not self.parts:
             raise nothing(resolution.site, self, "it has no parts")
         return resolution.joined([resolution.spots(part) for part in self.parts])
 
-    def phrase(self, saying: Saying) -> Phrase:
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
         trees = [part.named_tree for part in self.parts if part.named_tree]
         if len(self.parts) == 1:
-            return saying.phrase(self.parts[0])
+            return wording.phrase(self.parts[0])
         if trees and len(trees) == len(self.parts):
             return many(message("trees {ids}", ids=listed(trees)))
-        said = listed([saying.phrase(part).say() for part in self.parts])
+        said = listed([wording.phrase(part).say() for part in self.parts])
         return many(said or message("no place at all"))
 
     @property
@@ -60,13 +60,13 @@ class Union(Selector):
         return self.parts
 
     @property
-    def size(self) -> Range:
+    def size(self) -> CountRange:
         """The sum of the parts at most; all of it where each part is a tree of its own."""
         sizes = [part.size for part in self.parts]
         highs = [size.high for size in sizes if size.high is not None]
         total = sum(highs) if len(highs) == len(sizes) else None
         apart = all(part.named_tree for part in self.parts) and len(set(self.parts)) == len(self.parts)
-        return Range(low=total if apart and total is not None else 1, high=total)
+        return CountRange(low=total if apart and total is not None else 1, high=total)
 
     def ground(self, *, picks_too: bool = True) -> Selector:
-        return Union(parts=tuple(part.ground(picks_too=picks_too) for part in self.parts))
+        return UnionOf(parts=tuple(part.ground(picks_too=picks_too) for part in self.parts))

@@ -11,7 +11,7 @@ _LONGEST = 20_000
 
 
 @dataclass(frozen=True, kw_only=True)
-class Phrase:
+class NounPhrase:
     """A noun phrase about trees.
 
     Attributes:
@@ -37,32 +37,32 @@ class Phrase:
     @property
     def plain(self) -> bool:
         """Every tree of the site."""
-        return replace(self, order="") == Phrase()
+        return replace(self, order="") == NounPhrase()
 
     @property
     def bare(self) -> bool:
         """Every tree of some rows, or of the site."""
         return not (self.closed or self.before or self.after or self.among)
 
-    def keeping(self, *, before: str = "", after: str = "") -> Phrase:
+    def keeping(self, *, before: str = "", after: str = "") -> NounPhrase:
         """The phrase narrowed by one more adjective or clause."""
-        base = Phrase(among=self.closed, order=self.order) if self.closed else self
+        base = NounPhrase(among=self.closed, order=self.order) if self.closed else self
         return replace(
             base,
             before=(*base.before, before) if before else base.before,
             after=(*base.after, after) if after else base.after,
         )
 
-    def of_rows(self, row: str, *, one: bool) -> Phrase:
+    def of_rows(self, row: str, *, one: bool) -> NounPhrase:
         """The phrase narrowed to some rows; what is of some rows already is what they are looked for among."""
         open_ = not (self.closed or self.row)
-        base = self if open_ else Phrase(among=replace(self, order="").say(), order=self.order)
+        base = self if open_ else NounPhrase(among=replace(self, order="").say(), order=self.order)
         return replace(base, row=row, one_row=one)
 
-    def of_block(self, block: str) -> Phrase:
+    def of_block(self, block: str) -> NounPhrase:
         """The phrase narrowed to one block."""
         open_ = not (self.closed or self.block)
-        base = self if open_ else Phrase(among=replace(self, order="").say(), order=self.order)
+        base = self if open_ else NounPhrase(among=replace(self, order="").say(), order=self.order)
         return replace(base, block=block)
 
     def say(self, count: int | None = None) -> str:
@@ -111,17 +111,17 @@ class Phrase:
         return self.row or self.block
 
 
-def one(text: str) -> Phrase:
+def one(text: str) -> NounPhrase:
     """The phrase of one place."""
-    return Phrase(closed=text, single=True)
+    return NounPhrase(closed=text, single=True)
 
 
-def many(text: str) -> Phrase:
+def many(text: str) -> NounPhrase:
     """The phrase of several places."""
-    return Phrase(closed=text)
+    return NounPhrase(closed=text)
 
 
-def clauses(phrase: Phrase, *more: str) -> str:
+def clauses(phrase: NounPhrase, *more: str) -> str:
     """What follows the noun; a comma keeps a second clause from being read as part of the first."""
     among = (message("among {trees}", trees=phrase.among),) if phrase.among else ()
     clauses = (*sorted(phrase.after, key=lambda a: not a.startswith("whose ")), *among)

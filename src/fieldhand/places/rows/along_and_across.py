@@ -11,8 +11,8 @@ from fieldhand.errors import PlaceError
 from fieldhand.language import message
 from fieldhand.language.words import COMPASS, say_rounded, say_tree
 from fieldhand.places.neighbours.distances import Origin, distance_to
-from fieldhand.places.spots import Spots
-from fieldhand.places.tell import Tell
+from fieldhand.places.place_group import PlaceGroup
+from fieldhand.places.resolution_notes import ResolutionNotes
 from fieldhand.site import counting
 from fieldhand.site.counting import need_rows, row_words, wind
 from fieldhand.site.model import Site
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from fieldhand.places.rows.along_row import AlongRow
 
 
-def tree_in_hand(origin: Spots, tell: Tell) -> int:
+def reference_tree(origin: PlaceGroup, notes: ResolutionNotes) -> int:
     """The position on the site of the tree that is meant by one place: the nearest in a row where it is none itself.
 
     Raises:
@@ -39,7 +39,7 @@ def tree_in_hand(origin: Spots, tell: Tell) -> int:
     tree = int(in_rows[np.argmin(away)])
     place = origin.places[0]
     called = say_tree(place.id) if place.kind == "tree" else place.id
-    tell.note(
+    notes.remark(
         message(
             "{place} stands in no row, so it counts from the nearest tree that does, {id}",
             place=called,
@@ -49,7 +49,7 @@ def tree_in_hand(origin: Spots, tell: Tell) -> int:
     return tree
 
 
-def along_row(origin: Spots, selector: AlongRow, tell: Tell) -> Spots:
+def along_row(origin: PlaceGroup, selector: AlongRow, notes: ResolutionNotes) -> PlaceGroup:
     """The tree that many trees farther in the row of the origin, or the row's last."""
     site = origin.site
     if selector.trees < 1:
@@ -57,18 +57,18 @@ def along_row(origin: Spots, selector: AlongRow, tell: Tell) -> Spots:
             message("{trees} trees along a row is no way to go", trees=selector.trees),
             advice=message("ask for 1 tree or more"),
         )
-    tree = tree_in_hand(origin, tell)
+    tree = reference_tree(origin, notes)
     row = site.planting.rows[int(site.planting.row_of[tree])]
-    way = _way_along(site, row, selector.towards, tell)
+    way = _way_along(site, row, selector.towards, notes)
     at = int(site.planting.rank[tree])
     end = len(row.trees) - 1 if way > 0 else 0
     left = abs(end - at)
-    tell.candidates = left
+    notes.candidates = left
     found = int(row.trees[at + way * min(selector.trees, left)])
     if left < selector.trees:
         said, tree_id = row_words(site, row), site.trees[found].place.id
         if left:
-            tell.note(
+            notes.remark(
                 language.counted(
                     "{row} ends after {count} tree; its last tree that way is {id}",
                     "{row} ends after {count} trees; its last tree that way is {id}",
@@ -78,14 +78,14 @@ def along_row(origin: Spots, selector: AlongRow, tell: Tell) -> Spots:
                 )
             )
         else:
-            tell.note(message("{row} ends here; its last tree that way is {id}", row=said, id=tree_id))
-    return Spots(site=site, index=np.array([found], dtype=np.intp))
+            notes.remark(message("{row} ends here; its last tree that way is {id}", row=said, id=tree_id))
+    return PlaceGroup(site=site, index=np.array([found], dtype=np.intp))
 
 
-def across(origin: Spots, side: CountedFrom, tell: Tell) -> Spots:
+def across(origin: PlaceGroup, side: CountedFrom, notes: ResolutionNotes) -> PlaceGroup:
     """The tree of the next row that is nearest to the origin: on that side, or of the nearer of the two rows."""
     site = origin.site
-    tree = tree_in_hand(origin, tell)
+    tree = reference_tree(origin, notes)
     row = site.planting.rows[int(site.planting.row_of[tree])]
     block = site.planting.blocks[row.block]
     axis = counting.across(block)
@@ -107,13 +107,13 @@ def across(origin: Spots, side: CountedFrom, tell: Tell) -> Spots:
             advice=message("ask for a tree of another row"),
         )
     trees = np.concatenate([r.trees for r in rows])
-    found = Spots(site=site, index=trees).ranked(np.hypot(*(site.xy[trees] - site.xy[tree]).T), 1)
+    found = PlaceGroup(site=site, index=trees).ranked(np.hypot(*(site.xy[trees] - site.xy[tree]).T), 1)
     other = site.planting.rows[int(site.planting.row_of[found.index[0]])]
-    tell.candidates = len(trees)
-    tell.rule = f"that is in {row_words(site, other)}"
+    notes.candidates = len(trees)
+    notes.rule = f"that is in {row_words(site, other)}"
     aside = abs(float((site.xy[found.index[0]] - site.xy[tree]) @ counting.along(block)))
     if aside > 0.75 * block.tree_spacing_m:
-        tell.note(
+        notes.remark(
             message(
                 "{row} has no tree abreast of it; the nearest one is {metres} m along the row",
                 row=row_words(site, other),
@@ -123,7 +123,7 @@ def across(origin: Spots, side: CountedFrom, tell: Tell) -> Spots:
     return found
 
 
-def successive(spots: Spots, near: Origin, count: int, tell: Tell) -> Spots:
+def successive(spots: PlaceGroup, near: Origin, count: int, notes: ResolutionNotes) -> PlaceGroup:
     """That many of the group one after the other in one row.
 
     The row is the one with the nearest tree, of those that have as many; in it the ones with the least distance in
@@ -136,7 +136,7 @@ def successive(spots: Spots, near: Origin, count: int, tell: Tell) -> Spots:
     row = spots.row[order]
     first, last = (np.searchsorted(row, row, side=s) for s in ("left", "right"))
     long_enough = last - first >= count
-    tell.candidates = len(spots)
+    notes.candidates = len(spots)
     if not long_enough.any():
         return spots.keep([])
     away = distance_to(spots, near)[order]
@@ -147,17 +147,17 @@ def successive(spots: Spots, near: Origin, count: int, tell: Tell) -> Spots:
     taken = order[begin : begin + count]
     if away[begin] > away[begin + count - 1] + 1e-4:
         taken = taken[::-1]
-    tell.rule = f"{row_words(site, site.planting.rows[int(nearest_row)])} is the nearest with that many"
+    notes.rule = f"{row_words(site, site.planting.rows[int(nearest_row)])} is the nearest with that many"
     return spots.keep(taken)
 
 
-def longest_run(spots: Spots) -> int:
+def longest_run(spots: PlaceGroup) -> int:
     """The most places of the group that stand in one row."""
     rows = spots.row[spots.row >= 0]
     return int(np.bincount(rows).max()) if len(rows) else 0
 
 
-def _way_along(site: Site, row: Row, towards: Towards, tell: Tell) -> int:
+def _way_along(site: Site, row: Row, towards: Towards, notes: ResolutionNotes) -> int:
     """1 if that way leads from the row's usual end, -1 if towards it."""
     axis = counting.along(site.planting.blocks[row.block])
     if towards == "down" or towards == "up":
@@ -167,7 +167,7 @@ def _way_along(site: Site, row: Row, towards: Towards, tell: Tell) -> int:
         way = down if towards == "down" else -down
         begins = "the start" if "start" in site.markers else f"the first tree {site.start.id}"
         where = f"away from {begins}" if towards == "down" else f"towards {begins}"
-        tell.rule = f"{towards} is {wind(way * axis)} here, {where}"
+        notes.rule = f"{towards} is {wind(way * axis)} here, {where}"
         return way
     way = counting.leads(axis, towards)
     if way == 0:

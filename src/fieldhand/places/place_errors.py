@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Literal
 
 from fieldhand.errors import PlaceError
 from fieldhand.language import counted, joined, message, shaped
-from fieldhand.places.saying import say_selector
-from fieldhand.site.kinds import number_text, phrase
+from fieldhand.places.wording import say_selector
+from fieldhand.site.feature_kinds import number_text, phrase
 from fieldhand.site.names import listed, say_block, short
 
 if TYPE_CHECKING:

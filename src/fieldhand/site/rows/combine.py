@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from fieldhand.language import counted, message
 from fieldhand.site.planting import Known
-from fieldhand.site.rows.assemble import Drawn, along_of, bearing
+from fieldhand.site.rows.assemble import FoundRows, along_of, bearing
 from fieldhand.site.rows.grouping import lines_of, row_spacing, together
 from fieldhand.site.rows.labels import groups
-from fieldhand.site.rows.named import Named
-from fieldhand.site.rows.settle import SeenBlock
+from fieldhand.site.rows.named import NamedRows
+from fieldhand.site.rows.refine import SeenBlock
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -23,7 +23,7 @@ Indices = NDArray[np.intp]
 _OTHER_WAY = 8.0
 
 
-def draw(xy: Floats, named: Named, seen: Sequence[SeenBlock]) -> Drawn:
+def combine(xy: Floats, named: NamedRows, seen: Sequence[SeenBlock]) -> FoundRows:
     """The file's rows, with the trees that it names no row for added to them, or in rows that were seen.
 
     Args:
@@ -37,7 +37,7 @@ def draw(xy: Floats, named: Named, seen: Sequence[SeenBlock]) -> Drawn:
     block_key = _block_keys(xy, named, members, seen_row, seen_block, list(seen))
     blocks = list(dict.fromkeys(block_key))
     said = [isinstance(key, str) for key in blocks]
-    return Drawn(
+    return FoundRows(
         row_of=row_of,
         block_of=np.array([blocks.index(key) for key in block_key], dtype=np.intp),
         names=names,
@@ -65,7 +65,7 @@ def _flat(count: int, seen: Sequence[SeenBlock]) -> tuple[Indices, list[int], li
 
 
 def _rows(
-    named: Named, seen_row: Indices, sure: Sequence[float]
+    named: NamedRows, seen_row: Indices, sure: Sequence[float]
 ) -> tuple[Indices, list[str], list[Known], list[float]]:
     """The file's rows first, then those that were seen and hold no tree of these."""
     row_of = named.row_of.copy()
@@ -103,7 +103,7 @@ def _by_block(trees: Indices, block_names: Sequence[str]) -> list[Indices]:
 
 def _block_keys(
     xy: Floats,
-    named: Named,
+    named: NamedRows,
     members: Sequence[Indices],
     seen_row: Indices,
     seen_block: Sequence[int],
@@ -136,7 +136,7 @@ def _block_keys(
     return keys
 
 
-def _said(named: Named, trees: Indices) -> str:
+def _said(named: NamedRows, trees: Indices) -> str:
     """The block that the file says these trees are in; empty where it says none, or several."""
     said = {named.block_names[k] for k in trees}
     return said.pop() if len(said) == 1 else ""

@@ -9,20 +9,20 @@ from typing import TYPE_CHECKING
 
 from fieldhand.language import message
 from fieldhand.places.filters.where import Where
-from fieldhand.places.phrase import Phrase, many, one
+from fieldhand.places.noun_phrase import NounPhrase, many, one
 from fieldhand.places.selector import Counted, Selector
 from fieldhand.places.sources.trees import Trees
 
 if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
-    from fieldhand.places.saying import Saying
-    from fieldhand.places.spots import Spots
-    from fieldhand.places.tell import Tell
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
 
 @dataclass(frozen=True, kw_only=True)
-class Random(Counted):
+class RandomSample(Counted):
     """``count`` of ``of``, drawn at random.
 
     Attributes:
@@ -36,19 +36,19 @@ class Random(Counted):
     ground_rule = "of"
 
     @classmethod
-    def example(cls, site: Site) -> Random:
+    def example(cls, site: Site) -> RandomSample:
         return cls(count=10, of=Where(attribute="age_years", test="gt", value=10.0))
 
-    def choose(self, of: Spots, resolution: Resolution, tell: Tell) -> Spots:
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.filters.zones import outside_keep_outs
 
-        free = outside_keep_outs(of, tell).once(self.count)
+        free = outside_keep_outs(of, notes).once(self.count)
         self.need(free, resolution)
-        tell.rule = message("drawn by seed {seed}", seed=self.seed)
+        notes.rule = message("drawn by seed {seed}", seed=self.seed)
         return _drawn(free, self.count, self.seed)
 
-    def phrase(self, saying: Saying) -> Phrase:
-        group, seed = saying.phrase(self.of).group(), self.seed
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        group, seed = wording.phrase(self.of).group(), self.seed
         if self.count == 1:
             return one(message("one of {trees}, drawn at random (seed {seed})", trees=group, seed=seed))
         said = message("{count} of {trees}, drawn at random (seed {seed})", count=self.count, trees=group, seed=seed)
@@ -59,7 +59,7 @@ class Random(Counted):
         return False
 
 
-def _drawn(spots: Spots, count: int, seed: int) -> Spots:
+def _drawn(spots: PlaceGroup, count: int, seed: int) -> PlaceGroup:
     """Return ``count`` of the places, each as likely as any other, in the order of the file.
 
     Each place gets a number from the SHA-256 of the seed and its id, and the lowest are drawn (bottom-k sampling, Cohen

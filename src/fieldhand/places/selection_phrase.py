@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fieldhand.language import counted, message
-from fieldhand.places.phrase import Phrase, clauses, many, one
+from fieldhand.places.noun_phrase import NounPhrase, clauses, many, one
 
 
 def superlative(word: str, count: int) -> str:
@@ -22,7 +22,7 @@ def superlative(word: str, count: int) -> str:
     return counted("farthest", "farthest", count)
 
 
-def foremost(word: str, count: int, group: Phrase) -> Phrase:
+def foremost_phrase(word: str, count: int, group: NounPhrase) -> NounPhrase:
     """The northernmost, the 3 nearest."""
     which = superlative(word, count)
     if count == 1:
@@ -34,7 +34,7 @@ def foremost(word: str, count: int, group: Phrase) -> Phrase:
     return many(message("the {count} {northernmost} of {trees}", count=count, northernmost=which, trees=group.group()))
 
 
-def picked(group: Phrase, count: int, which: str, *, that_is: bool = True) -> Phrase:
+def picked_phrase(group: NounPhrase, count: int, which: str, *, that_is: bool = True) -> NounPhrase:
     """Return the trees of a group that are nearest to something, or have the most of something.
 
     Args:

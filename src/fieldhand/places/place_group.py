@@ -15,7 +15,7 @@ Indices = NDArray[np.intp]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Spots:
+class PlaceGroup:
     """Places in order, each once.
 
     Attributes:
@@ -28,19 +28,19 @@ class Spots:
     others: tuple[Place, ...] = ()
 
     @staticmethod
-    def all_trees(site: Site) -> Spots:
+    def all_trees(site: Site) -> PlaceGroup:
         """Every tree, in the order of the file."""
-        return Spots(site=site, index=np.arange(len(site.trees), dtype=np.intp))
+        return PlaceGroup(site=site, index=np.arange(len(site.trees), dtype=np.intp))
 
     @staticmethod
-    def of(site: Site, places: Iterable[Place]) -> Spots:
+    def of(site: Site, places: Iterable[Place]) -> PlaceGroup:
         """These places, each once, in this order."""
         index: dict[int, None] = {}
         others: dict[Place, int] = {}
         for place in places:
             tree = site.by_id.get(place.id) if place.kind == "tree" else None
             index.setdefault(tree.index if tree else -1 - others.setdefault(place, len(others)))
-        return Spots(site=site, index=np.array(list(index), dtype=np.intp), others=tuple(others))
+        return PlaceGroup(site=site, index=np.array(list(index), dtype=np.intp), others=tuple(others))
 
     def __len__(self) -> int:
         return len(self.index)
@@ -69,7 +69,7 @@ class Spots:
         trees = self.site.trees
         return tuple(trees[k].place if k >= 0 else self.others[-1 - k] for k in self.index.tolist())
 
-    def keep(self, positions: ArrayLike | slice) -> Spots:
+    def keep(self, positions: ArrayLike | slice) -> PlaceGroup:
         """Those at these positions in this order, or where a mask of booleans is true."""
         where = positions if isinstance(positions, slice) else np.asarray(positions)
         if not isinstance(where, slice) and not where.size:
@@ -88,7 +88,7 @@ class Spots:
         planted = self.site.planting.rank
         return np.where(self.is_tree, planted[self.index * self.is_tree], -1)
 
-    def without(self, taken: Spots) -> Spots:
+    def without(self, taken: PlaceGroup) -> PlaceGroup:
         """Those that are not among ``taken``."""
         others = set(taken.places) if taken.others and self.others else set()
         mask = ~np.isin(self.index, taken.index[taken.index >= 0])
@@ -96,7 +96,7 @@ class Spots:
             mask &= [k >= 0 or self.others[-1 - k] not in others for k in self.index.tolist()]
         return self.keep(mask)
 
-    def once(self, count: int) -> Spots:
+    def once(self, count: int) -> PlaceGroup:
         """Those without trees that the file holds twice; all of them where fewer than ``count`` are left then."""
         from fieldhand.site.rows import first_entries
 
@@ -109,7 +109,7 @@ class Spots:
         _, where = np.unique(entries, return_index=True)
         return self if len(where) in (len(self), *range(count)) else self.keep(np.sort(where))
 
-    def ranked(self, key: NDArray[np.float64], count: int) -> Spots:
+    def ranked(self, key: NDArray[np.float64], count: int) -> PlaceGroup:
         """The ``count`` with the smallest key, smallest first; equal to a tenth of a millimetre is a tie, and ties go
         by file order."""
         rounded = np.round(key, 4)
@@ -122,10 +122,10 @@ class Spots:
         return self.keep(few[order[:count]])
 
 
-def joined(site: Site, groups: Sequence[Spots]) -> Spots:
+def joined(site: Site, groups: Sequence[PlaceGroup]) -> PlaceGroup:
     """All places of the groups in their order, each once."""
     if all(not g.others for g in groups):
         index = np.concatenate([g.index for g in groups])
         _, first = np.unique(index, return_index=True)
-        return Spots(site=site, index=index[np.sort(first)])
-    return Spots.of(site, (place for g in groups for place in g.places))
+        return PlaceGroup(site=site, index=index[np.sort(first)])
+    return PlaceGroup.of(site, (place for g in groups for place in g.places))

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from fieldhand.language import joined, message
 from fieldhand.language.words import listed
-from fieldhand.places.phrase import Phrase
+from fieldhand.places.noun_phrase import NounPhrase
 
 if TYPE_CHECKING:
     from fieldhand.places.selector import Selector
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Names = Mapping[str, str]
 
 
-class Saying:
+class SelectorWording:
     """The phrases so far, since a group is often said again, and what labels are called.
 
     Args:
@@ -30,9 +30,9 @@ class Saying:
 
     def __init__(self, names: Names) -> None:
         self.names = names
-        self._known: dict[str, Phrase] = {}
+        self._known: dict[str, NounPhrase] = {}
 
-    def phrase(self, selector: Selector) -> Phrase:
+    def phrase(self, selector: Selector) -> NounPhrase:
         """Return the phrase of a selector."""
         key = repr(selector)
         if key not in self._known:
@@ -48,13 +48,13 @@ def say_selector(selector: Selector, names: Names | None = None, count: int | No
         names: What a label is called ("the tree of step 3"); else it is quoted.
         count: How many places it gives, said where the phrase does not say it itself.
     """
-    return Saying(names or {}).phrase(selector).say(count)
+    return SelectorWording(names or {}).phrase(selector).say(count)
 
 
 def say_selectors(selectors: Iterable[Selector]) -> tuple[str, ...]:
     """Return several selectors in words, as :func:`say_selector`; what they have in common is phrased once."""
-    saying = Saying({})
-    return tuple(saying.phrase(selector).say() for selector in selectors)
+    wording = SelectorWording({})
+    return tuple(wording.phrase(selector).say() for selector in selectors)
 
 
 def say_places(ids: tuple[str, ...], few: int = 8) -> str:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 
 @dataclass(kw_only=True)
-class Tell:
+class ResolutionNotes:
     """Notes taken while one part resolves.
 
     Attributes:
@@ -19,8 +19,8 @@ class Tell:
     rule: str = ""
     candidates: int | None = None
     runners_up: tuple[str, ...] = ()
-    notes: list[str] = field(default_factory=list)
+    remarks: list[str] = field(default_factory=list)
 
-    def note(self, text: str) -> None:
+    def remark(self, text: str) -> None:
         """Say something that a person may not expect."""
-        self.notes.append(text)
+        self.remarks.append(text)

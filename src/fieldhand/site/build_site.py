@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from fieldhand.errors import SiteError
 from fieldhand.site.barriers import barrier_zones, gates_of
-from fieldhand.site.extent import middle_of, sound_extent
-from fieldhand.site.features import AreaFeature, Gathered, PointFeature, readable
-from fieldhand.site.formats.faults import Faults, Unsound, numbered
-from fieldhand.site.kinds import row_of
+from fieldhand.site.extent import drop_strays, middle_of
+from fieldhand.site.feature_kinds import row_of
+from fieldhand.site.features import AreaFeature, FeatureSet, PointFeature, readable
+from fieldhand.site.formats.faults import Faults, UnusableFeature, numbered
 from fieldhand.site.model import Place, Site, Tree, Zone
 from fieldhand.site.projection import Projection
 
@@ -25,7 +25,7 @@ ON_BOUNDARY_M = 0.05
 _MOST_PAIRS = 5
 
 
-def build(gathered: Gathered, faults: Faults, *, name: str, sha256: str, notes: Sequence[str] = ()) -> Site:
+def build(gathered: FeatureSet, faults: Faults, *, name: str, sha256: str, notes: Sequence[str] = ()) -> Site:
     """The site; in a lenient reading without what cannot be used.
 
     Args:
@@ -39,7 +39,7 @@ def build(gathered: Gathered, faults: Faults, *, name: str, sha256: str, notes: 
         SiteError: There are no trees, or there are faults that must not be left out.
     """
     numbering = _numbering([p for p in gathered.points if p.kind == "tree"])
-    sound = sound_extent(gathered, faults)
+    sound = drop_strays(gathered, faults)
     planted = [p for p in sound.points if p.kind == "tree"]
     if not planted:
         faults.check()
@@ -262,7 +262,7 @@ def _where_invalid(polygon: shapely.Polygon, projection: Projection) -> str:
     return f"{words.lower()} near latitude {lat:.6f}, longitude {lon:.6f}"
 
 
-def _notes(gathered: Gathered, faults: Faults) -> list[str]:
+def _notes(gathered: FeatureSet, faults: Faults) -> list[str]:
     notes: list[str] = []
     if gathered.closed:
         notes.append(f"a polygon that was not closed was closed: {numbered(faults.unit, gathered.closed)}")
@@ -291,11 +291,11 @@ def _site_name(name: str, at: str) -> str:
     """
     try:
         return readable(name.strip(), "name")[:100]
-    except Unsound as fault:
+    except UnusableFeature as fault:
         raise SiteError(fault.what, where=at, advice="correct the name in the file, or the name of the file") from None
 
 
-def _no_trees(gathered: Gathered, at: str, *, left_out: bool = False) -> SiteError:
+def _no_trees(gathered: FeatureSet, at: str, *, left_out: bool = False) -> SiteError:
     if left_out:
         what = "none of its trees can be used"
     elif not gathered.points:
