@@ -1,4 +1,4 @@
-"""What a selector may know of the mission when it resolves."""
+"""The mission state that a selector may depend on."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from fieldhand.site.model import Place
 
 
 class VisitedIds(Collection[str]):
-    """Ids in their order, each once. Never changed: what is one longer is another, and both share the ids.
+    """An immutable ordered set of ids. An extended copy shares its storage with the original.
 
     A walk over thousands of trees keeps one of these for each of its steps.
 
     Args:
-        ids: Each once.
+        ids: Ids, each once.
     """
 
     def __init__(self, ids: Collection[str] = ()) -> None:
-        #: At which position each id stands; beyond the count they are those of longer ones.
+        #: Position of each id; positions beyond the count belong to extended copies.
         self._at = {name: k for k, name in enumerate(ids)}
         self._count = len(self._at)
 
     def plus(self, name: str) -> VisitedIds:
-        """These and one more, unless it is among them."""
+        """Return the ids with one more, unless it is among them."""
         if name in self:
             return self
         longer = VisitedIds()
@@ -57,9 +57,9 @@ class Context:
     """Where the robot is and has been.
 
     Attributes:
-        here: The place in hand; the start before the first drive.
-        visited: Ids of the trees at which this mission has stopped, in that order, each once.
-        bound: Places by the label that a node bound.
+        here: Current place; the start before the first drive.
+        visited: Ids of the visited trees in order, each once.
+        bound: Places by label.
     """
 
     here: Place

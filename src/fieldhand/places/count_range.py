@@ -1,4 +1,4 @@
-"""The number of places that the form of a selector fixes."""
+"""Number of places that the form of a selector guarantees."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, kw_only=True)
 class CountRange:
-    """A number between ``low`` and ``high`` (None: no bound)."""
+    """A number between ``low`` and ``high`` (None: unbounded)."""
 
     low: int
     high: int | None
 
     @property
     def exact(self) -> int | None:
-        """The number, where there is only one."""
+        """The number, if there is only one."""
         return self.low if self.low == self.high else None
 
     def times(self, other: CountRange) -> CountRange:
-        """So many of so many."""
+        """Return the range of the product of two numbers."""
         high = None if self.high is None or other.high is None else self.high * other.high
         return CountRange(low=self.low * other.low, high=high)
 
@@ -33,5 +33,5 @@ def exactly(number: int) -> CountRange:
 
 
 def at_most(size: CountRange) -> CountRange:
-    """Return the range of what is left of so many places after some of them were taken out."""
+    """Return the range after some of the places were removed."""
     return CountRange(low=0, high=size.high)

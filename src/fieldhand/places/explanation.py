@@ -1,4 +1,4 @@
-"""How a selector came to its places, part by part, for read-back and for questions."""
+"""Explain how a selector was resolved, part by part, for read-back and for questions."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ _FEW = 6
 
 @dataclass(frozen=True, kw_only=True)
 class ResolvedPart:
-    """One part of a selector as it was resolved.
+    """One part of a resolved selector.
 
     Attributes:
-        selector: The part, with what is inside it.
-        words: The same in words: "the northernmost of the yellow trees".
-        rule: The rule that was applied, a short clause ("rows count from west"); empty where the words say it all.
-        candidates: How many places it chose from; None for what names places outright.
-        chosen: How many it left.
-        ids: The first few of those.
-        runners_up: The next few, where it ranked.
-        notes: What a person may not expect: a tie, the end of a row, a stand-in.
+        selector: The part, with those nested in it.
+        words: The part in words: "the northernmost of the yellow trees".
+        rule: Rule that was applied, as a short clause ("rows count from west"); empty where the words suffice.
+        candidates: Number of places it chose from; None for a source.
+        chosen: Number of places it left.
+        ids: Ids of the first few of these.
+        runners_up: Ids of the next few, where places were ranked.
+        notes: Surprises to point out: a tie, the end of a row, a stand-in.
     """
 
     selector: Selector
@@ -40,11 +40,11 @@ class ResolvedPart:
 
 @dataclass(frozen=True, kw_only=True)
 class Explanation:
-    """What a selector comes to, and how.
+    """The places of a selector and how they were found.
 
     Attributes:
-        places: As :func:`~fieldhand.places.resolution` gives them.
-        parts: In the order in which they were resolved, each after those inside it.
+        places: Places in the order of :func:`~fieldhand.places.resolution.resolve`.
+        parts: Parts in the order of their resolution, each after those nested in it.
     """
 
     places: tuple[Place, ...]
@@ -52,7 +52,7 @@ class Explanation:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What a person may not expect, of all parts, each once."""
+        """Surprises to point out, of all parts, each once."""
         return tuple(dict.fromkeys(note for part in self.parts for note in part.notes))
 
     @property
@@ -61,15 +61,15 @@ class Explanation:
         return tuple(dict.fromkeys(part.rule for part in self.parts if part.rule))
 
     def say(self) -> tuple[str, ...]:
-        """A line for each part: "the trees of row 3: 12 of 98; rows count from west"."""
+        """Return a line for each part: "the trees of row 3: 12 of 98; rows count from west"."""
         return tuple(_line(part) for part in self.parts)
 
 
 def explain(selector: Selector, site: Site, context: Context) -> Explanation:
-    """The places that a selector names and how they were found.
+    """Resolve a selector and return its places with an explanation.
 
     Raises:
-        PlaceError: As :func:`~fieldhand.places.resolution`.
+        PlaceError: As for :func:`~fieldhand.places.resolution.resolve`.
     """
     resolution = Resolution(site, context)
     found = resolution.spots(selector)
@@ -79,10 +79,10 @@ def explain(selector: Selector, site: Site, context: Context) -> Explanation:
 
 
 def notes(selector: Selector, site: Site, context: Context) -> tuple[str, ...]:
-    """What a person may not expect of the places that a selector names: ties, ends of rows, stand-ins.
+    """Return the surprises to point out about the places of a selector: ties, ends of rows, stand-ins.
 
     Raises:
-        PlaceError: As :func:`~fieldhand.places.resolution`.
+        PlaceError: As for :func:`~fieldhand.places.resolution.resolve`.
     """
     steps = Resolution(site, context)
     steps.spots(selector)

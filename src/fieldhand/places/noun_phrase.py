@@ -1,4 +1,4 @@
-"""A noun phrase about trees, and how it grows: adjectives before the noun, rows and clauses behind it."""
+"""A noun phrase about trees, extended by adjectives before the noun and by rows and clauses after it."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from fieldhand.language import counted, joined, message, named, shaped
 
-#: No phrase is longer than this, however often a Task says a group within a group.
+#: Maximum length of a phrase, however deep a Task nests groups.
 _LONGEST = 20_000
 
 
@@ -15,13 +15,13 @@ class NounPhrase:
     """A noun phrase about trees.
 
     Attributes:
-        closed: The whole phrase where something was picked; then the other parts are empty, but for the order.
-        single: It means one place.
-        before, after: Adjectives and what follows the noun, in the order in which they are said.
-        row, block: Of which rows ("rows 2 to 5") and of which block the trees are.
-        one_row: ``row`` is one.
-        among: The closed phrase of which the trees are kept.
-        order: The order in which they are meant ("from west to east").
+        closed: The whole phrase, once something was picked; the other parts except the order are then empty.
+        single: True if it denotes one place.
+        before, after: Adjectives, and clauses after the noun, in the order of the phrase.
+        row, block: Rows ("rows 2 to 5") and block of the trees.
+        one_row: True if ``row`` is a single row.
+        among: The closed phrase from which the trees are filtered.
+        order: Order of the places ("from west to east").
     """
 
     closed: str = ""
@@ -36,16 +36,16 @@ class NounPhrase:
 
     @property
     def plain(self) -> bool:
-        """Every tree of the site."""
+        """True for every tree of the site."""
         return replace(self, order="") == NounPhrase()
 
     @property
     def bare(self) -> bool:
-        """Every tree of some rows, or of the site."""
+        """True for every tree of some rows, or of the site."""
         return not (self.closed or self.before or self.after or self.among)
 
     def keeping(self, *, before: str = "", after: str = "") -> NounPhrase:
-        """The phrase narrowed by one more adjective or clause."""
+        """Return the phrase narrowed by one more adjective or clause."""
         base = NounPhrase(among=self.closed, order=self.order) if self.closed else self
         return replace(
             base,
@@ -54,19 +54,21 @@ class NounPhrase:
         )
 
     def of_rows(self, row: str, *, one: bool) -> NounPhrase:
-        """The phrase narrowed to some rows; what is of some rows already is what they are looked for among."""
+        """Return the phrase narrowed to some rows; a phrase that has rows already becomes the group they are taken
+        from.
+        """
         open_ = not (self.closed or self.row)
         base = self if open_ else NounPhrase(among=replace(self, order="").say(), order=self.order)
         return replace(base, row=row, one_row=one)
 
     def of_block(self, block: str) -> NounPhrase:
-        """The phrase narrowed to one block."""
+        """Return the phrase narrowed to one block."""
         open_ = not (self.closed or self.block)
         base = self if open_ else NounPhrase(among=replace(self, order="").say(), order=self.order)
         return replace(base, block=block)
 
     def say(self, count: int | None = None) -> str:
-        """The phrase with its article, and how many there are where that is known."""
+        """Return the phrase with its article, and with the number of places if known."""
         said = self._unordered(count)
         return message("{trees}, {order}", trees=said, order=self.order) if self.order else said
 
@@ -91,38 +93,38 @@ class NounPhrase:
         )
 
     def group(self) -> str:
-        """The phrase as something to pick from, whatever its order: "the yellow trees"."""
+        """Return the phrase as a group to pick from, without its order: "the yellow trees"."""
         return message("the trees") if self.plain else self._unordered()
 
     def adjectives(self, count: int | None = None) -> str:
-        """What is said of so many trees with an adjective; of several where the count is not known."""
+        """Return the adjectives, inflected for the number of trees; for several if it is unknown."""
         return joined(" ", (named(word, "tree" if count == 1 else "trees") for word in self.before))
 
     @property
     def of_what(self) -> str:
-        """Of which rows, of which block: "of row 3 of block B"; empty for the whole site."""
+        """Return rows and block with the preposition: "of row 3 of block B"; empty for the whole site."""
         return joined(" ", [message("of {part}", part=part) for part in (self.row, self.block) if part])
 
     @property
     def whose(self) -> str:
-        """The rows and the block without the preposition: "row 3 of block B"; empty for the whole site."""
+        """Return rows and block without the preposition: "row 3 of block B"; empty for the whole site."""
         if self.row and self.block:
             return message("{rows} of {block}", rows=self.row, block=self.block)
         return self.row or self.block
 
 
 def one(text: str) -> NounPhrase:
-    """The phrase of one place."""
+    """Return the phrase for one place."""
     return NounPhrase(closed=text, single=True)
 
 
 def many(text: str) -> NounPhrase:
-    """The phrase of several places."""
+    """Return the phrase for several places."""
     return NounPhrase(closed=text)
 
 
 def clauses(phrase: NounPhrase, *more: str) -> str:
-    """What follows the noun; a comma keeps a second clause from being read as part of the first."""
+    """Return the clauses after the noun, separated by a comma so that each refers to the noun."""
     among = (message("among {trees}", trees=phrase.among),) if phrase.among else ()
     clauses = (*sorted(phrase.after, key=lambda a: not a.startswith("whose ")), *among)
     parted = joined(", ", clauses)

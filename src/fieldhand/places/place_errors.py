@@ -1,4 +1,4 @@
-"""What to say when a selector finds nothing: which part of it, and what the site has instead."""
+"""Errors for selectors that match nothing: the part at fault, and the alternatives on the site."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
     from fieldhand.site.planting import Block
     from fieldhand.terms import Value
 
-#: With more rows or values than this the first and the last are named, or the least and the greatest.
+#: Maximum number of rows or values listed; beyond it only the first and last, or least and greatest, are named.
 _MOST = 8
-#: Of longer names only the beginning is compared.
+#: Maximum length of a name in the search for similar ones.
 _LONGEST = 40
 
 
 def no_such_tree(site: Site, tree: str) -> PlaceError:
-    """There is no tree with that id."""
+    """Return the error for an unknown tree id."""
     near = _alike(tree, [t.place.id for t in site.trees[:5000]])
     first, last = site.trees[0].place.id, site.trees[-1].place.id
     return PlaceError(
@@ -44,7 +44,7 @@ def no_such_tree(site: Site, tree: str) -> PlaceError:
 
 
 def no_such_gate(site: Site, gate: str) -> PlaceError:
-    """There is no gate of that name."""
+    """Return the error for an unknown gate."""
     names = [g.place.id for g in site.gates]
     has = message("its gates are {names}", names=listed(names)) if names else message("it has no gates")
     near = _alike(gate, names)
@@ -56,17 +56,17 @@ def no_such_gate(site: Site, gate: str) -> PlaceError:
 
 
 def no_such_zone(site: Site, zone: str) -> PlaceError:
-    """There is no zone of that name, nor a block."""
+    """Return the error for a name that is neither a zone nor a block."""
     return _no_such_area(site, "zone", zone)
 
 
 def no_such_block(site: Site, block: str) -> PlaceError:
-    """There is no block of that name, nor a zone."""
+    """Return the error for a name that is neither a block nor a zone."""
     return _no_such_area(site, "block", block)
 
 
 def no_such_row(site: Site, blocks: Sequence[Block], said: str) -> PlaceError:
-    """None of these blocks has a row that is called so."""
+    """Return the error for a row that none of these blocks has."""
     names = list(dict.fromkeys(row.name for block in blocks for row in block.rows))
     has = counted("there is {count} row", "there are {count} rows", len(names))
     if len(names) <= _MOST:
@@ -81,7 +81,7 @@ def no_such_row(site: Site, blocks: Sequence[Block], said: str) -> PlaceError:
 
 
 def row_in_several_blocks(site: Site, selector: Rows, blocks: Sequence[str]) -> PlaceError:
-    """Rows are called the same in several blocks."""
+    """Return the error for a row name that several blocks share."""
     one = selector.first == selector.last or not (selector.first and selector.last)
     if one:
         rows = message("row {name}", name=short(selector.first or selector.last))
@@ -104,7 +104,7 @@ def row_in_several_blocks(site: Site, selector: Rows, blocks: Sequence[str]) -> 
 
 
 def no_such_attribute(site: Site, attribute: str) -> PlaceError:
-    """The trees have no attribute of that name."""
+    """Return the error for an unknown attribute."""
     names = list(site.attributes)
     if names:
         has = message(
@@ -116,7 +116,7 @@ def no_such_attribute(site: Site, attribute: str) -> PlaceError:
 
 
 def no_such_value(site: Site, selector: Where) -> PlaceError:
-    """No tree of the whole site has that value."""
+    """Return the error for a value that no tree of the site has."""
     name = next(k for k in site.attributes if k == selector.attribute or phrase(k) == phrase(selector.attribute))
     values = [value_text(v) for v in site.attributes[name]]
     numbers = [v for v in site.attributes[name] if isinstance(v, float)]
@@ -133,7 +133,7 @@ def no_such_value(site: Site, selector: Where) -> PlaceError:
 
 
 def no_such_value_here(site: Site, selector: Where, values: Sequence[Value]) -> PlaceError:
-    """Some tree of the site has that value, but none of these."""
+    """Return the error for a value that trees of the site have, but none of this group."""
     error = nothing(site, selector)
     if not values:
         return error
@@ -142,7 +142,7 @@ def no_such_value_here(site: Site, selector: Where, values: Sequence[Value]) -> 
 
 
 def not_comparable(selector: Where) -> PlaceError:
-    """A comparison that needs a number has something else."""
+    """Return the error for a numeric comparison with something that is no number."""
     return PlaceError(
         message(
             "{name} cannot be above or below '{value}'",
@@ -154,7 +154,7 @@ def not_comparable(selector: Where) -> PlaceError:
 
 
 def not_a_number(attribute: str) -> PlaceError:
-    """No tree has a number as this attribute, where one is needed."""
+    """Return the error for an attribute that is no number on any tree, where one is required."""
     return PlaceError(
         message("{name} is not a number", name=short(attribute)),
         advice=message("it can be equal to a value, not above, below or highest"),
@@ -162,7 +162,7 @@ def not_a_number(attribute: str) -> PlaceError:
 
 
 def nothing(site: Site, selector: Selector, of: str = "") -> PlaceError:
-    """This part of the selector leaves nothing."""
+    """Return the error for a part of a selector that matches nothing."""
     what = message("nothing on this site matches {trees}", trees=_shortened(say_selector(selector)))
     return PlaceError(
         message("{what} ({why})", what=what, why=of) if of else what,
@@ -172,7 +172,7 @@ def nothing(site: Site, selector: Selector, of: str = "") -> PlaceError:
 
 
 def too_few(site: Site, selector: Selector, wanted: int, there_are: int) -> PlaceError:
-    """Fewer than were asked for."""
+    """Return the error for fewer places than requested."""
     if there_are:
         only = counted("there is only {count}", "there are only {count}", there_are)
     else:
@@ -191,7 +191,7 @@ def too_few(site: Site, selector: Selector, wanted: int, there_are: int) -> Plac
 
 
 def _shortened(text: str) -> str:
-    """A phrase on one line and not too long, in whichever language."""
+    """Return a phrase shortened to one line, in any language."""
     return shaped(text, _within_a_line)
 
 
@@ -200,7 +200,7 @@ def _within_a_line(text: str) -> str:
 
 
 def value_text(value: Value) -> str:
-    """A value as people write it."""
+    """Return an attribute value as people write it."""
     if isinstance(value, bool):
         return "yes" if value else "no"
     return number_text(value) if isinstance(value, float) else str(value)

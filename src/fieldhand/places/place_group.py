@@ -1,4 +1,4 @@
-"""A group of places in hand while a selector resolves: mostly trees, held as positions in the site's arrays."""
+"""A group of places during resolution: mostly trees, stored as positions in the site's arrays."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class PlaceGroup:
     """Places in order, each once.
 
     Attributes:
-        index: For each place its tree's index on the site, or ``-1 - k`` for place ``k`` of ``others``.
+        index: For each place the index of its tree on the site, or ``-1 - k`` for place ``k`` of ``others``.
         others: Places that are not trees of the site: markers and free points.
     """
 
@@ -29,12 +29,12 @@ class PlaceGroup:
 
     @staticmethod
     def all_trees(site: Site) -> PlaceGroup:
-        """Every tree, in the order of the file."""
+        """Return every tree, in the order of the file."""
         return PlaceGroup(site=site, index=np.arange(len(site.trees), dtype=np.intp))
 
     @staticmethod
     def of(site: Site, places: Iterable[Place]) -> PlaceGroup:
-        """These places, each once, in this order."""
+        """Return a group of these places, each once, in this order."""
         index: dict[int, None] = {}
         others: dict[Place, int] = {}
         for place in places:
@@ -55,12 +55,12 @@ class PlaceGroup:
 
     @property
     def is_tree(self) -> NDArray[np.bool_]:
-        """Which of the places are trees of the site."""
+        """Mask of the places that are trees of the site."""
         return self.index >= 0
 
     @property
     def file_order(self) -> Indices:
-        """A number for each place that ties are broken by: trees as in the file, then the others."""
+        """A tie-breaking number for each place: trees in file order, then the others."""
         return np.where(self.index >= 0, self.index, len(self.site.trees) - self.index)
 
     @property
@@ -70,7 +70,7 @@ class PlaceGroup:
         return tuple(trees[k].place if k >= 0 else self.others[-1 - k] for k in self.index.tolist())
 
     def keep(self, positions: ArrayLike | slice) -> PlaceGroup:
-        """Those at these positions in this order, or where a mask of booleans is true."""
+        """Return the places at these positions in this order, or where a boolean mask is true."""
         where = positions if isinstance(positions, slice) else np.asarray(positions)
         if not isinstance(where, slice) and not where.size:
             where = where.astype(np.intp)
@@ -89,7 +89,7 @@ class PlaceGroup:
         return np.where(self.is_tree, planted[self.index * self.is_tree], -1)
 
     def without(self, taken: PlaceGroup) -> PlaceGroup:
-        """Those that are not among ``taken``."""
+        """Return the places that are not among ``taken``."""
         others = set(taken.places) if taken.others and self.others else set()
         mask = ~np.isin(self.index, taken.index[taken.index >= 0])
         if others:
@@ -97,7 +97,7 @@ class PlaceGroup:
         return self.keep(mask)
 
     def once(self, count: int) -> PlaceGroup:
-        """Those without trees that the file holds twice; all of them where fewer than ``count`` are left then."""
+        """Return the places without duplicate trees of the file; all places if fewer than ``count`` would be left."""
         from fieldhand.site.rows import first_entries
 
         if len(self) <= count or not self.is_tree.any():
@@ -110,10 +110,11 @@ class PlaceGroup:
         return self if len(where) in (len(self), *range(count)) else self.keep(np.sort(where))
 
     def ranked(self, key: NDArray[np.float64], count: int) -> PlaceGroup:
-        """The ``count`` with the smallest key, smallest first; equal to a tenth of a millimetre is a tie, and ties go
-        by file order."""
+        """Return the ``count`` places with the smallest key, smallest first; keys equal to a tenth of a millimetre are
+        ties, broken by file order.
+        """
         rounded = np.round(key, 4)
-        if 0 < count < len(rounded) // 4:  # order only what can come first
+        if 0 < count < len(rounded) // 4:  # sort only the candidates for the first positions
             worst = np.partition(rounded, count - 1)[count - 1]
             few = np.flatnonzero(rounded <= worst)
         else:

@@ -1,4 +1,4 @@
-"""The first few of some places by one measure."""
+"""Rank places by one measure and keep the first few."""
 
 from __future__ import annotations
 
@@ -17,14 +17,15 @@ _FEW = 4
 
 
 def rank(candidates: PlaceGroup, key: NDArray[np.float64], count: int, notes: ResolutionNotes, what: str) -> PlaceGroup:
-    """The ``count`` with the smallest key, smallest first; says what tied with the last of them and what came next.
+    """Return the ``count`` places with the smallest key, smallest first; note ties with the last one and the
+    runners-up.
 
     Args:
-        candidates: What to choose from.
-        key: Of each, in metres or in the unit of an attribute.
-        count: How many.
-        notes: Told about ties and runners-up.
-        what: What the first of them are: "the northernmost".
+        candidates: Places to choose from.
+        key: Key of each place, in metres or in the unit of an attribute.
+        count: Number of places to keep.
+        notes: Receives ties and runners-up.
+        what: Name of the first ones: "the northernmost".
     """
     longer = candidates.ranked(np.asarray(key), count + _FEW)
     found = longer.keep(slice(count))
@@ -46,7 +47,7 @@ def rank(candidates: PlaceGroup, key: NDArray[np.float64], count: int, notes: Re
 
 
 def ids_of(spots: PlaceGroup, there_are: int | None = None) -> str:
-    """The ids of a few places, and how many more there are."""
+    """Return the ids of a few places, and the number of the others."""
     total = len(spots) if there_are is None else there_are
     shown = [p.id for p in spots.keep(slice(_FEW if total > _FEW else total)).places]
     if total > len(shown):

@@ -1,4 +1,4 @@
-"""Resolves a selector: each part works on the group that the part inside it left, and notes how."""
+"""Resolve a selector: each part works on the group left by the part nested in it, and takes notes."""
 
 from __future__ import annotations
 
@@ -24,32 +24,32 @@ from fieldhand.site.names import listed, short
 
 
 def resolve(selector: Selector, site: Site, context: Context) -> tuple[Place, ...]:
-    """The places that a selector names, in a fixed order, each once; never none.
+    """Return the places of a selector in a defined order, each once; at least one.
 
     Args:
-        selector: Innermost part first: each part keeps, orders or picks from what its ``of`` leaves.
-        site: Where.
-        context: Where the robot is and has been, for what is said relative to it.
+        selector: Selector to resolve, innermost part first: each part filters, orders or picks from its ``of``.
+        site: The site.
+        context: Position and history of the robot, for relative selectors.
 
     Raises:
-        PlaceError: A part of the selector finds nothing or too little, or names what the site does not have; the
-            message says which part, and what there is.
+        PlaceError: A part matches nothing or too little, or names something that the site lacks; the message says which
+            part, and what the site has instead.
     """
     return Resolution(site, context).spots(selector).places
 
 
 def resolve_one(selector: Selector, site: Site, context: Context) -> Place:
-    """The one place that a selector names.
+    """Return the one place of a selector.
 
     Raises:
-        PlaceError: As :func:`resolve`, or the selector names several.
+        PlaceError: As for :func:`resolve`, or the selector has several places.
     """
     return Resolution(site, context).one(selector).places[0]
 
 
 @dataclass(frozen=True, eq=False)
 class ResolutionStep:
-    """A part of a selector that was resolved."""
+    """A resolved part of a selector."""
 
     selector: Selector
     notes: ResolutionNotes
@@ -57,10 +57,10 @@ class ResolutionStep:
 
 
 class Resolution:
-    """One selector on one site at one moment. What comes up again, here or as a ground, is resolved once.
+    """Resolution of one selector on one site at one moment. Repeated parts are resolved once.
 
     Attributes:
-        steps: The parts that were resolved, each after those inside it.
+        steps: Resolved parts, each after those nested in it.
     """
 
     def __init__(self, site: Site, context: Context, known: dict[str, ResolutionStep] | None = None) -> None:
@@ -72,7 +72,7 @@ class Resolution:
 
     def spots(self, selector: Selector) -> PlaceGroup:
         """Return the places that the selector leaves, at least one."""
-        key = repr(selector)  # not the selector: one that says 1.0 is equal to one that says True
+        key = repr(selector)  # not the selector itself: selectors with 1.0 and True are equal
         if key not in self._known:
             notes = ResolutionNotes()
             found = selector.resolve(self, notes)
@@ -119,7 +119,7 @@ class Resolution:
         return PlaceGroup(site=self.site, index=np.array(known, dtype=np.intp))
 
     def origin(self, selector: Selector) -> Origin:
-        """Return what distances are measured from: the zone itself where a selector is all trees of one."""
+        """Return what distances are measured from: the zone itself for a selector of all its trees."""
         zones = zones_called(self.site, selector.whole_zone)
         return ZoneGround(site=self.site, area=shapely.union_all(zones)) if zones else self.spots(selector)
 

@@ -1,4 +1,4 @@
-"""What a part of a selector notes about how it was resolved: the rule, the candidates, and what was close."""
+"""Notes on how one part of a selector was resolved: the rule, the candidates, and close alternatives."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from dataclasses import dataclass, field
 
 @dataclass(kw_only=True)
 class ResolutionNotes:
-    """Notes taken while one part resolves.
+    """Notes taken while one part of a selector is resolved.
 
     Attributes:
-        rule: The rule that was applied, a short clause; empty where the words of the part say it all.
-        candidates: How many it chose from; None for a source.
-        runners_up: Those that would have come next.
-        notes: What a person may not expect, a clause each: ties, ends of rows, stand-ins.
+        rule: Rule that was applied, as a short clause; empty where the wording of the part is clear by itself.
+        candidates: Number of places it chose from; None for a source.
+        runners_up: Places that would have come next.
+        remarks: Surprises to point out, one clause each: ties, ends of rows, stand-ins.
     """
 
     rule: str = ""
@@ -22,5 +22,5 @@ class ResolutionNotes:
     remarks: list[str] = field(default_factory=list)
 
     def remark(self, text: str) -> None:
-        """Say something that a person may not expect."""
+        """Add a remark on something that a person may not expect."""
         self.remarks.append(text)

@@ -1,4 +1,4 @@
-"""What picks from a group of trees, in words: "the 3 northernmost of the yellow trees"."""
+"""Phrases for picks from a group of trees: "the 3 northernmost of the yellow trees"."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from fieldhand.places.noun_phrase import NounPhrase, clauses, many, one
 
 
 def superlative(word: str, count: int) -> str:
-    """ "northernmost", as it is said of so many trees."""
+    """Return "northernmost", inflected for a number of trees."""
     match word:
         case "northernmost":
             return counted("northernmost", "northernmost", count)
@@ -23,7 +23,7 @@ def superlative(word: str, count: int) -> str:
 
 
 def foremost_phrase(word: str, count: int, group: NounPhrase) -> NounPhrase:
-    """The northernmost, the 3 nearest."""
+    """Return the phrase for the first trees by a measure: "the 3 nearest trees"."""
     which = superlative(word, count)
     if count == 1:
         if group.plain:

@@ -1,4 +1,4 @@
-"""What every selector says of itself.
+"""The base classes of selectors.
 
 A selector is an expression. The innermost part is a source (every tree, a marker, the place in hand); each part around
 it keeps, orders or picks from what its ``of`` selects. "Yellow trees in the northern half" is
@@ -31,8 +31,8 @@ if TYPE_CHECKING:
     from fieldhand.site.model import Site
     from fieldhand.terms import MarkerName, Side
 
-#: What decides which places a selector comes to: the site alone; how near they are to the robot, which does not decide
-#: whether there are any; or the mission so far.
+#: Inputs that determine the places of a selector: the site alone; the distance to the robot, which only decides which
+#: places are taken, not whether there are any; or the mission so far.
 DependsOn = Literal["site", "nearness", "mission"]
 
 #: What a region is taken of when a selector stands inside it (:mod:`fieldhand.places` says why). The selector itself
@@ -46,7 +46,7 @@ GroundRule = Literal["own", "region", "of", "pick", "group"]
 class Selector(ABC):
     """A part of a Task that names places without coordinates."""
 
-    #: A side of the compass that a request names may be meant by it, though no field names it: it counts from one.
+    #: True if it counts from a side of the compass, so that a side in the request may refer to it without any field.
     counts_from_a_side: ClassVar[bool] = False
 
     @classmethod

@@ -1,9 +1,9 @@
-"""Selectors in words that a grower would sign: the one wording of places, for messages, read-back and the map.
+"""Selectors in words that a grower can sign: the only wording of places, for messages, read-back and the map.
 
-A selector is said from the inside out. What only keeps trees (an attribute, a zone, a half of the site, a row) gathers
-around one noun: "the yellow trees of row 3 in the northern half". What picks (the northernmost, the 3 nearest) closes
-the phrase: "the 3 northernmost of the yellow trees"; whatever keeps among those then starts a new one. The words of
-each selector stand in its file (:meth:`~fieldhand.places.selector.Selector.phrase`).
+The phrase of a selector is built from the inside out. Filters (an attribute, a zone, a half of the site, a row)
+accumulate around one noun: "the yellow trees of row 3 in the northern half". A pick (the northernmost, the 3 nearest)
+closes the phrase: "the 3 northernmost of the yellow trees"; a filter applied after it begins a new one. Each selector
+defines its own words (:meth:`~fieldhand.places.selector.Selector.phrase`).
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ Names = Mapping[str, str]
 
 
 class SelectorWording:
-    """The phrases so far, since a group is often said again, and what labels are called.
+    """Builds and caches the phrases of selectors.
 
     Args:
-        names: What a label is called.
+        names: Wording of each label.
     """
 
     def __init__(self, names: Names) -> None:
@@ -44,9 +44,9 @@ def say_selector(selector: Selector, names: Names | None = None, count: int | No
     """Return a selector in words.
 
     Args:
-        selector: What to say.
-        names: What a label is called ("the tree of step 3"); else it is quoted.
-        count: How many places it gives, said where the phrase does not say it itself.
+        selector: Selector to put into words.
+        names: Wording of each label ("the tree of step 3"); other labels are quoted.
+        count: Number of places, included where the phrase does not state it.
     """
     return SelectorWording(names or {}).phrase(selector).say(count)
 
@@ -58,7 +58,7 @@ def say_selectors(selectors: Iterable[Selector]) -> tuple[str, ...]:
 
 
 def say_places(ids: tuple[str, ...], few: int = 8) -> str:
-    """Places by id: all of them when few, else the first ones and how many more."""
+    """Return places by id: all if they are few, else the first ones and the number of the others."""
     if len(ids) <= few:
         return listed(ids)
     return message("{places} and {count} more", places=joined(", ", ids[:few]), count=len(ids) - few)

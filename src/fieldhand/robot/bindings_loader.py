@@ -1,7 +1,7 @@
-"""From the ``ros2`` part of a profile file to :class:`~fieldhand.robot.bindings.Ros2Bindings`.
+"""Convert the ``ros2`` part of a profile file to :class:`~fieldhand.robot.bindings.Ros2Bindings`.
 
-Here it is held against the actions and quantities of the same profile: every action and parameter that it names is
-one, and every quantity that an action measures has one source.
+The part is checked against the actions and quantities of the same profile: every action and parameter that it names
+must exist, and every quantity that an action measures must have exactly one source.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ Valued = ReadingDocument | NextMessageDocument | BatteryDocument
 
 @dataclass(frozen=True, kw_only=True)
 class ProfileProblem:
-    """What does not fit between the bindings and the rest of a profile: where, what, and what to do."""
+    """A problem in a profile: key path, description and advice."""
 
     path: str
     what: str
@@ -59,12 +59,12 @@ class ProfileProblem:
 
 
 def binding_problems(document: ProfileDocument) -> tuple[ProfileProblem, ...]:
-    """Everything that does not fit."""
+    """Return all conflicts between the bindings and the rest of a profile."""
     return () if document.ros2 is None else tuple(_binding_problems(document, document.ros2))
 
 
 def bindings_of(document: ProfileDocument) -> Ros2Bindings | None:
-    """The bindings of a profile without mismatches; None where it has none."""
+    """Return the bindings of a profile without conflicts; None if it has none."""
     ros2 = document.ros2
     if ros2 is None:
         return None
@@ -109,7 +109,7 @@ def _binding_problems(document: ProfileDocument, ros2: Ros2Document) -> Iterator
 
 
 def _requests(bound: ActionBindingDocument, action: ActionDocument, where: str) -> Iterator[ProfileProblem]:
-    """What a request refers to that the action does not have."""
+    """Yield references in a request to parameters that the action lacks."""
     call = bound.action or bound.service
     known = [*PLACE_REFERENCES, *(f"${name}" for name in action.parameters)]
     for path, value in call.request.items() if call is not None else ():
@@ -123,7 +123,7 @@ def _requests(bound: ActionBindingDocument, action: ActionDocument, where: str) 
 
 
 def _sources(bound: ActionBindingDocument, action: ActionDocument, where: str) -> Iterator[ProfileProblem]:
-    """Quantities with no source, with two, or that the action does not measure."""
+    """Yield quantities without a source, with two sources, or that the action does not measure."""
     call = bound.action or bound.service
     called = () if call is None else tuple(call.readings)
     for quantity in action.measures:
@@ -144,7 +144,7 @@ def _sources(bound: ActionBindingDocument, action: ActionDocument, where: str) -
 
 
 def _unreadable(valued: Valued, type_name: str, wanted: str, where: str) -> Iterator[ProfileProblem]:
-    """Why a number cannot be had in the unit that is wanted."""
+    """Yield the reason why a value cannot be converted to the required unit."""
     path, given = _place_and_unit(valued, type_name)
     if not path:
         yield ProfileProblem(
@@ -166,7 +166,7 @@ def _field(valued: Valued, type_name: str, wanted: str) -> FieldBinding:
 
 
 def _place_and_unit(valued: Valued, type_name: str) -> tuple[str, str]:
-    """Where a number stands and in which unit, empty where that is not known; standard types say both by themselves."""
+    """Return the path and the unit of a number, empty if unknown; standard message types define both."""
     path, unit = STANDARD_FIELDS.get(type_name, ("", ""))
     if valued.unit is not None or (valued.scale, valued.offset) != (None, None):
         unit = valued.unit or ""

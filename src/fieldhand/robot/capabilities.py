@@ -1,4 +1,4 @@
-"""From a robot profile to what the task room needs of it."""
+"""Convert a robot profile to the capabilities that the task room needs."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from fieldhand.task.capabilities import (
 
 
 def capabilities_of(profile: RobotProfile) -> Capabilities:
-    """What a Task may ask of this robot: the input of :func:`fieldhand.task.schema.schema_xsd`."""
+    """Return the capabilities of a robot: the input of :func:`fieldhand.task.schema.schema_xsd`."""
     return Capabilities(
         actions={
             a.name: ActionCapability(measures=a.measures, parameters={p.name: _parameter(p) for p in a.parameters})
@@ -26,7 +26,9 @@ def capabilities_of(profile: RobotProfile) -> Capabilities:
 
 
 def measures_of(profile: RobotProfile) -> Mapping[str, tuple[tuple[str, str], ...]]:
-    """For each action the quantities that it measures as (name, unit): the ``measures`` of ``task.build.make_task``."""
+    """Return for each action the quantities that it measures as (name, unit): the ``measures`` of
+    ``task.build.make_task``.
+    """
     return {
         action.name: tuple((name, profile.quantity[name].unit) for name in action.measures)
         for action in profile.actions

@@ -1,4 +1,4 @@
-"""Kinds of values that stand in a profile file, whichever part of it, and what every part keeps to."""
+"""Value types shared by all parts of a profile file."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Fie
 
 
 def no_bool(value: object) -> object:
-    """For what takes a number: true and false are none."""
+    """Reject booleans where a number is expected."""
     if isinstance(value, bool):
         raise ValueError(f"must be a number, not {str(value).lower()}")
     return value
@@ -32,7 +32,7 @@ def _unit(value: str) -> str:
 
 
 def each_once(values: tuple[str, ...]) -> tuple[str, ...]:
-    """For a list in which nothing stands twice."""
+    """Reject lists with duplicates."""
     twice = sorted({v for v in values if values.count(v) > 1})
     if twice:
         raise ValueError(f"{twice[0]!r} stands here twice")
@@ -62,14 +62,14 @@ Unit = Annotated[str, AfterValidator(_unit)]
 
 
 class Keyed(BaseModel):
-    """A part of a profile: it has the keys that are declared and no others."""
+    """A part of a profile: unknown keys are refused."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     @model_validator(mode="before")
     @classmethod
     def _known_keys(cls, data: object) -> object:
-        """Name the nearest right key for a misspelt one, before the right one is reported as missing."""
+        """Report a misspelt key with the nearest known one, before the latter is reported as missing."""
         if isinstance(data, Mapping):
             for key in data:
                 if key not in cls.model_fields:

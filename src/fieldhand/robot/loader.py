@@ -1,4 +1,4 @@
-"""Read a robot profile: one that is built in, by name, or a YAML file of the user's own, by path."""
+"""Load a robot profile: a built-in one by name, or a YAML file by path."""
 
 from __future__ import annotations
 
@@ -46,27 +46,27 @@ def robot_names() -> tuple[str, ...]:
 
 
 def load_robot(name_or_path: str) -> RobotProfile:
-    """The profile of a robot.
+    """Load the profile of a robot.
 
     Args:
-        name_or_path: A built-in name (``husky``), or a path to a YAML file. A name that is built in wins.
+        name_or_path: Built-in name (``husky``), or path of a YAML file. Built-in names take precedence.
 
     Raises:
-        ProfileError: There is no such robot, or its profile cannot be used; says where in the file, and what to do.
+        ProfileError: No such robot, or an unusable profile; the message gives the key and advice.
     """
     data, source = profile_bytes(name_or_path)
     return parse_profile(data, source=source)
 
 
 def parse_profile(data: bytes, *, source: str = "profile") -> RobotProfile:
-    """A profile from the bytes of its YAML.
+    """Parse a profile from the bytes of its YAML.
 
     Args:
-        data: The file as it stands; the profile's ``sha256`` is of these bytes.
-        source: What to call the file in messages.
+        data: Contents of the file; the profile's ``sha256`` is computed from them.
+        source: Name of the file in messages.
 
     Raises:
-        ProfileError: It cannot be used.
+        ProfileError: The profile is unusable.
     """
     content = _content(data, source)
     try:
@@ -79,10 +79,10 @@ def parse_profile(data: bytes, *, source: str = "profile") -> RobotProfile:
 
 
 def profile_bytes(name_or_path: str) -> tuple[bytes, str]:
-    """The YAML of a profile as it stands, and what to call it in messages; see :func:`load_robot`.
+    """Return the YAML of a profile, and its name in messages; see :func:`load_robot`.
 
     Raises:
-        ProfileError: There is no such robot, or its file cannot be read.
+        ProfileError: No such robot, or its file cannot be read.
     """
     plugins = active("fieldhand.robots")
     names = tuple(plugins)
@@ -132,7 +132,7 @@ def _short(text: str) -> str:
 
 
 def _content(data: bytes, source: str) -> dict[Any, Any]:
-    """The mapping that the YAML holds."""
+    """Return the mapping in the YAML."""
     if len(data) > MAX_BYTES:
         raise ProfileError(f"is larger than {MAX_BYTES} bytes", where=source, advice="a profile is a page of YAML")
     try:
@@ -151,14 +151,14 @@ def _content(data: bytes, source: str) -> dict[Any, Any]:
 
 
 def _explained(problem: ErrorDetails) -> ProfileProblem:
-    """A problem of one key, in words."""
+    """Return a validation problem of one key in words."""
     path = [str(part) for part in problem["loc"] if part != "[key]"]
     what, advice = _words_for(problem, path)
     return ProfileProblem(path=".".join(path), what=what, advice=advice)
 
 
 def _refused(problems: Sequence[ProfileProblem], source: str) -> ProfileError:
-    """All problems of a profile as one line: of each its key path and what; what to do about the first."""
+    """Return one error for all problems: key path and description of each, advice for the first."""
     first, *others = [(_short(problem.path), _quoted(problem.what)) for problem in problems]
     more = "; ".join(f"{key or 'the profile'}: {what}" for key, what in others[:_MOST_PROBLEMS])
     if others:
@@ -173,7 +173,7 @@ def _quoted(what: str) -> str:
 
 
 def _words_for(problem: ErrorDetails, path: list[str]) -> tuple[str, str]:
-    """What is wrong and what to do, in words. A missing key moves from the path into the words."""
+    """Return description and advice for a problem. A missing key moves from the path into the description."""
     given = problem["input"]
     shown = _short(str(given)) if isinstance(given, str | int | float) else f"a {type(given).__name__}"
     match problem["type"]:

@@ -1,4 +1,4 @@
-"""Change figures in a profile's text and leave all else as it stands: comments, order, spacing."""
+"""Change figures in the text of a profile and keep everything else: comments, order, spacing."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ Keys = tuple[str, ...]
 
 
 def with_figures(data: bytes, figures: Mapping[Keys, float], *, note: str, source: str = "profile") -> bytes:
-    """A profile with other figures.
+    """Return the text of a profile with other figures.
 
     Args:
-        data: The profile as it stands; it must be one that can be used.
-        figures: New values by the keys that lead to them: ``("energy", "idle_w")``.
+        data: Text of a valid profile.
+        figures: New values by key path: ``("energy", "idle_w")``.
         note: Comment for its first line.
-        source: What to call the profile in messages.
+        source: Name of the profile in messages.
 
     Raises:
-        ProfileError: A key is not in the text, or what comes out is no profile.
+        ProfileError: A key is not in the text, or the result is not a valid profile.
     """
     text = data.decode("utf-8-sig")
     root = yaml.compose(text, Loader=yaml.SafeLoader)
@@ -46,7 +46,7 @@ def with_figures(data: bytes, figures: Mapping[Keys, float], *, note: str, sourc
 
 
 def figure(value: float) -> str:
-    """A figure as a profile has it: 1234.6 is "1235", 0.98765 is "0.9877"."""
+    """Return a figure as text: 1234.6 is "1235", 0.98765 is "0.9877"."""
     if value == 0:
         return "0"
     text = f"{value:.{_DIGITS}g}"

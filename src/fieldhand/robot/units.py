@@ -1,6 +1,6 @@
-"""Units that a robot's messages come in, and what makes of one the unit of a quantity; which field standard types have.
+"""Units of a robot's messages, their conversion, and the value fields of standard message types.
 
-ROS keeps to SI (REP 103): a temperature sensor's driver may send kelvin or degrees Celsius, a share is mostly 0 to 1.
+ROS uses SI units (REP 103): a temperature driver may send kelvin or degrees Celsius, a fraction is usually 0 to 1.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ STANDARD_FIELDS: Mapping[str, tuple[str, str]] = {
 
 
 def known_units() -> tuple[str, ...]:
-    """Every unit that can be turned into another."""
+    """Return every unit that can be converted."""
     return tuple(_UNITS)
 
 
@@ -70,5 +70,5 @@ def conversion(given: str, wanted: str) -> tuple[float, float] | None:
 
 
 def _tidy(value: float) -> float:
-    """Without the last digits, which binary fractions leave: 1 / 0.01 is 100."""
+    """Return a value without binary rounding noise: 1 / 0.01 is 100."""
     return float(f"{value:.15g}")

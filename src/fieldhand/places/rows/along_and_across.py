@@ -1,4 +1,4 @@
-"""From the tree in hand: along its row, across to the next, and several of one row one after the other."""
+"""Trees relative to a tree: along its row, across to the next row, and several in a row."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 def reference_tree(origin: PlaceGroup, notes: ResolutionNotes) -> int:
-    """The position on the site of the tree that is meant by one place: the nearest in a row where it is none itself.
+    """Return the site index of the tree that a place stands for: itself, or the nearest tree in a row.
 
     Raises:
         PlaceError: The site has no rows.
@@ -50,7 +50,7 @@ def reference_tree(origin: PlaceGroup, notes: ResolutionNotes) -> int:
 
 
 def along_row(origin: PlaceGroup, selector: AlongRow, notes: ResolutionNotes) -> PlaceGroup:
-    """The tree that many trees farther in the row of the origin, or the row's last."""
+    """Return the tree a number of trees along the row of the origin, or the last one of the row."""
     site = origin.site
     if selector.trees < 1:
         raise PlaceError(
@@ -83,7 +83,7 @@ def along_row(origin: PlaceGroup, selector: AlongRow, notes: ResolutionNotes) ->
 
 
 def across(origin: PlaceGroup, side: CountedFrom, notes: ResolutionNotes) -> PlaceGroup:
-    """The tree of the next row that is nearest to the origin: on that side, or of the nearer of the two rows."""
+    """Return the tree of the next row nearest to the origin: on the given side, or in the nearer neighbouring row."""
     site = origin.site
     tree = reference_tree(origin, notes)
     row = site.planting.rows[int(site.planting.row_of[tree])]
@@ -152,13 +152,13 @@ def successive(spots: PlaceGroup, near: Origin, count: int, notes: ResolutionNot
 
 
 def longest_run(spots: PlaceGroup) -> int:
-    """The most places of the group that stand in one row."""
+    """Return the largest number of places of the group in one row."""
     rows = spots.row[spots.row >= 0]
     return int(np.bincount(rows).max()) if len(rows) else 0
 
 
 def _way_along(site: Site, row: Row, towards: Towards, notes: ResolutionNotes) -> int:
-    """1 if that way leads from the row's usual end, -1 if towards it."""
+    """Return 1 if a direction leads away from the usual end of the row, -1 if towards it."""
     axis = counting.along(site.planting.blocks[row.block])
     if towards == "down" or towards == "up":
         start = np.array(site.start.xy)
@@ -176,7 +176,7 @@ def _way_along(site: Site, row: Row, towards: Towards, notes: ResolutionNotes) -
 
 
 def _beside(site: Site, row: Row, side: Side, *, along: bool) -> PlaceError:
-    """A side of the compass that lies across the row where one along it is needed, or the other way round."""
+    """Return the error for a side across the row where one along it is needed, or vice versa."""
     block = site.planting.blocks[row.block]
     axis = counting.along(block) if along else counting.across(block)
     said = {"side": COMPASS[side], "row": row_words(site, row), "way": counting.way_of(block)}

@@ -1,4 +1,4 @@
-"""Where the trees of a group stand in their rows and blocks."""
+"""Positions of the trees of a group in their rows and blocks."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from fieldhand.site.planting import Block, Indices, Row
 
 
 def numbers_in_row(spots: PlaceGroup, way: Indices) -> tuple[Indices, Indices]:
-    """For each place its number among those of the group in its row, and how many of the group its row has.
+    """Return for each place its number among the group in its row, and the number of the group in that row.
 
     Args:
         spots: The group.
-        way: For each row of the site 1 or -1: whether its trees count from its usual end.
+        way: For each row of the site 1 to count its trees from the usual end, -1 from the other end.
 
     Returns:
-        Numbers from 1 and counts, shape (n,) each; 0 for what stands in no row.
+        Numbers from 1 and counts, shape (n,) each; 0 for places in no row.
     """
     row = spots.row
     key = spots.rank_in_row * np.where(row >= 0, way[row], 1)
