@@ -1,22 +1,27 @@
-"""Every command in the docs runs, and every file that the docs link to is there."""
+"""Every command in the docs runs, so does every example in Python, and every file that the docs link to is there."""
 
 from __future__ import annotations
 
 import os
 import re
 import shlex
+import subprocess
+import sys
 from contextlib import ExitStack
 from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
 
+import fieldhand as fh
 from ros2.conftest import LOOPBACK
 from support.processes.command import fieldhand, in_background
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [ROOT / "README.md", ROOT / "benchmarks" / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 SHELL = re.compile(r"^```sh\n(.*?)^```", re.MULTILINE | re.DOTALL)
+PYTHON = re.compile(r"^```python\n(.*?)^```", re.MULTILINE | re.DOTALL)
+PYTHON_PAGE = ROOT / "docs" / "python.md"
 #: Commands that serve until they are stopped have tests of their own, and so has the page that needs a robot.
 SERVERS = ("fieldhand serve",)
 ROBOT = "delivery"
@@ -60,3 +65,26 @@ def test_every_link_leads_somewhere(page: Path) -> None:
     for target in re.findall(r"\]\(([^)#\s]+)", page.read_text()):
         if not target.startswith(("http://", "https://", "mailto:")):
             assert (page.parent / target).exists(), target
+
+
+def test_every_python_example_runs(tmp_path: Path) -> None:
+    for library in ("dask.distributed", "geopandas"):
+        pytest.importorskip(library)
+    page, script = PYTHON_PAGE.read_text(), ""
+    for found in PYTHON.finditer(page):
+        above = page[: found.start(1)].count("\n")  # a failure names the line of the page
+        script += "\n" * (above - script.count("\n")) + found[1]
+    (tmp_path / "python.md").write_text(script)
+    # A process of its own: Dask looks for the addresses of this machine, which no test may do.
+    run = subprocess.run(
+        [sys.executable, "-W", "error", "python.md"], cwd=tmp_path, capture_output=True, text=True, timeout=300
+    )
+    assert run.returncode == 0, run.stderr[-2000:]
+
+
+def test_every_public_name_is_explained_and_used_in_an_example() -> None:
+    page = PYTHON_PAGE.read_text()
+    examples, prose = "\n".join(PYTHON.findall(page)), PYTHON.sub("", page)
+    for name in fh.__all__:
+        assert re.search(rf"\bfh\.{name}\b", examples), name
+        assert re.search(rf"`(fh\.)?{name}\b", prose), name

@@ -1,0 +1,154 @@
+"""The functions of ``fieldhand.mission``: one examination a mission, determinism, pickling, and refusals."""
+
+from __future__ import annotations
+
+import ast
+import pickle
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+
+import fieldhand as fh
+from fieldhand.approval import checks
+from fieldhand.errors import InputError, NotConfirmedError, RequestError, TaskError
+from fieldhand.mission.records import Records
+from fieldhand.testing.generated.tasks import ROVER, Parts
+
+SITE, ROBOT = fh.Site.demo(), fh.Robot.load("husky")
+REQUEST = "Photograph every third tree of row 2."
+
+
+def approved(request: str = REQUEST) -> fh.ApprovedMission:
+    return fh.authorize(fh.review(fh.plan(request, SITE, ROBOT).task, SITE, ROBOT), by="Ada")
+
+
+def built(**constraints) -> fh.Task:
+    """A Task whose request names nothing of its plan: a review warns of that."""
+    return fh.build_task(
+        fh.steps.Act(action="read_co2", at=fh.selectors.TreeIs(tree="4")), SITE, ROBOT, request="Hello", **constraints
+    )
+
+
+MISSION = approved()
+
+
+def test_a_mission_is_examined_once(monkeypatch):
+    calls = []
+    examine = checks.examine
+    monkeypatch.setattr(checks, "examine", lambda *args, **kw: calls.append(args) or examine(*args, **kw))
+    review = fh.review(fh.plan(REQUEST, SITE, ROBOT).task, SITE, ROBOT)
+    fh.simulate(fh.authorize(review, by="Ada"))
+    assert len(calls) == 1
+
+
+def test_only_the_checks_make_an_examination():
+    root = Path(fh.__file__).parent
+    assert {str(path.relative_to(root)) for path in root.rglob("*.py") if _makes_examination(path)} == {
+        "approval/checks.py"
+    }
+
+
+def _makes_examination(path: Path) -> bool:
+    """Return True if a module calls the class, under its own name or another."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    names = {"Examination"} | {
+        alias.asname or alias.name
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom)
+        for alias in node.names
+        if alias.name == "Examination"
+    }
+    calls = (node.func for node in ast.walk(tree) if isinstance(node, ast.Call))
+    return any((call.id if isinstance(call, ast.Name) else getattr(call, "attr", "")) in names for call in calls)
+
+
+def test_the_same_seed_gives_the_same_events_and_another_seed_others():
+    first = fh.simulate(MISSION, seed=3)
+    assert fh.simulate(MISSION, seed=3).events == first.events
+    assert fh.simulate(MISSION, seed=4).events != first.events
+
+
+def test_many_simulations_are_the_same_on_any_number_of_processes():
+    alone = fh.fly_many(MISSION, (5, 2, 7))
+    assert [one.seed for one in alone] == [5, 2, 7]
+    assert fh.fly_many(MISSION, (5, 2, 7), jobs=2) == alone
+    run = fh.simulate(MISSION, seed=5)
+    assert (alone[0].success, alone[0].seconds) == (run.success, run.events[-1].t)
+
+
+def test_no_simulation_has_no_success_rate():
+    none = fh.fly_many(MISSION, 0)
+    assert none.success_rate != none.success_rate
+    assert all(value != value for value in none.quantiles("seconds"))
+
+
+def test_a_negative_seed_is_refused():
+    with pytest.raises(InputError, match="the seed -1 is negative"):
+        fh.fly_many(MISSION, (1, -1))
+
+
+def test_site_and_approved_mission_survive_pickling():
+    site = pickle.loads(pickle.dumps(SITE))
+    assert site == SITE
+    assert site.content_sha256 == SITE.content_sha256
+    mission = pickle.loads(pickle.dumps(MISSION))
+    assert mission.task == MISSION.task
+    assert fh.simulate(mission, seed=1).events == fh.simulate(MISSION, seed=1).events
+
+
+def test_a_question_and_a_refusal_have_no_task():
+    question = fh.plan("Measure CO2 at the corner tree.", SITE, ROBOT)
+    with pytest.raises(RequestError, match=r"which corner\?.*north-west"):
+        question.task  # noqa: B018
+    with pytest.raises(RequestError, match="not understood: 'Prune'"):
+        fh.plan("Prune the trees.", SITE, ROBOT).task  # noqa: B018
+
+
+def test_warnings_are_to_be_confirmed_one_by_one():
+    review = fh.review(built(), SITE, ROBOT)
+    assert review.warnings
+    with pytest.raises(NotConfirmedError) as refused:
+        fh.authorize(review, by="Ada")
+    assert refused.value.warnings == review.warnings
+    with pytest.raises(NotConfirmedError):
+        fh.authorize(review, by="Ada", confirmed=review.warnings[1:])
+    assert fh.authorize(review, by="Ada", confirmed=review.warnings).task == review.task
+
+
+def test_a_built_task_has_ids_whatever_its_nodes_had():
+    def task(name: str) -> fh.Task:
+        return fh.build_task(fh.steps.Act(id=name, action="read_co2"), SITE, ROBOT)
+
+    assert task("") == task("mine")
+    assert task("").composition.plan.id == "n1"
+
+
+@given(task=Parts(ROVER).tasks())
+def test_a_task_survives_its_xml(task):
+    assert fh.Task.from_xml(task.to_xml()) == task
+    assert fh.Task.from_xml(task.to_xml().decode()) == task
+
+
+def test_a_task_is_read_from_a_file(tmp_path):
+    path = tmp_path / "task.xml"
+    path.write_bytes(MISSION.task.to_xml())
+    assert fh.Task.from_xml(path) == MISSION.task
+    with pytest.raises(TaskError, match=r"none\.xml"):
+        fh.Task.from_xml(tmp_path / "none.xml")
+
+
+def test_records_without_positions_are_no_map():
+    pytest.importorskip("geopandas")
+    with pytest.raises(InputError, match="no positions"):
+        fh.fly_many(MISSION, 2).to_geopandas()
+
+
+def test_a_table_has_a_row_a_record():
+    pytest.importorskip("pandas")
+    run = fh.simulate(MISSION, seed=1)
+    events = run.events.to_pandas()
+    assert next(iter(events.event)) == "started"
+    assert len(events) == len(run.events)
+    assert len(run.observations.to_pandas()) == 6
+    assert Records(()).to_pandas().empty
