@@ -1,4 +1,4 @@
-"""A warning where words of the request became nothing: a person has to confirm that they may be left out."""
+"""Warnings about words of the request that have no counterpart in the plan."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from fieldhand.language import joined, message
 from fieldhand.task.frames import Task
 from fieldhand.task.request_coverage import has_ranges, request_pieces
 
-#: So many stretches of words are quoted in one warning.
+#: Maximum number of phrases quoted in one warning.
 _MOST_QUOTED = 8
 
 
 def unaccounted(task: Task) -> tuple[Problem, ...]:
-    """A warning that names the words of the request that became nothing; none if there are none."""
+    """Return a warning that quotes the unused words of the request, or an empty tuple if every word was used."""
     lost = [piece.text.strip() for piece in request_pieces(task) if piece.role == "nothing"]
     if not lost:
         return ()

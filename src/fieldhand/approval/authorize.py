@@ -1,4 +1,4 @@
-"""The approval itself: the one place that makes an ``AuthorizedTask`` (a test holds every other module to that)."""
+"""Operator approval: the only module that creates an ``AuthorizedTask`` (enforced by a test)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from fieldhand.task.frames import Task
 
 
 class EveryWarning(Container[str]):
-    """Confirms whatever is warned of: for experiments, in which nobody is there to read."""
+    """Container that accepts every warning as confirmed, for unattended experiments."""
 
     def __contains__(self, warning: object) -> bool:
         return True
@@ -31,19 +31,18 @@ def approve(
     confirmed: Container[str] = (),
     language: str = "en",
 ) -> AuthorizedTask:
-    """Approve a Task for the site and the robot it was examined for, in the name of a person.
+    """Approve a Task in the name of a person, for the site and robot that it was examined with.
 
     Args:
-        examined: Result of every check; the Task, site and robot in it are approved byte by byte.
+        examined: Result of the checks; the approval covers its Task, site and robot profile byte for byte.
         by: Name of the person.
         at: Time of the approval, ISO 8601 with time zone.
-        confirmed: The warnings that were shown and accepted, each in its own words (``line`` of the problem) in the
-            language in which it was shown.
-        language: Code of the language in which the plan and its warnings were read.
+        confirmed: Warnings that the person accepted, each as the text shown (``line`` of the problem) in ``language``.
+        language: Code of the language in which the plan and its warnings were shown.
 
     Raises:
-        NotConfirmedError: There is a warning that is not among the confirmed ones.
-        NotApprovedError: A check fails, nobody approves, or ``at`` is no moment.
+        NotConfirmedError: A warning is missing from ``confirmed``.
+        NotApprovedError: A check fails, ``by`` is empty, or ``at`` is not a time with a time zone.
     """
     if not by.strip():
         raise NotApprovedError(message("nobody approves"), where="by", advice=message("say who approves"))
@@ -66,13 +65,13 @@ def approve(
 
 
 def uphold(task: Task, authorization: Authorization) -> AuthorizedTask:
-    """Take an approval that was given elsewhere for what it is.
+    """Restore an approval that was given on another machine.
 
-    Only the reader of bundles calls this, once a trusted person's signature was found to be good for every byte (a test
-    holds every other module to that).
+    Only the bundle reader calls this function (enforced by a test), after verifying a trusted person's signature over
+    every byte.
 
     Raises:
-        NotApprovedError: It was given for another Task.
+        NotApprovedError: The approval belongs to another Task.
     """
     if hashlib.sha256(encode(task)).hexdigest() != authorization.task_sha256:
         raise NotApprovedError(message("another Task was approved"), advice=message("approve this one"))
@@ -82,14 +81,14 @@ def uphold(task: Task, authorization: Authorization) -> AuthorizedTask:
 def approved_before(
     document: bytes, task: Task, authorization: Authorization, site: Site, robot: RobotProfile
 ) -> AuthorizedTask:
-    """A Task that was approved, and kept with its authorization: what was approved must be what was kept.
+    """Restore an approval from a stored Task and its authorization, after comparing their hashes.
 
     Args:
-        document: The Task as it was approved.
-        task: What it says.
+        document: Bytes of the Task as approved.
+        task: Task parsed from ``document``.
 
     Raises:
-        NotApprovedError: Task, site or profile are not those that were approved.
+        NotApprovedError: The Task, site or robot profile differs from the approved one.
     """
     for kind, given, wanted in (
         (message("Task"), hashlib.sha256(document).hexdigest(), authorization.task_sha256),

@@ -1,4 +1,4 @@
-"""Check the charge that a Task leaves against the levels at which its robot acts."""
+"""Check the remaining charge of a mission against the robot's battery thresholds."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from fieldhand.task.frames import Task
 
 
 def battery_problems(task: Task, robot: RobotProfile) -> Iterator[Problem]:
-    """Find a reserve below the charge at which the robot stops where it stands: it would never come home with that."""
+    """Report a reserve at or below the charge at which the robot stops: it could not drive home with that reserve."""
     reserve, stop = reserve_percent(task.constraints, robot), robot.energy.stop_percent
     if stop is not None and stop > 0.0 and reserve <= stop:
         yield Problem(

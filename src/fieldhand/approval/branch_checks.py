@@ -1,4 +1,4 @@
-"""What is wrong on a branch of a mission. Drives are held against zones and rows alone: a second opinion on them."""
+"""Problems on the branches of a mission, with an independent check of every drive against zones and rows."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 
-#: Metres inside a keep-out, or outside the boundary, that a drive may show from rounding.
+#: Metres by which a drive may enter a keep-out zone or leave the boundary, to allow for rounding.
 TOLERANCE_M = 0.01
 
 
 def branch_problems(explored: Branches, task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
-    """What is wrong on any branch: a place that cannot be told or reached, a test of what nothing read, a drive."""
+    """Yield the problems of every branch: unreachable places, tests of readings never taken, forbidden drives."""
     for broken in explored.broken:
         error, on = broken.error, say_decisions(broken.decisions, task, robot)
         what = message("{what} (on the branch: {branch})", what=error.what, branch=on) if on else error.what
@@ -48,7 +48,7 @@ def branch_problems(explored: Branches, task: Task, site: Site, robot: RobotProf
 
 
 def exit_problems(forecast: Estimate, site: Site) -> Iterator[Problem]:
-    """Ways home after faults, from where a mission may stop."""
+    """Yield the problems of the exit routes after faults."""
     for place, home, error in forecast.exits.broken:
         yield Problem(
             where=site.name,
@@ -71,7 +71,7 @@ def exit_problems(forecast: Estimate, site: Site) -> Iterator[Problem]:
 
 
 def _unread(walks: Sequence[Walk], task: Task, robot: RobotProfile) -> Iterator[Problem]:
-    """Tests of readings that are not there on some branch; a warning where only a fault, or the budget, leads to it."""
+    """Yield tests of readings that are missing on a branch; warnings if only a fault or the budget leads there."""
     found: dict[tuple[str, str], Walk] = {}
     for walked in sorted(walks, key=_troubled):
         for node, reading in walked.unread:
@@ -89,12 +89,12 @@ def _unread(walks: Sequence[Walk], task: Task, robot: RobotProfile) -> Iterator[
 
 
 def _troubled(walked: Walk) -> bool:
-    """Whether something failed on a branch, or the budget did not last for an optional step."""
+    """Return True if an action failed on the branch or the budget ran out for an optional step."""
     return any(d.answer is (d.kind != "taken") for d in walked.decisions if d.kind != "holds")
 
 
 def driven_through(walked: Iterable[WalkStep], site: Site) -> tuple[tuple[str, str], ...]:
-    """Each forbidden crossing as the id of the node that drives and what it crosses ("through the keep-out “pond”")."""
+    """Return each forbidden crossing: node id of the drive and description ("through the keep-out “pond”")."""
     rows = [row for row in site.planting.rows if len(row.trees) > 1]
     if not site.zones and not rows:
         return ()
@@ -104,7 +104,7 @@ def driven_through(walked: Iterable[WalkStep], site: Site) -> tuple[tuple[str, s
 
     tree_lines = STRtree([LineString(site.xy[row.trees]) for row in rows])
 
-    # Driving along an edge is allowed: only what lies inside a keep-out counts, and outside the boundary.
+    # Driving along an edge is allowed: only the interior of a keep-out zone and the exterior of the site count.
     keep_outs = [(z.name, z.polygon.buffer(-TOLERANCE_M)) for z in site.zones_of("keep_out")]
     boundaries = site.zones_of("boundary")
     inside = unary_union([b.polygon for b in boundaries]).buffer(TOLERANCE_M) if boundaries else None

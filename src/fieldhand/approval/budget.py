@@ -1,4 +1,4 @@
-"""Whether what a mission may use lasts for what it must do."""
+"""Check that the budgets of a mission suffice for its mandatory work."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import acts, walk
 
-#: A mission that is more likely than not to run short is not approved; one that may is, with a warning.
+#: Probability of running short from which a mission is refused; below it, the mission is approved with a warning.
 _HOPELESS = 0.5
 
 
 def budget_problems(task: Task, site: Site, robot: RobotProfile, forecast: Estimate) -> Iterator[Problem]:
-    """What stands between a mission and its budgets, with the numbers."""
+    """Yield the problems of a mission's budgets, with the figures."""
     nothing = list(_nothing_fits(task, site, robot)) if _does_nothing(task, forecast.branches) else []
     if nothing:
         yield from nothing
@@ -45,13 +45,13 @@ def budget_problems(task: Task, site: Site, robot: RobotProfile, forecast: Estim
 
 
 def _does_nothing(task: Task, branches: tuple[BranchEstimate, ...]) -> bool:
-    """Whether no branch makes a single capture although the plan has actions that the budget decides on."""
+    """Return True if no branch makes a capture although the plan contains optional actions."""
     does = any(acts(task.composition.plan))
     return does and any(b.shed for b in branches) and all(b.captures == 0 for b in branches)
 
 
 def _nothing_fits(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
-    """The cheapest single visit against each limit."""
+    """Yield each limit that even the cheapest single visit exceeds."""
     drives = drives_for(site, robot)
     home = site.home(task.composition.nominal, site.start)
     for node in walk(task.composition.plan):
@@ -62,7 +62,7 @@ def _nothing_fits(task: Task, site: Site, robot: RobotProfile) -> Iterator[Probl
             ways = [(drives.between(site.start, p).length_m, drives.between(p, home).length_m) for p in places]
             metres = min(ways, key=sum)
         except (FieldhandError, ValueError):
-            continue  # where its places hang on the way there, no single visit can be costed
+            continue  # relative places: the cost of a single visit is unknown
         (body,) = node.children
         seconds, joules = service_of(body, robot)
         for resource in resource_limits(task.constraints, robot):

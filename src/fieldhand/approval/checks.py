@@ -1,8 +1,8 @@
-"""Every check on a Task before a person may approve it for a site and a robot.
+"""All checks of a Task that precede a person's approval for a site and a robot.
 
-First the document (schema, references, for whom it was planned), then each selector by itself, then the whole mission
-on every branch: that it can be driven, that no drive crosses a keep-out or leaves the boundary, that the budget lasts.
-What comes later is only looked at when what comes before is sound, so that one fault is named once.
+Checks run in three stages: the document (schema, references, intended site and robot), each selector, and the whole
+mission on every branch (reachable places, no drive through a keep-out zone or outside the boundary, sufficient budget).
+A stage runs only if the stages before it found no error, so that each fault is reported once.
 """
 
 from __future__ import annotations
@@ -41,12 +41,12 @@ __all__ = ["Examination", "Problem", "check", "examine"]
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Examination:
-    """The examination of a Task for a site and a robot; :func:`examine` alone makes it, approval takes it.
+    """Result of examining a Task for a site and a robot, created only by :func:`examine` and required for approval.
 
     Attributes:
-        task, site, robot: What was examined.
+        task, site, robot: The examined Task, site and robot profile.
         problems: Every problem found, errors first.
-        estimate: The forecast that the checks used; None if the mission cannot be walked through.
+        estimate: Forecast used by the checks; None if the mission could not be simulated.
     """
 
     task: Task
@@ -59,17 +59,17 @@ class Examination:
 
     @property
     def errors(self) -> tuple[Problem, ...]:
-        """The problems that forbid approval."""
+        """Return the problems that forbid approval."""
         return tuple(p for p in self.problems if p.severity == "error")
 
 
 def check(task: Task, site: Site, robot: RobotProfile, document: bytes | None = None) -> tuple[Problem, ...]:
-    """Every problem of a Task on this site with this robot, errors first; empty if there is none.
+    """Return every problem of a Task for this site and robot, errors first.
 
     Args:
         task: The Task.
-        site, robot: Where and with what it is to be carried out.
-        document: The bytes that the Task was read from, if there are; else they are encoded anew.
+        site, robot: Site and robot profile that will carry out the Task.
+        document: Bytes from which the Task was read; by default the Task is encoded again.
     """
     return examine(task, site, robot, document=document).problems
 
@@ -83,12 +83,12 @@ def examine(
     seed: int = 0,
     charge_percent: float = 100.0,
 ) -> Examination:
-    """As :func:`check`, with the estimate, so that nobody has to make it twice.
+    """Check a Task as :func:`check` does and return the estimate along with the problems.
 
     Args:
         task, site, robot, document: As for :func:`check`.
-        seed: Of the estimate.
-        charge_percent: Charge at the beginning.
+        seed: Seed of the estimate.
+        charge_percent: State of charge at the start, in percent.
     """
     problems = [*_document(task, robot, document), *_references(task, robot), *_resources(task, site, robot)]
     problems.extend(unaccounted(task))
@@ -118,7 +118,7 @@ def _errors(problems: list[Problem]) -> bool:
 
 
 def _document(task: Task, robot: RobotProfile, document: bytes | None) -> Iterator[Problem]:
-    """The schema of this robot: actions, parameters, quantities, units and words that it knows."""
+    """Validate the document against the robot's schema: actions, parameters, quantities, units and vocabulary."""
     try:
         data = encode(task) if document is None else document
     except TaskError as error:
@@ -139,7 +139,7 @@ def _references(task: Task, robot: RobotProfile) -> Iterator[Problem]:
 
 
 def _resources(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
-    """A Task is for the site and the robot that it was planned with, byte by byte."""
+    """Compare the SHA-256 of the site and robot profile with those that the Task was planned for."""
     here: dict[Literal["site", "robot"], tuple[str, str]] = {
         "site": (site.name, site.sha256),
         "robot": (robot.name, robot.sha256),
@@ -167,7 +167,7 @@ def _resources(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]
 
 
 def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
-    """Each selector that resolves before the robot moves: it finds something, one where one is needed, reachable."""
+    """Check each selector that is resolved before the start: it matches enough places, and they are reachable."""
     drives = drives_for(site, robot)
     yield from _exits(task, site, drives)
     steps = {inner.id: node for node in walk(task.composition.plan) if node.is_optional_step for inner in walk(node)}
@@ -197,7 +197,7 @@ def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
 
 
 def _left_out(node: Node, closed: list[tuple[Place, str]], site: Site) -> Iterator[Problem]:
-    """Optional visits and steps that cannot be made are left out, and the person who approves is told."""
+    """Warn about optional visits and steps that will be skipped because their place is unreachable."""
     if closed:
         place, reason = closed[0]
         said = message("{place} is {reason}", place=say_place(place), reason=reason)
@@ -222,7 +222,7 @@ def _left_out(node: Node, closed: list[tuple[Place, str]], site: Site) -> Iterat
 
 
 def _exits(task: Task, site: Site, drives: Drives) -> Iterator[Problem]:
-    """Where the robot goes when something goes wrong has to be reached from where it starts."""
+    """Check that every exit place after a fault is reachable from the start."""
     start = start_place(drives)
     for taken in task.composition.faulted:
         home = site.home(taken.then, start)

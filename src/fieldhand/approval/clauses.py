@@ -1,4 +1,4 @@
-"""Conditions and actions as clauses: "the canopy temperature there is below 33 °C"."""
+"""Text of conditions and actions as clauses: "the canopy temperature there is below 33 °C"."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ Names = Mapping[str, str]
 def say_condition(
     condition: c.Condition, where: Names | None = None, robot: RobotProfile | None = None, *, negated: bool = False
 ) -> str:
-    """A condition as a clause: "the canopy temperature there is below 33 °C".
+    """Return a condition as a clause: "the canopy temperature there is below 33 °C".
 
     Args:
-        condition: What to say.
-        where: Where each reading was taken ("there", "of step 3"); else its name is quoted.
-        robot: Says what "low" and "high" mean.
-        negated: Say the opposite.
+        condition: Condition to describe.
+        where: Place of each reading ("there", "of step 3"); readings not listed are quoted by name.
+        robot: Robot profile that defines levels such as "low" and "high".
+        negated: Describe the opposite condition.
     """
     places = where or {}
     match condition:
@@ -61,7 +61,7 @@ def say_condition(
 
 
 def _compared(condition: c.Compare, reading: str, *, negated: bool) -> str:
-    """A reading against a threshold: each test is a sentence of its own, and so is its opposite."""
+    """Return the comparison of a reading with a threshold; each test and each negation is a message of its own."""
     amount = say_quantity(condition.value, condition.unit)
     match condition.test, negated:
         case "lt", False:
@@ -99,7 +99,7 @@ def _reading(condition: c.Compare | c.Between | c.Level, where: Names, robot: Ro
 
 
 def _labels(once: Mapping[str, str], count: int) -> Mapping[str, str]:
-    """What a profile says for an action in other languages, for so many captures."""
+    """Return the translated labels of an action, extended by the number of captures."""
     if count == 1:
         return once
     return {code: message("{action} {times}", action=said, times=say_times(count)) for code, said in once.items()}
@@ -119,7 +119,7 @@ def _threshold(condition: c.Level, robot: RobotProfile | None) -> str:
 
 
 def _joined(condition: c.AllOf | c.AnyOf, where: Names, robot: RobotProfile | None) -> str:
-    """Parts joined by one word; a part that joins others itself stands in brackets, so that there is one reading."""
+    """Return the parts joined by "and" or "or", with nested groups in brackets to avoid ambiguity."""
     every = isinstance(condition, c.AllOf)
     if not condition.conditions:
         return message("always") if every else message("never")
@@ -138,7 +138,7 @@ def _joined(condition: c.AllOf | c.AnyOf, where: Names, robot: RobotProfile | No
 
 
 def say_act(act: Act, robot: RobotProfile | None = None) -> str:
-    """An action with its parameters: "take 2 thermal pictures with exposure 20 ms"."""
+    """Return an action with its parameters: "take 2 thermal pictures with exposure 20 ms"."""
     units = {}
     if robot is not None and act.action in robot.action:
         units = {p.name: p.unit for p in robot.action[act.action].parameters}

@@ -1,4 +1,4 @@
-"""Warnings where a plan is perhaps not what was asked: found from the Task alone, so that none is lost on its way."""
+"""Warnings where a plan may differ from its request, derived from the Task alone so that they are always reproduced."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from fieldhand.task.frames import Task
 
 
 def doubts(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
-    """A warning for each that its planner gave with it, and for each certain contradiction with its request."""
+    """Yield the warnings that the planner attached to the Task and every detected contradiction with the request."""
     for said in task.command.warnings:
         yield Problem(
             where=message("request"), what=said, advice=message("read every line of the plan"), severity="warning"
         )
     if not task.command.request.strip():
-        return  # nothing was asked that a plan could contradict
+        return  # without a request there is nothing to contradict
     for found in mismatches(task, site, robot):
         yield Problem(
             node=found.node,

@@ -1,4 +1,4 @@
-"""The numbers of the read-back's steps on a map: each beside its stop, or with a line to it, and covering no other."""
+"""Step numbers on a map, placed beside their stops without overlap, or connected to them by a line."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _FONT, _SMALL_FONT = 8.5, 7.5
-#: Points from a stop to its number; farther ones get a line to their stop.
+#: Distances in points from a stop to its number; at the last four, a line connects them.
 _GAP, _SOMEWHAT, _FARTHER = 3.0, 5.0, (14.0, 26.0, 40.0, 56.0)
-#: Of longer loops only some visits are numbered: the first, the last, and round ones where there is room.
+#: Loops with more visits than this are numbered sparsely: first, last, and multiples of 50, 10, 5 as space permits.
 _NUMBERED, _ROUND = 12, (50, 10, 5)
-#: Runs of steps that are named at the frame of a window.
+#: Maximum number of step ranges named in the label of an inset window.
 _MOST_RUNS = 3
 
 
 def draw_labels(ax: Axes, labels: Labels, stops: Sequence[Stop], disc: float) -> None:
-    """Write the number of each stop beside it, and which tree it is where stops are few.
+    """Write the number of each stop beside it, and the tree id if there are few stops.
 
     Args:
-        ax: Drawn on, in metres.
-        labels: Writes there.
-        stops: All that are shown.
+        ax: Axes to draw on, in metres.
+        labels: Label placement for these axes.
+        stops: All stops on the map.
         disc: Diameter of a disc in points.
     """
     for stop in stops:
@@ -46,7 +46,7 @@ def draw_labels(ax: Axes, labels: Labels, stops: Sequence[Stop], disc: float) ->
 
 
 def label_window(labels: Labels, window: Window, stops: Sequence[Stop]) -> None:
-    """Write beside the frame of a window which steps it shows."""
+    """Write the range of steps that an inset window shows beside its frame."""
     (west, south), (east, north) = labels.at((window.west, window.south)), labels.at((window.east, window.north))
     text = ", ".join(_runs(stops))
     width, height = labels.size(text, _FONT, bold=True)
@@ -60,7 +60,7 @@ def label_window(labels: Labels, window: Window, stops: Sequence[Stop]) -> None:
 
 
 def _name(ax: Axes, labels: Labels, stop: Stop, disc: float) -> None:
-    """Write the number of a stop, and its tree if there is room, as near as can be."""
+    """Write the number of a stop as close to it as possible, with its tree id if there is space."""
     number = ", ".join(_ranges(stop.labels))
     if not number:
         return
@@ -80,7 +80,7 @@ def _name(ax: Axes, labels: Labels, stop: Stop, disc: float) -> None:
 
 
 def _by_worth(stops: Sequence[Stop]) -> list[tuple[Stop, str]]:
-    """Return the stops that are worth a number, with it: first and last of each loop, then the roundest."""
+    """Return the stops to number with their text, by priority: ends of each loop, then the roundest numbers."""
     last: dict[str, int] = {}
     for label in (label for stop in stops for label in stop.labels):
         loop, _, visit = label.partition(".")
@@ -95,7 +95,7 @@ def _by_worth(stops: Sequence[Stop]) -> list[tuple[Stop, str]]:
 
 
 def _worth(label: str, last: dict[str, int]) -> int | None:
-    """Return which numbers go before: 0 for a step and the ends of a loop; None for what is left out."""
+    """Return the priority of a number: 0 for a step or the end of a loop, None for a number to omit."""
     loop, _, visit = label.partition(".")
     if not visit or int(visit) in (1, last[loop]):
         return 0
@@ -105,7 +105,7 @@ def _worth(label: str, last: dict[str, int]) -> int | None:
 
 
 def _runs(stops: Sequence[Stop]) -> list[str]:
-    """Return the steps of some stops in short: "1.1-1.91", "3-7"."""
+    """Return the steps of the stops as ranges: "1.1-1.91", "3-7"."""
     ends: dict[str, list[str]] = {}
     for label in (label for stop in stops for label in stop.labels):
         ends.setdefault(label.partition(".")[0] if "." in label else "", []).append(label)
@@ -117,7 +117,7 @@ def _runs(stops: Sequence[Stop]) -> list[str]:
 
 
 def _ranges(labels: Sequence[str]) -> list[str]:
-    """Steps that follow each other as a range: 1, 2, 3 is "1-3"."""
+    """Return consecutive steps merged into ranges: 1, 2, 3 become "1-3"."""
     found: list[list[str]] = []
     for label in labels:
         last = found[-1][-1] if found else ""
@@ -129,7 +129,7 @@ def _ranges(labels: Sequence[str]) -> list[str]:
 
 
 def _around(at: XY, size: XY, gap: float) -> Iterator[XY]:
-    """Middles of a text right, left, above and below a symbol, then at its corners."""
+    """Yield text centres to the right, left, top and bottom of a symbol, then at its corners."""
     (width, height), slant = size, 0.75
     yield from _crosswise(at, gap + width / 2, gap + height / 2)
     for across, up in itertools.product((1, -1), (1, -1)):

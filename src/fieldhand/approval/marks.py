@@ -1,4 +1,4 @@
-"""The marks of a planned mission on a map: legs, arrows and stops."""
+"""Map marks of a planned mission: legs, arrows and stops."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from fieldhand.site.drawing.ground import disc_diameter
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-#: Colours that stay apart for most colour-blind readers (Okabe and Ito 2008), on green trees.
+#: Colours that most colour-blind readers can distinguish (Okabe and Ito 2008) on green trees.
 PALETTE = ("#d55e00", "#0072b2", "#cc79a7", "#e69f00", "#56b4e9", "#8b5cf6", "#111111")
 WAY, INK = "#26324f", "#2f2f2f"
 LineStyle = Literal["solid"] | tuple[float, Sequence[float]]
@@ -25,26 +25,26 @@ LINES: dict[Certainty, tuple[LineStyle, float, float]] = {
     "budget": ("solid", 1.2, 0.65),
     "conditional": ((0.0, (4.0, 2.5)), 1.5, 0.8),
 }
-#: Diameters of discs in points: of few stops, and of more than :data:`MANY_STOPS`.
+#: Disc diameters in points: for up to :data:`MANY_STOPS` stops, and for more.
 _OUTER, _OUTER_OF_MANY = 10.5, 8.0
 MANY_STOPS = 16
 
 
 def colours_of(stops: Sequence[Stop]) -> dict[str, str]:
-    """A colour for each action, in the order in which they come up."""
+    """Return a colour for each action, in order of first appearance."""
     names = list(dict.fromkeys(action for stop in stops for action in stop.actions))
     return {name: PALETTE[k % len(PALETTE)] for k, name in enumerate(names)}
 
 
 def draw_leg(ax: Axes, leg: Leg) -> None:
-    """A way, its line saying how certain it is."""
+    """Draw a leg with a line style that shows its certainty."""
     style, width, alpha = LINES[leg.certainty]
     x, y = zip(*leg.points, strict=True)
     ax.plot(x, y, color=WAY, linestyle=style, linewidth=width, alpha=alpha, zorder=10, gid="leg")
 
 
 def draw_arrows(ax: Axes, legs: Sequence[Leg]) -> None:
-    """Arrow heads along the way, a fixed part of the picture apart, so that short legs are not covered by them."""
+    """Draw arrow heads along the route, spaced by a fixed fraction of the map so that short legs remain visible."""
     from matplotlib.markers import MarkerStyle
     from matplotlib.path import Path as Outline
     from matplotlib.transforms import Affine2D
@@ -78,21 +78,21 @@ def draw_arrows(ax: Axes, legs: Sequence[Leg]) -> None:
 
 
 def disc_size(ax: Axes, stops: Sequence[Stop]) -> float:
-    """Diameter of a disc in points: smaller where there are many, or where they stand close on the map."""
+    """Return the disc diameter in points, smaller where stops are many or close together on the map."""
     most = _OUTER if len(stops) <= MANY_STOPS else _OUTER_OF_MANY
     return disc_diameter(ax, np.array([stop.place.xy for stop in stops]).reshape(-1, 2), most)
 
 
 def draw_stop(ax: Axes, stop: Stop, colours: dict[str, str], disc: float) -> None:
-    """One disc an action, one inside the other; hollow where it is not certain that it will be done."""
+    """Draw concentric discs, one per action; a hollow disc marks an uncertain action."""
     x, y = stop.place.xy
     if stop.place.stand is not None:
-        # The robot works from the aisle: a thin line to where it stands.
+        # The robot works from the aisle: a thin line connects the tree to the robot's position.
         ax.plot((x, stop.place.stand[0]), (y, stop.place.stand[1]), color=WAY, linewidth=0.9, alpha=0.7, zorder=9)
     if not stop.actions:
         ax.plot(x, y, marker="o", markersize=6, color="white", markeredgecolor=WAY, markeredgewidth=1.5, zorder=12)
     size = stop_size(stop, disc)
-    # What is certain lies outside, so that a hollow disc stands for what may be added to it.
+    # Certain actions are drawn outside, so that a hollow inner disc marks a possible addition.
     for action, certainty in sorted(stop.actions.items(), key=lambda item: item[1] == "conditional"):
         hollow = certainty == "conditional"
         ax.plot(
@@ -110,5 +110,5 @@ def draw_stop(ax: Axes, stop: Stop, colours: dict[str, str], disc: float) -> Non
 
 
 def stop_size(stop: Stop, disc: float) -> float:
-    """Diameter of a stop's largest disc, in points."""
+    """Return the diameter of a stop's outermost disc, in points."""
     return disc + disc / 2 * max(0, min(len(stop.actions), 4) - 1)

@@ -1,8 +1,8 @@
-"""Remember approvals, so that an old file that is put back does not count again.
+"""Persistent record of approvals that prevents the replay of superseded files.
 
-As in The Update Framework (TUF): the highest number seen of each mission and signer, the latest time seen, which keys
-were revoked, and the highest number of the list of trusted keys. Kept twice where both folders can be written: each
-copy alone is enough, and the higher of two values holds.
+As in The Update Framework (TUF), the record contains the highest approval number of each mission and signer, the
+latest time seen, the revoked keys, and the highest number of the list of trusted keys. It is stored in two folders
+where both are writable: either copy suffices, and the higher of two values applies.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 class _Seen(BaseModel):
-    """The highest number of a mission, and until when an older approval could still be begun."""
+    """Highest approval number of a mission, and the time until which an older approval could still be started."""
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
 
@@ -38,13 +38,13 @@ class _Seen(BaseModel):
 
 
 class _Remembered(BaseModel):
-    """The form of the file.
+    """Schema of the file.
 
     Attributes:
-        latest: The latest time seen, in seconds since 1970.
-        trusted: The highest number of the list of trusted keys.
-        revoked: When each key was revoked, by fingerprint.
-        seen: By signer and id of the Task.
+        latest: Latest time seen, in seconds since 1970.
+        trusted: Highest number of the list of trusted keys.
+        revoked: Time of revocation of each key, by fingerprint.
+        seen: Highest approval numbers, by signer and Task id.
     """
 
     model_config = ConfigDict(extra="forbid", strict=True)
@@ -57,32 +57,32 @@ class _Remembered(BaseModel):
 
 
 class ApprovalMemory:
-    """The memory of one machine.
+    """The approval record of one machine.
 
     Args:
-        files: Its copies. The folder of the first must be writable, those of the others may be.
+        files: Copies of the record. The folder of the first must be writable; the others are optional.
     """
 
     def __init__(self, *files: Path) -> None:
         self._files = files
 
     def time(self, clock: datetime) -> datetime:
-        """Return the time by which approvals are judged: never earlier than one that was seen."""
+        """Return the time used to judge approvals: the clock, but never earlier than the latest time seen."""
         latest = self._read().latest
         return datetime.fromtimestamp(max(latest, clock.timestamp()), clock.tzinfo)
 
     def admit(self, manifest: Manifest, signer: str, *, clock: datetime, source: str) -> None:
-        """Take note of a mission that is about to begin, or has arrived.
+        """Record a mission that has arrived or is about to start, and refuse it if it is expired or superseded.
 
         Args:
-            manifest: Of its bundle, whose signature was found to be good.
-            signer: Fingerprint of its key.
-            clock: The time of this machine.
-            source: What to call it in messages.
+            manifest: Manifest of the bundle, with a verified signature.
+            signer: Fingerprint of the signing key.
+            clock: Current time of this machine.
+            source: Name of the bundle in error messages.
 
         Raises:
-            NotApprovedError: Its approval has run out, or a later one of the same mission was seen.
-            KeyFileError, OutputError: The memory cannot be used.
+            NotApprovedError: The approval has expired, or a later approval of the same mission was recorded.
+            KeyFileError, OutputError: The record cannot be read or written.
         """
         with self._changed() as memory:
             now = max(memory.latest, clock.timestamp())
@@ -108,15 +108,15 @@ class ApprovalMemory:
                     del tasks[task]
 
     def trust(self) -> TrustSeen:
-        """Return what is remembered of the list of trusted keys."""
+        """Return the recorded state of the list of trusted keys."""
         found = self._read()
         return TrustSeen(number=found.trusted, revoked=found.revoked)
 
     def note_trust(self, number: int, revoked: Mapping[str, str]) -> None:
-        """Take note of the list of trusted keys.
+        """Record the number of the list of trusted keys and the revoked keys.
 
         Raises:
-            KeyFileError, OutputError: The memory cannot be used.
+            KeyFileError, OutputError: The record cannot be read or written.
         """
         before = self._read()
         if number > before.trusted or not revoked.keys() <= before.revoked.keys():
@@ -125,17 +125,17 @@ class ApprovalMemory:
                 memory.revoked = dict(revoked) | memory.revoked
 
     def set_clock(self, clock: datetime) -> None:
-        """Believe the clock again, which somebody has looked at: a time that was seen was wrong.
+        """Reset the latest time seen to the clock, after an operator has checked the clock.
 
         Raises:
-            KeyFileError, OutputError: The memory cannot be used.
+            KeyFileError, OutputError: The record cannot be read or written.
         """
         with self._changed() as memory:
             memory.latest = clock.timestamp()
 
     @contextmanager
     def _changed(self) -> Iterator[_Remembered]:
-        """Yield the memory for one process at a time to change; write it if nothing is raised."""
+        """Yield the record under an exclusive lock and write it back if the block raises no exception."""
         make_folder(self._files[0].parent)
         with _alone(self._files[0].parent):
             memory = self._read()
@@ -150,7 +150,7 @@ class ApprovalMemory:
                             replace(file, data)
 
     def _read(self) -> _Remembered:
-        """Return the higher of what the copies say."""
+        """Return the merged copies, with the higher of differing values."""
         merged = _Remembered()
         for file in self._files:
             if not file.exists():
@@ -177,37 +177,37 @@ class ApprovalMemory:
 
 
 def approval_memory(environ: Mapping[str, str]) -> ApprovalMemory:
-    """Return the memory that belongs to the keys of this configuration: in the state folder, and beside the keys.
+    """Return the approval record of this configuration, stored in the state folder and beside the keys.
 
     Raises:
-        InputError: What the environment names is a file, or the user has no home.
+        InputError: The environment names a file instead of a folder, or the user has no home folder.
     """
     config = config_folder(environ)
-    # One user may have several configurations; each has a list of keys, and a memory, of its own.
+    # A user may have several configurations; each has its own trusted keys and its own record.
     name = hashlib.sha256(os.fsencode(config.absolute())).hexdigest()[:16]
     return ApprovalMemory(state_folder(environ) / f"approvals-{name}.json", config / "approvals.json")
 
 
 def trust_store(environ: Mapping[str, str]) -> TrustStore:
-    """Return the trusted keys of this user, held against what this machine remembers of them.
+    """Return the user's trusted keys, checked against the approval record.
 
     Raises:
-        InputError: What the environment names is a file, or the user has no home.
+        InputError: The environment names a file instead of a folder, or the user has no home folder.
     """
     return TrustStore(config_folder(environ), memory=approval_memory(environ))
 
 
 def require_unexpired(manifest: Manifest, now: datetime, clock: datetime, source: str) -> None:
-    """Refuse a mission whose approval has run out.
+    """Refuse a mission whose approval has expired.
 
     Args:
-        manifest: Of its bundle.
-        now: The later of the clock and the latest time that was seen.
-        clock: The time of this machine.
-        source: What to call it in messages.
+        manifest: Manifest of the bundle.
+        now: The later of the clock and the latest time seen.
+        clock: Current time of this machine.
+        source: Name of the bundle in error messages.
 
     Raises:
-        NotApprovedError: It has.
+        NotApprovedError: The approval has expired.
     """
     if now > manifest.until:
         until, said = manifest.until.isoformat(timespec="seconds"), now.isoformat(timespec="seconds")

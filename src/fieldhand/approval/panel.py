@@ -1,4 +1,4 @@
-"""The words beside a map: the request, the read-back's steps, what the marks mean, what it will take."""
+"""Text panel beside a map: the request, the steps of the read-back, the legend, and the totals."""
 
 from __future__ import annotations
 
@@ -25,21 +25,21 @@ _LINE_WORDS: dict[Certainty, str] = {
     "conditional": message("driven only on some readings"),
 }
 _QUIET = "#6b6b6b"
-#: Letters that fit into an inch at one point of size; lines lie this many sizes apart.
+#: Characters per inch at a font size of one point; line spacing as a multiple of the font size.
 _LETTERS, _LEADING = 122.0, 1.42
 _STEP_PT, _REQUEST_PT, _SMALL_PT = 9.0, 11.5, 8.5
 _INDENT, _REQUEST_ROWS = 3, 9
-#: The words are as large as their room allows.
+#: Font scales, largest first; the first at which all text fits is used.
 _SCALES = (1.25, 1.15, 1.05, 0.95, 0.85)
-#: A number and its unit stay on one row.
+#: Pattern of a number with its unit, which are kept on one row.
 _UNIT = re.compile(r"(\d) (m|min|h|s|%|°C|ppm)(?!\w)")
 
 
 def draw_panel(ax: Axes, task: Task, plan: Plan, words: ReadBack, colours: dict[str, str], language: Language) -> float:
-    """Write the words from the top down; steps that find no room are counted, the legend and totals always stand.
+    """Write the text from top to bottom; steps that do not fit are counted, while legend and totals always appear.
 
     Returns:
-        Points that are left below.
+        Free height at the bottom, in points.
     """
     legend, totals = _legend(plan, colours, language), language.read(say_totals(words.totals))
     request = " ".join(task.command.request.split())
@@ -77,20 +77,20 @@ def _legend_points(entries: int) -> float:
 
 
 def _below(writer: _Writer, totals: tuple[str, ...], entries: int) -> float:
-    """Points that legend and totals take."""
+    """Return the height of legend and totals, in points."""
     rows = sum(len(writer.wrapped(text, _SMALL_PT)) for text in totals)
     return (_legend_points(entries) + 6 + (rows + 0.5) * _LEADING * _SMALL_PT) * writer.scale
 
 
 def _rows(writer: _Writer, line: Line) -> list[str]:
-    """A step with its number, its second and later rows further in."""
+    """Return a step with its number as rows, with a hanging indent."""
     number = f"{line.number}. " if line.number is not None else ""
     margin = " " * (_INDENT * line.indent)
     return writer.wrapped(f"{number}{line.text}", _STEP_PT, margin=margin, hang=" " * (len(number) + 1))
 
 
 def _fits(writer: _Writer, request: str, words: ReadBack, totals: tuple[str, ...], entries: int) -> bool:
-    """Whether everything has room at the writer's scale."""
+    """Return True if all text fits at the writer's scale."""
     asked = len(writer.wrapped(f"“{request}”", _REQUEST_PT))
     head = asked * _REQUEST_PT * _LEADING + 9
     rows = sum(len(_rows(writer, line)) for line in words.lines)
@@ -99,7 +99,7 @@ def _fits(writer: _Writer, request: str, words: ReadBack, totals: tuple[str, ...
 
 
 def _write_steps(writer: _Writer, lines: tuple[Line, ...], room: float, language: Language) -> None:
-    """The steps as far as there is room; the rest stands in the read-back."""
+    """Write the steps that fit; the read-back lists them all."""
     bottom = writer.left - room
     for k, line in enumerate(lines):
         rows = _rows(writer, line)
@@ -114,11 +114,11 @@ def _write_steps(writer: _Writer, lines: tuple[Line, ...], room: float, language
 
 
 class _Writer:
-    """Lines of text from the top of an axes down, measured in points.
+    """Writes lines of text from the top of an axes downwards, measured in points.
 
     Args:
-        ax: Written on.
-        scale: All sizes and gaps are this many times as large as asked for.
+        ax: Axes to write on.
+        scale: Factor applied to all font sizes and gaps.
     """
 
     def __init__(self, ax: Axes, scale: float) -> None:
@@ -130,18 +130,18 @@ class _Writer:
         self.scale = scale
         self._width = float(width * box.width)
         self._height = float(height * box.height) * 72.0
-        #: Points that are left above the lower edge.
+        #: Height left above the lower edge, in points.
         self.left = self._height
 
     @property
     def share(self) -> float:
-        """How far up the next line begins, as a share of the axes."""
+        """Return the vertical position of the next line, as a fraction of the axes height."""
         return self.left / self._height
 
     def wrapped(
         self, text: str, size: float, *, margin: str = "", hang: str = "", most: int | None = None
     ) -> list[str]:
-        """The text in rows that fit the width."""
+        """Return the text wrapped to the width of the panel."""
         return textwrap.wrap(
             _UNIT.sub("\\1\N{NO-BREAK SPACE}\\2", text),
             width=max(20, int(self._width * _LETTERS / (size * self.scale))),
@@ -152,7 +152,7 @@ class _Writer:
         )
 
     def write(self, text: str, size: float, *, colour: str = INK, style: str = "normal") -> None:
-        """One row; a dollar sign is a dollar sign and not mathematics."""
+        """Write one row, with dollar signs escaped so that they do not start math mode."""
         self._ax.text(
             0.0,
             self.share,
@@ -167,7 +167,7 @@ class _Writer:
         self.skip(size * _LEADING)
 
     def skip(self, points: float) -> None:
-        """Leave room."""
+        """Leave vertical space."""
         self.left -= points * self.scale
 
 

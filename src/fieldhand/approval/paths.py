@@ -1,4 +1,4 @@
-"""Branches in words: which conditions went which way, with the nodes that they stand in."""
+"""Text of branches: the outcome of each condition, with the id of its node."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ FAULTS: dict[Fault, str] = {
     "aborted": message("somebody aborts the mission"),
 }
 
-#: A branch that has more to say is cut there.
+#: Maximum number of decisions described for a branch.
 _MOST = 6
 
 
 def say_branch(branch: BranchEstimate, task: Task, robot: RobotProfile) -> str:
-    """Which way a branch goes, in one line: "the canopy temperature is below 33 °C (n4): 3 times yes, once no"."""
+    """Return a branch in one line: "the canopy temperature is below 33 °C (n4): 3 times yes, once no"."""
     said = say_decisions(branch.decisions, task, robot)
     if branch.fault is None:
         return said or message("the only one")
@@ -36,12 +36,12 @@ def say_branch(branch: BranchEstimate, task: Task, robot: RobotProfile) -> str:
 
 
 def say_decisions(decisions: Sequence[Decision], task: Task, robot: RobotProfile) -> str:
-    """What was decided, node by node; empty where nothing was."""
+    """Return the decisions of a branch, node by node, or an empty string if there are none."""
     answers: dict[tuple[str, str], list[Decision]] = {}
     for decision in decisions:
         answers.setdefault((decision.node, decision.kind), []).append(decision)
     nodes = {node.id: node for node in plan.walk(task.composition.plan)}
-    # What did not fail needs no word.
+    # Actions that never failed are not mentioned.
     told = {key: some for key, some in answers.items() if key[1] in ("holds", "taken") or any(d.answer for d in some)}
     taken = {node.reading: message("of {node}", node=node.id) for node in reversed(nodes.values()) if node.reading}
     said = [_said(kind, nodes[node], some, taken, robot) for (node, kind), some in list(told.items())[:_MOST]]
@@ -78,7 +78,7 @@ def _answers(decisions: Sequence[Decision]) -> str:
 
 
 def _times(decisions: Sequence[Decision], answer: Literal["yes", "no"], *, places: bool) -> str:
-    """How often, and where, if that is what tells the branch from others."""
+    """Return the number of times, and the places if these distinguish the branch from others."""
     times = say_times(len(decisions))
     said = message("{times} yes", times=times) if answer == "yes" else message("{times} no", times=times)
     where = ", ".join(dict.fromkeys(d.place for d in decisions))

@@ -1,4 +1,4 @@
-"""The map of a planned mission: where it drives, where it stops, what it does there, and what is not certain yet."""
+"""Map of a planned mission: its route, stops and actions, and the certainty of each."""
 
 from __future__ import annotations
 
@@ -26,26 +26,27 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Inches: of the words beside the map, of the margin around both, and the least height in which the words have room.
+#: Lengths in inches: width of the text panel, margin around the figure, minimum height for the text.
 _PANEL_IN, _MARGIN_IN, _LEAST_HEIGHT_IN = 4.7, 0.25, 6.8
-#: Inches: of a window below the words, above it, of room that the words leave to it, and of a figure that has one.
+#: Lengths in inches: height of the inset window, gap above it, maximum space between text and window, height of a
+#: figure with a window.
 _WINDOW_IN, _GAP_IN, _MOST_SPARE_IN, _TALL_IN = 4.2, 0.15, 1.5, 9.5
 
 
 def save_map(
     task: Task, site: Site, robot: RobotProfile, estimate: Estimate, path: Path, language: Language = ENGLISH
 ) -> None:
-    """Draw the planned mission into a picture file; the ending says which kind (``.png``, ``.svg``, ``.pdf``).
+    """Draw the planned mission into a file; the extension selects the format (``.png``, ``.svg``, ``.pdf``).
 
     Args:
-        task: What is planned.
-        site, robot: Where and with what.
-        estimate: Its estimate, whose branches are drawn: the first as a whole, of the others what it lacks.
-        path: Where to write; its folder is made if needed.
-        language: Of the words beside the map.
+        task: Task to draw.
+        site, robot: Site and robot of the mission.
+        estimate: Estimate of the mission; its first branch is drawn completely, the others only where they differ.
+        path: Output file; its folder is created if needed.
+        language: Language of the text beside the map.
 
     Raises:
-        OutputError: The file cannot be written, or its ending is of no kind of picture.
+        OutputError: The file cannot be written, or its extension is not a supported image format.
     """
     save_figure(plan_figure(task, site, robot, estimate, language), path, what=message("map", context="file"))
 
@@ -53,16 +54,17 @@ def save_map(
 def plan_figure(
     task: Task, site: Site, robot: RobotProfile, estimate: Estimate, language: Language = ENGLISH
 ) -> Figure:
-    """Draw the planned mission, with its words beside it, as :func:`save_map` writes it."""
+    """Return the planned mission as the figure that :func:`save_map` writes."""
     words = read_back(task, site, robot, estimate)
     plan = plan_of(task, [b.walk for b in estimate.branches], words.lines)
     return draw_map(task, site, plan, words, language)
 
 
 def draw_map(task: Task, site: Site, plan: Plan, words: ReadBack, language: Language = ENGLISH) -> Figure:
-    """The map with its words beside it, as a figure that belongs to no window.
+    """Return a figure with the map and the text beside it, attached to no window.
 
-    Where trees stand close on it and the work lies in a part of the site, that part is drawn larger below the words.
+    If trees are too close together on the map and the work covers only part of the site, an enlarged view of that part
+    is drawn below the text.
     """
     figure = _two_columns(site)
     ax, panel = figure.axes
@@ -101,7 +103,7 @@ def _draw_plan(ax: Axes, plan: Plan, colours: dict[str, str], disc: float) -> No
 def _draw_window(
     figure: Figure, site: Site, plan: Plan, window: Window, colours: dict[str, str], tall_in: float
 ) -> None:
-    """Draw the part of the site where the work is below the words, so high."""
+    """Draw an enlarged view of the working area below the text, with the given height."""
     height = float(figure.get_size_inches()[1])
     box = figure.axes[1].get_position()
     ax = figure.add_axes((box.x0, _MARGIN_IN / height, box.width, tall_in / height))
@@ -121,7 +123,7 @@ def _draw_window(
 
 
 def _two_columns(site: Site) -> Figure:
-    """A figure with the site's axes on the left and those of the words on the right, both of fixed size."""
+    """Return a figure with the axes of the site on the left and of the text on the right, both of fixed size."""
     figure = site_figure(site)
     figure.set_layout_engine("none")
     width, height = figure.get_size_inches()
@@ -136,7 +138,7 @@ def _two_columns(site: Site) -> Figure:
 
 
 def _halve(figure: Figure) -> None:
-    """Leave the lower part of the right column to a window; the figure is made high enough for both."""
+    """Make the figure tall enough for text and window, and free the lower part of the right column."""
     whole, before = figure.get_size_inches()
     height = max(before, _TALL_IN)
     figure.set_size_inches(whole, height)
@@ -151,7 +153,7 @@ def _halve(figure: Figure) -> None:
 
 
 def _close_up(figure: Figure) -> None:
-    """Take away the room that a narrow site leaves beside itself; what is drawn keeps its size."""
+    """Remove the unused width beside a narrow site without scaling the drawing."""
     ax, panel = figure.axes
     whole, height = figure.get_size_inches()
     (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()

@@ -1,4 +1,4 @@
-"""What a check finds."""
+"""Problems that the checks report."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from fieldhand.places.wording import say_selector
 from fieldhand.task import plan
 from fieldhand.task.frames import Task
 
-#: Characters of a request that a problem quotes.
+#: Maximum number of characters of the request quoted in a problem.
 _MOST_QUOTED = 120
 
 
 @dataclass(frozen=True, kw_only=True)
 class Problem:
-    """One thing that is wrong with a Task, or that its approver has to know.
+    """An error of a Task, or a warning that its approver must confirm.
 
     Attributes:
-        what: In words, without a full stop.
-        node: Id of the plan node; empty where none is meant.
-        where: Line and element, zone or site.
-        words: Of the request, from which the node came.
-        place: What the node means, in words.
-        advice: What to do about it.
-        severity: An ``error`` forbids approval; a ``warning`` does until it is confirmed.
+        what: Description, without a full stop.
+        node: Id of the plan node; empty if the problem concerns no single node.
+        where: Line and element, zone, or site.
+        words: Words of the request from which the node was derived.
+        place: Description of the node's place.
+        advice: Suggested remedy.
+        severity: An ``error`` forbids approval; a ``warning`` forbids it until confirmed.
     """
 
     what: str
@@ -38,11 +38,11 @@ class Problem:
     severity: Literal["error", "warning"] = "error"
 
     def __str__(self) -> str:
-        """One line: node, words, place, where; what; advice."""
+        """Return one line: node, words, place, location; description; advice."""
         return str(self.line())
 
     def line(self) -> str:
-        """The same as a message, for other languages."""
+        """Return the same line as a translatable message."""
         node = () if self.node and self.node in self.where else (self.node,)
         words = (message("“{text}”", text=self.words),) if self.words else ()
         place = () if self.place and self.place in self.what else (self.place,)
@@ -57,13 +57,13 @@ def _one_line(text: str) -> str:
 
 
 def node_in(where: str) -> tuple[str, str]:
-    """The plan node that the place of an error begins with, if it does, and the rest of it."""
+    """Split a leading node id from the location of an error; return the id (or "") and the rest."""
     found = re.fullmatch(r"(n\d+)(?:, (.*))?", where, re.DOTALL)
     return ("", where) if found is None else (found[1], found[2] or "")
 
 
 def with_words(problem: Problem, task: Task) -> Problem:
-    """The problem with the words of the request from which its node came, and the place that the node means."""
+    """Return the problem with the words of the request that its node came from, and the node's place."""
     node = next((n for n in plan.walk(task.composition.plan) if n.id == problem.node), None) if problem.node else None
     if node is None:
         return problem
@@ -76,7 +76,7 @@ def with_words(problem: Problem, task: Task) -> Problem:
 
 
 def _quoted(node: plan.Node, task: Task) -> str:
-    """The words themselves, in their order; what stands between them is left out."""
+    """Return the words in their order, with an ellipsis for omitted text."""
     text = task.command.read_as or task.command.request
     own = (*node.said, *node.at_said)
     spans = sorted({(start, end) for start, end in own if 0 <= start < end <= len(text)})

@@ -1,4 +1,4 @@
-"""Production mode: what a robot in the field runs is signed, or it does not run."""
+"""Production mode, in which a machine runs only signed missions."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ _YES, _NO = ("1", "true", "yes", "on"), ("", "0", "false", "no", "off")
 
 
 def in_production(environ: Mapping[str, str]) -> bool:
-    """Whether only signed missions may run on this machine.
+    """Return True if this machine runs only signed missions.
 
     Raises:
-        InputError: The variable says neither yes nor no; nobody shall have to guess what a robot made of it.
+        InputError: The variable is neither a yes nor a no; an unclear value must not be guessed.
     """
     said = environ.get(VARIABLE, "").strip().lower()
     if said in _YES:
@@ -31,15 +31,15 @@ def in_production(environ: Mapping[str, str]) -> bool:
 
 
 def require_unsigned_allowed(environ: Mapping[str, str], *, asked: bool = False) -> None:
-    """Refuse what nobody has signed on a machine in production.
+    """Refuse an unsigned mission on a machine in production mode.
 
     Args:
-        environ: Where production mode is set.
-        asked: Production mode was asked for otherwise.
+        environ: Environment variables.
+        asked: True if production mode was requested by other means, such as an option.
 
     Raises:
         NotTrustedError: The machine is in production mode.
-        InputError: The variable says neither yes nor no.
+        InputError: The variable is neither a yes nor a no.
     """
     if in_production(environ) or asked:
         raise NotTrustedError(

@@ -1,7 +1,7 @@
-"""The read-back: the Task in plain words as this site and this robot will have it, for a person to sign.
+"""The read-back: the Task in plain language, resolved for its site and robot, for a person to approve.
 
-First the steps, one line each; then the limits, what happens when something goes wrong, what was assumed, and what it
-will take.
+It lists the steps, one line each, then the limits, the behaviour on faults, the assumptions, and the expected
+consumption.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ __all__ = ["Line", "ReadBack", "Totals", "read_back"]
 
 @dataclass(frozen=True, kw_only=True)
 class Totals:
-    """What the mission takes on the branch that takes most of what is short: mean, and 90th percentile.
+    """Mean and 90th percentile of the consumption on the most demanding branch.
 
     Attributes:
-        metres, seconds, percent: Distance, time, and percent of a full battery, the way home included.
+        metres, seconds, percent: Distance, time, and percent of a full battery, including the drive home.
         captures: Number of captures.
-        branches: How many branches were looked at.
-        worst: Which way that branch goes, and how likely it runs short, as sentences.
+        branches: Number of branches examined.
+        worst: Sentences that describe that branch and its probability of running short.
     """
 
     metres: Figure
@@ -48,16 +48,16 @@ class Totals:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class ReadBack:
-    """A Task in words.
+    """A Task in plain language.
 
     Attributes:
         lines: The steps and the exit.
-        limits: Budgets and reserve, a sentence each.
-        faults: What happens when something goes wrong, a sentence each.
-        assumptions: What was assumed in reading the request.
-        notes: What a person may not expect of where it leads: a tie, the end of a row, trees of which nothing is known.
-        totals: What it takes.
-        usual: Those of ``limits`` and ``faults`` that every Task has which does not ask for something else.
+        limits: Budgets and reserve, one sentence each.
+        faults: Behaviour on faults, one sentence each.
+        assumptions: Assumptions made in interpreting the request.
+        notes: Limitations of the resolved places: a tie, the end of a row, trees without data.
+        totals: Expected consumption.
+        usual: Default sentences of ``limits`` and ``faults``, present unless the request overrides them.
     """
 
     lines: tuple[Line, ...]
@@ -71,10 +71,10 @@ class ReadBack:
     __repr__ = brief_repr
 
     def text_lines(self, *, usual: bool = True) -> tuple[str, ...]:
-        """Return the read-back for a terminal: steps with their numbers, then the rest.
+        """Return the read-back for a terminal: numbered steps, then the rest.
 
         Args:
-            usual: Include the limits and exits that every Task has unless it asks for something else.
+            usual: Include the default limits and exits.
         """
         left_out = frozenset() if usual else self.usual
         return (
@@ -89,12 +89,12 @@ class ReadBack:
 
 
 def read_back(task: Task, site: Site, robot: RobotProfile, estimate: Estimate) -> ReadBack:
-    """Say a Task in words.
+    """Return the read-back of a Task.
 
     Args:
         task: The Task.
-        site, robot: Where and with what it will be carried out.
-        estimate: Its estimate there; its branches tell what each selector comes to.
+        site, robot: Site and robot that will carry out the Task.
+        estimate: Estimate of the mission, whose branches supply the resolved places.
     """
     walks = [branch.walk for branch in estimate.branches]
     found = gather(task, walks, max((c.chance for c in estimate.worst.chances), default=0.0))
@@ -111,7 +111,7 @@ def read_back(task: Task, site: Site, robot: RobotProfile, estimate: Estimate) -
 
 
 def say_totals(totals: Totals) -> tuple[str, ...]:
-    """What it takes, as sentences."""
+    """Return the expected consumption as sentences."""
     m, s, p = totals.metres, totals.seconds, totals.percent
     total = counted(
         "{count} capture, about {metres} m, {time}, {percent} of the battery.",
@@ -136,12 +136,12 @@ def say_totals(totals: Totals) -> tuple[str, ...]:
 
 
 def _percent(value: float) -> str:
-    """A share in percent, which is never nothing where there is any."""
+    """Return a share in percent, rounded to a value above zero unless the share is zero."""
     return message("less than 1 %") if 0 < value < 0.5 else message("{number} %", number=say_rounded(value))
 
 
 def say_budget(budget: Budget, *, home: bool = True) -> str:
-    """A budget as a sentence. ``home``: whether the mission goes anywhere when it is done."""
+    """Return a budget as a sentence; ``home`` is True if the mission drives to an exit place at its end."""
     match budget.kind:
         case "distance_m":
             amount: str = message("{number} m of driving", number=say_number(budget.limit))
@@ -175,13 +175,13 @@ def _limits(task: Task, robot: RobotProfile) -> tuple[str, ...]:
 
 
 def _usual(task: Task, limits: Sequence[str], faults: Sequence[str]) -> frozenset[str]:
-    """Return the limits and faults that the Task has because it asks for nothing else."""
+    """Return the limits and faults that the Task has by default."""
     own = limits[len(task.constraints.budgets) :][:1] if task.constraints.reserve_percent is None else ()
     return frozenset({*own, *(faults if set(task.composition.faulted) in _usual_exits(task) else ())})
 
 
 def _usual_exits(task: Task) -> tuple[set[FaultedExit], ...]:
-    """Return the exits that planners write: as every mission has them, and with the mission's own end on low budget."""
+    """Return the default exits: the common ones, and those with the mission's own end on low budget."""
     home = task.composition.nominal
     return (
         set(FAULTED_EXITS),
@@ -190,7 +190,7 @@ def _usual_exits(task: Task) -> tuple[set[FaultedExit], ...]:
 
 
 def _faults(task: Task, site: Site) -> tuple[str, ...]:
-    """What happens about faults; those with the same end share a sentence."""
+    """Return the behaviour on faults; faults with the same exit share a sentence."""
     by_end: dict[Then, list[str]] = {}
     for taken in task.composition.faulted:
         by_end.setdefault(taken.then, []).append(FAULTS[taken.fault])
@@ -201,7 +201,7 @@ def _faults(task: Task, site: Site) -> tuple[str, ...]:
 
 
 def _notes(walks: Sequence[Walk], site: Site) -> tuple[str, ...]:
-    """Of each selector as it is met on the likeliest branch that has it, once a node."""
+    """Return the notes of each selector, once a node, from the most likely branch that reaches it."""
     seen: set[str] = set()
     found: dict[str, None] = {}
     for step in (s for walked in walks for s in walked.steps):
@@ -214,9 +214,9 @@ def _notes(walks: Sequence[Walk], site: Site) -> tuple[str, ...]:
 
 
 def _worst(estimate: Estimate, task: Task, robot: RobotProfile) -> tuple[str, ...]:
-    """Which branch is the most demanding, and the chance that it runs short of each limit."""
+    """Return sentences that describe the most demanding branch and its probability of exceeding each limit."""
     worst = estimate.worst
-    # What none of the missions drawn ran short of can still happen: that is said as less than one in a hundred.
+    # If no sampled mission ran short, the probability is still not zero: it is reported as less than one percent.
     shares = [_percent(max(100 * c.chance, 0.1)) for c in worst.chances]
     limits = [_LIMITS[c.kind] for c in worst.chances]
     short = [message("{chance} of {limit}", chance=s, limit=of) for s, of in zip(shares, limits, strict=True)]

@@ -1,4 +1,4 @@
-"""Where each node of a plan leads on this site, gathered from the walks of a forecast."""
+"""Resolved places of each plan node on the site, collected from the walks of a forecast."""
 
 from __future__ import annotations
 
@@ -13,15 +13,16 @@ from fieldhand.task.plan import Node
 
 @dataclass(frozen=True, kw_only=True)
 class Found:
-    """What a node's selector came to.
+    """The resolved places of one node.
 
     Attributes:
-        visits: The places of each time that the node was done on the likeliest branch that has it: one for an action or
-            a drive, all in their order for a for-each; for an optional step where it begins, none where it is shed.
-        shed: Places for which the budget is not expected to last.
-        known: They are the same on every branch and whatever legs cost; else they are decided on the way.
-        visit_forecast: What will probably come of optional visits, the first time.
-        short: The chance that the mission runs short, with them.
+        visits: Places for each execution of the node on the most likely branch that contains it: one for an action or
+            drive, all in order for a for-each; for an optional step its starting place, or none if it is skipped.
+        shed: Places that the budget is not expected to cover.
+        known: True if the places are the same on every branch and for any leg costs; otherwise decided during the
+            mission.
+        visit_forecast: Forecast of the optional visits in the first execution.
+        short: Probability that the mission runs short with them.
     """
 
     visits: tuple[tuple[Place, ...], ...]
@@ -32,22 +33,22 @@ class Found:
 
     @property
     def places(self) -> tuple[Place, ...]:
-        """The places of the first time."""
+        """Return the places of the first execution."""
         return self.visits[0]
 
     @property
     def one(self) -> Place | None:
-        """The one place that the node always means, if there is one."""
+        """Return the single place that the node always resolves to, or None."""
         places = {p.xy: p for visit in self.visits for p in visit}
         return next(iter(places.values())) if self.known and len(places) == 1 else None
 
 
 def gather(task: Task, walks: Sequence[Walk], short: float = 0.0) -> Mapping[str, Found]:
-    """What each selector of a plan came to, by the id of its node; nodes that no walk reached are left out.
+    """Return the resolved places of each node by its id, without nodes that no walk reached.
 
     Args:
-        task, walks: The Task on its branches.
-        short: The chance that the mission runs short.
+        task, walks: Task and its simulated branches.
+        short: Probability that the mission runs short.
     """
     doubtful = _doubtful(task.composition.plan)
     per_walk = [_of_walk(w) for w in walks]
@@ -70,11 +71,11 @@ _Visit = tuple[tuple[Place, ...], tuple[Place, ...], VisitForecast | None]
 
 
 def _of_walk(walk: Walk) -> dict[str, list[_Visit]]:
-    """The places of each node of a walk, each time that it came up."""
+    """Return the places of each node of a walk, for each execution."""
     found: dict[str, list[_Visit]] = {}
     for step in walk.steps:
         listed = step.kind == "visit-list"
-        # Of an action with a drive the action counts, of a for-each the list.
+        # An action with a drive is counted at the action, a for-each at its visit list.
         driven = step.kind == "drive" and step.node.only_drives
         done = step.kind == "act" or driven
         if listed or (done and step.node.selector is not None):
@@ -83,7 +84,7 @@ def _of_walk(walk: Walk) -> dict[str, list[_Visit]]:
 
 
 def _doubtful(plan: Node) -> frozenset[str]:
-    """Nodes with relative places in or after optional visits, or after an optional step: they hang on the budget."""
+    """Return nodes with relative places in or after optional visits or steps, which depend on the budget."""
     found: set[str] = set()
     after = False
 

@@ -1,4 +1,4 @@
-"""A plan as numbered lines: one line a step, with what it comes to on this site."""
+"""Numbered lines of a plan, one per step, with the places that it resolves to on the site."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ class Line:
     """A line of a read-back.
 
     Attributes:
-        number: Counted from 1 over the steps that do something; None for a line that only opens a branch.
-        node: Id of the plan node; of a for-each with its one action on the same line, the for-each.
-        indent: How deep it stands, from 0.
-        also: Other nodes that the line speaks of.
+        number: Step number from 1; None for a line that only introduces a branch.
+        node: Id of the plan node; the for-each, if its only action is on the same line.
+        indent: Nesting depth, from 0.
+        also: Ids of other nodes described by the line.
     """
 
     number: int | None
@@ -41,19 +41,19 @@ class Line:
 
 
 def say_place(place: Place) -> str:
-    """A place as the read-back calls it: "tree 81", "the end marker"."""
+    """Return the name of a place in the read-back: "tree 81", "the end marker"."""
     if place.kind == "tree":
         return say_tree(place.id)
     return say_marker(place.id) if place.kind == "marker" else place.id
 
 
 def write_lines(task: Task, site: Site, robot: RobotProfile, found: Mapping[str, Found]) -> tuple[Line, ...]:
-    """The plan and its nominal exit as lines.
+    """Return the plan and its nominal exit as lines.
 
     Args:
-        task: What to say.
-        site, robot: Where and with what.
-        found: What each selector comes to, from :func:`fieldhand.approval.resolved.gather`.
+        task: Task to describe.
+        site, robot: Site and robot of the mission.
+        found: Resolved places of each node, from :func:`fieldhand.approval.resolved.gather`.
     """
     writer = _Writer(robot, found)
     writer.node(task.composition.plan, 0)
@@ -62,7 +62,7 @@ def write_lines(task: Task, site: Site, robot: RobotProfile, found: Mapping[str,
 
 
 def say_exit(then: Then, site: Site) -> str:
-    """What the mission does when it is over: "Return to the end marker."."""
+    """Return the nominal end of the mission as a sentence: "Return to the end marker."."""
     if then == "stay":
         return message("Stay at the last place.")
     wanted = "end" if then == "return_to_end" else "start"
@@ -75,7 +75,7 @@ def say_exit(then: Then, site: Site) -> str:
 
 
 def say_exit_after(then: Then, site: Site) -> str:
-    """What the mission does after a fault, as the end of a sentence: "return to the end marker"."""
+    """Return the behaviour after a fault as the end of a sentence: "return to the end marker"."""
     if then == "stay":
         return message("stop and wait there")
     wanted = "end" if then == "return_to_end" else "start"
@@ -89,26 +89,26 @@ def say_exit_after(then: Then, site: Site) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class _Taken:
-    """A reading: the step that took it, and whether the robot is still at that place."""
+    """A reading: the step that took it, and a flag that the robot is still at that place."""
 
     step: int
     there: bool = True
 
 
 class _Writer:
-    """The lines written so far, and what earlier steps are called by later ones."""
+    """Writes the lines, and tracks the names by which later steps refer to earlier ones."""
 
     def __init__(self, robot: RobotProfile, found: Mapping[str, Found]) -> None:
         self.lines: list[Line] = []
         self._robot, self._found = robot, found
         self._number = 0
-        #: What a label is called, and where a reading was taken.
+        #: Description of each label, and the place of each reading.
         self._names: Names = {}
         self._taken: dict[str, _Taken] = {}
         self._moved = False
 
     def step(self, node: str, indent: int, text: str, also: tuple[str, ...] = ()) -> int:
-        """Write a line with the next number."""
+        """Write a line with the next step number."""
         self._number += 1
         self.lines.append(Line(number=self._number, node=node, indent=indent, text=shaped(text, _one_line), also=also))
         return self._number
@@ -163,7 +163,7 @@ class _Writer:
         self._took(node, number)
 
     def _at(self, node: Node, selector: Selector) -> str:
-        """A place with what it was called in the Task, or the other way round where it is decided on the way."""
+        """Return a resolved place with its wording in the Task, or the reverse if it is decided during the mission."""
         said = say_selector(selector, self._names)
         found = self._found.get(node.id)
         one = found.one if found else None
@@ -180,7 +180,7 @@ class _Writer:
         return message("{place} (decided on the way; most likely {likely})", place=said, likely=likely)
 
     def _arrived(self, label: str, node: str, number: int) -> None:
-        """The place in hand is a new one: readings taken before were taken elsewhere."""
+        """Register a new current place, so that earlier readings count as taken elsewhere."""
         self._taken = {name: replace(taken, there=False) for name, taken in self._taken.items()}
         self._moved = True
         self._name(label, node, number)
@@ -226,7 +226,7 @@ class _Writer:
             self._names[node.label] = message("the last place of step {number}", number=number)
 
     def _visits(self, node: ForEach) -> str:
-        """Which places a for-each goes to, and in which order."""
+        """Return the places that a for-each visits, with their order."""
         found = self._found.get(node.id)
         places = (*found.places, *found.shed) if found else ()
         if node.select.single and len(places) < 2:
@@ -279,7 +279,7 @@ class _Writer:
         names, taken, moved = self._names, self._taken, self._moved
         self._names, self._taken = dict(names), dict(taken)
         self.node(node.body, indent + 1)
-        # What the step binds is known inside it alone; whether the robot has moved since a reading is not known.
+        # Names bound inside an optional step are valid only there; afterwards the robot may or may not have moved.
         still = {name: t.there and self._taken[name].there for name, t in taken.items()}
         self._names, self._moved = names, moved
         self._taken = {name: replace(t, there=still[name]) for name, t in taken.items()}
@@ -293,7 +293,7 @@ class _Writer:
         if node.otherwise is not None:
             self._open(node.id, indent, message("Otherwise:"))
             self.node(node.otherwise, indent + 1)
-        # Whichever branch is taken: what only one of them did cannot be counted on.
+        # After the branches, only what both of them established is certain.
         self._names = {**then_names, **self._names}
         self._moved = self._moved and then_moved
         both = {**then_taken, **self._taken}
@@ -309,5 +309,5 @@ class _Writer:
 
 
 def _one_line(text: str) -> str:
-    """Names of zones and trees come from files and may hold line ends."""
+    """Return the text on one line, since names of zones and trees come from files and may contain line breaks."""
     return " ".join(text.split())

@@ -1,4 +1,4 @@
-"""Stops and legs of a planned mission for a map: what is certain, what hangs on a reading, what on the budget."""
+"""Stops and legs of a planned mission for a map, each certain, conditional on a reading, or subject to the budget."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ XY = tuple[float, float]
 
 @dataclass(kw_only=True)
 class Stop:
-    """A place at which something is done.
+    """A place where the mission performs actions.
 
     Attributes:
-        labels: The numbers of the read-back's steps that are done there, visits of a loop as "2.1", "2.2".
-        actions: By name, how certain it is.
+        labels: Numbers of the read-back steps performed there; visits of a loop as "2.1", "2.2".
+        actions: Certainty of each action, by action name.
     """
 
     place: Place
@@ -33,7 +33,7 @@ class Stop:
 
 @dataclass(frozen=True, kw_only=True)
 class Leg:
-    """A way that is driven."""
+    """A driven leg of the route."""
 
     points: tuple[XY, ...]
     certainty: Certainty
@@ -41,24 +41,24 @@ class Leg:
 
 @dataclass(frozen=True, kw_only=True)
 class Plan:
-    """What a map shows, in the order in which it is driven on the likeliest branch."""
+    """Stops and legs to draw, in driving order on the most likely branch."""
 
     stops: tuple[Stop, ...]
     legs: tuple[Leg, ...]
 
 
 def plan_of(task: Task, walks: Sequence[Walk], lines: Iterable[Line]) -> Plan:
-    """The stops and legs of a mission.
+    """Return the stops and legs of a mission.
 
     Args:
         task: The Task.
-        walks: Its branches; the first is drawn as a whole, of the others what it does not have.
-        lines: The read-back, for the numbers.
+        walks: Simulated branches; the first is drawn completely, the others only where they differ from it.
+        lines: Lines of the read-back, which supply the step numbers.
     """
     numbers: dict[str, int] = {}
     for line in lines:
         if line.number is not None:
-            # The exit stands at the root of the plan, which may have a line of its own before.
+            # The exit belongs to the root of the plan, which may already have a line.
             numbers.setdefault(line.node, line.number)
     gatherer = _Gatherer(task, walks, numbers)
     for k, walked in enumerate(walks):
@@ -76,7 +76,7 @@ class _Gatherer:
         self._always = frozenset.intersection(*map(frozenset, seen)) if seen else frozenset()
 
     def add(self, walked: Walk, *, first: bool) -> None:
-        """Add a branch; of all but the first only what no budget decides on."""
+        """Add a branch; all but the first only up to the first step that depends on the budget."""
         visits: dict[str, int] = {}
         after_optional = from_optional = False
         for step in walked.steps:
@@ -87,7 +87,7 @@ class _Gatherer:
                 visits[step.node.id] = 0
             certainty = self._certainty(step, after_optional)
             if step.drive is not None:
-                # A way that begins where the budget decides is as uncertain as that, wherever it leads.
+                # A leg that starts at an optional stop is as uncertain as that stop, whatever its destination.
                 way: Certainty = "budget" if from_optional else certainty
                 self.legs.setdefault(step.drive.points, Leg(points=step.drive.points, certainty=way))
                 from_optional = step.node.id in self._optional
@@ -111,7 +111,7 @@ class _Gatherer:
             visits[step.node.id] = visits.get(step.node.id, 0) + 1
             label = f"{label}.{visits[step.node.id]}"
         elif any(known.partition(".")[2] for known in stop.labels) and act is not None and act.at is None:
-            label = ""  # the visit's own number stands for what is done there
+            label = ""  # the number of the visit already covers this action
         if label and label not in stop.labels:
             stop.labels.append(label)
         if act is not None:
@@ -130,5 +130,5 @@ def _key(step: WalkStep) -> tuple[str, str, tuple[XY, ...]]:
 
 
 def _of_optional(plan: Node) -> frozenset[str]:
-    """The nodes that the budget decides on, and those inside them."""
+    """Return the ids of the optional nodes and of all nodes inside them."""
     return frozenset(inner.id for node in walk(plan) if node.is_optional for inner in walk(node))

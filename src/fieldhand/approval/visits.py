@@ -1,4 +1,4 @@
-"""What a line says of the places that it goes to: by name, in which order, and how many of them to expect."""
+"""Text about the places of a step: names, order of visits, and expected number of visits."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from fieldhand.places.selector import Selector
 from fieldhand.places.wording import say_places, say_selector
 from fieldhand.task.plan import ForEach
 
-#: Optional visits that are less likely than this are named as those that go first, where they are no more than so many.
+#: Optional visits with a probability below the first value are named, if there are no more than the second.
 _SURE, _NAMED = 0.9, 6
 
 
 def say_expected(found: Found | None) -> str:
-    """Whether an optional step fits by the estimate; how often, where it comes up more than once."""
+    """Return the forecast for an optional step: it fits the budget or not, or how often if it is repeated."""
     if found is None:
         return ""
     fit, times = sum(bool(visit) for visit in found.visits), len(found.visits)
@@ -24,7 +24,7 @@ def say_expected(found: Found | None) -> str:
 
 
 def say_expected_visits(found: Found | None) -> str:
-    """How many optional visits are made on average, the chance of running short, and the few that go first."""
+    """Return the expected number of optional visits, the probability of running short, and the visits dropped first."""
     if found is None or found.visit_forecast is None:
         return ""
     chance = message(
@@ -45,7 +45,7 @@ def say_expected_visits(found: Found | None) -> str:
 
 
 def say_ids(selector: Selector, found: Found | None) -> str:
-    """The places by name, where they are few and their names are not said yet."""
+    """Return the ids of the places if they are few and not named yet."""
     if found is None:
         return ""
     ids = tuple(p.id for p in found.places)
@@ -57,7 +57,7 @@ def say_ids(selector: Selector, found: Found | None) -> str:
 
 
 def in_order(node: ForEach, at: str, count: int) -> str:
-    """The places with the order in which they are visited, where there are several."""
+    """Return the text of the places with the order of visits, if there are several."""
     if count < 2:
         return at
     if node.order == "given":

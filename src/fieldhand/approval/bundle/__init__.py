@@ -1,1 +1,1 @@
-"""A mission as one signed file: a zip that any tool opens, and that nobody can change unseen."""
+"""A mission as one signed, tamper-evident file: a zip archive that any tool can open."""

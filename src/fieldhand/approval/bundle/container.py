@@ -1,8 +1,8 @@
-"""The zip around a mission. There is one way to write it, byte by byte; a file that is written otherwise is refused.
+"""The zip container of a mission, written in one canonical byte layout; any other layout is refused.
 
-So a bundle has one SHA-256, whoever packs it; a changed bit anywhere, in a date or in a field that nobody reads, is
-seen; and no two programs can see different files in it. Nothing is compressed: what comes out is never more than what
-came in, and no decompressor meets bytes that nobody has vouched for.
+The same mission therefore always has the same SHA-256, whoever packs it; every changed bit is detected, even in dates
+and unused fields; and two programs cannot read different files from it. Files are stored without compression, so
+that unpacked data cannot exceed the size of the file and no decompressor processes unverified bytes.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ from fieldhand.errors import BundleError
 from fieldhand.files import FileFault, read_file
 from fieldhand.language import message, recalled
 
-#: Of the whole file: a site of 100 MB, the most that is read, and what belongs to it.
+#: Maximum size of the file: a site of 100 MB, the largest that is read, plus the other members.
 MAX_BYTES = 128_000_000
 MAX_MEMBERS = 12
 MANIFEST, SIGNATURE, TASK, ROBOT = "manifest.json", "signature.txt", "task.xml", "robot.yaml"
-#: The site under one name, whatever its file was called; a Shapefile has several parts.
+#: Member names of the site, independent of its original file name; a Shapefile has several parts.
 SITE_MEMBER = re.compile(r"site(\.[a-z0-9]{1,10})?")
-#: What each may have at most, before it is read.
+#: Maximum size of each member in bytes, checked before reading it.
 _MOST = {MANIFEST: 1_000_000, SIGNATURE: 1_000, TASK: 4_000_000, ROBOT: 1_000_000}
 _FIRST = (MANIFEST, SIGNATURE, TASK, ROBOT)
 _MIDNIGHT = (1980, 1, 1, 0, 0, 0)
@@ -35,10 +35,10 @@ _AGAIN = "ask for the file again from whoever approved it"
 
 
 def wrap(members: Mapping[str, bytes]) -> bytes:
-    """The zip file of these members: the same bytes for the same members.
+    """Pack the members into a zip file; equal members give equal bytes.
 
     Raises:
-        BundleError: It would be larger than a bundle may be.
+        BundleError: The zip file would exceed the maximum size.
     """
     for name, data in members.items():
         most = _MOST.get(name, MAX_BYTES)
@@ -58,14 +58,14 @@ def wrap(members: Mapping[str, bytes]) -> bytes:
 
 
 def unwrap(data: bytes, *, source: str) -> dict[str, bytes]:
-    """The members of a bundle.
+    """Return the members of a bundle.
 
     Args:
         data: The file.
-        source: What to call it in messages.
+        source: Name of the bundle in error messages.
 
     Raises:
-        BundleError: It is no zip file, or not one that :func:`wrap` wrote: damaged, changed, packed by another tool.
+        BundleError: The data is not a zip file as written by :func:`wrap`: damaged, changed, or packed by another tool.
     """
     if len(data) > MAX_BYTES:
         raise too_big(len(data), source)
@@ -85,10 +85,10 @@ def unwrap(data: bytes, *, source: str) -> dict[str, bytes]:
 
 
 def read_bundle_file(path: Path) -> bytes:
-    """The bytes of a bundle; what is too big to be one is not read.
+    """Read a bundle from a file, refusing oversized files before reading them.
 
     Raises:
-        BundleError: It is missing, no file, empty, too big, or cannot be read.
+        BundleError: The file is missing, not a regular file, empty, too large, or unreadable.
     """
     at = str(path)
     try:
@@ -104,7 +104,7 @@ def read_bundle_file(path: Path) -> bytes:
 
 
 def too_big(size: int, source: str) -> BundleError:
-    """That a file is too big to be a bundle."""
+    """Return the error for a file that is too large to be a bundle."""
     return BundleError(
         f"has {size / 1e6:,.0f} MB, more than the {MAX_BYTES / 1e6:,.0f} MB of the largest mission",
         where=source,
@@ -117,7 +117,7 @@ def _in_order(members: Mapping[str, bytes]) -> list[str]:
 
 
 def _require_plain_end(data: bytes, source: str) -> None:
-    """Look at the end of the file before the zip reader does: it would believe it of a million members."""
+    """Check the end-of-archive record before the zip reader does, which would trust any member count in it."""
     if not data.startswith(b"PK\x03\x04"):
         what = "is empty" if not data else "is no mission bundle: not a zip file"
         raise BundleError(what, where=source, advice="give a file that fieldhand approve wrote")
@@ -132,7 +132,7 @@ def _require_plain_end(data: bytes, source: str) -> None:
 
 
 def _require_names(infos: list[zipfile.ZipInfo], source: str) -> None:
-    """Exactly the members of a mission, each once."""
+    """Require exactly the members of a mission, each once."""
     names = [info.filename for info in infos]
     for name in names:
         path = PurePosixPath(name)
@@ -152,7 +152,7 @@ def _require_names(infos: list[zipfile.ZipInfo], source: str) -> None:
 
 
 def _require_plain(info: zipfile.ZipInfo, source: str) -> None:
-    """A member that is stored as it is, no link, and no larger than it may be."""
+    """Require a member that is stored uncompressed, is not a link, and does not exceed its maximum size."""
     if info.flag_bits & 0x1:
         raise BundleError(f"{info.filename} is encrypted", where=source, advice=_AGAIN)
     if stat.S_IFMT(info.external_attr >> 16) not in (0, stat.S_IFREG):

@@ -1,4 +1,4 @@
-"""The manifest of a bundle: who approved what, when, and the hash of every file that belongs to it."""
+"""The manifest of a bundle: approver, time of approval, and the hash of every file in the bundle."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from fieldhand.approval.bundle.container import MANIFEST
 from fieldhand.errors import BundleError
 from fieldhand.visible import find_hidden, json_text
 
-#: Of the bundle as it is written. A reader takes this one and ``UNDATED``, which an earlier version wrote: without a
-#: number, and without a date until which it may begin. A newer one may mean something else by the same words.
+#: Format versions: the one written, and the older one still read, which lacks an approval number and an expiry date.
+#: Newer versions are refused, because their fields may have another meaning.
 FORMAT, UNDATED = 2, 1
-#: How long an approval may be begun: the longest, which also holds for one that does not say it, and the usual.
+#: Validity of an approval: the maximum, which also applies where none is given, and the default.
 LONGEST_VALID, USUALLY_VALID = timedelta(days=366), timedelta(days=90)
 
 
 def _printable(text: str) -> str:
-    """Return the text if a person can see all of it; a request may have several lines."""
+    """Return the text if every character is visible; line breaks are allowed."""
     hidden = find_hidden(text, lines=True)
     if hidden is not None:
         raise ValueError(f"holds the character {hidden.name}, which nobody can see")
@@ -60,11 +60,11 @@ class _Part(BaseModel):
 
 
 class Approved(_Part):
-    """An approval: by whom, when, what was confirmed, and in which language it was read (ISO 639).
+    """An approval: the approver, the time, the confirmed warnings, and the language of the read-back (ISO 639).
 
     Attributes:
-        until: Until when the mission may be begun.
-        number: Of this signer's approvals; a later one has a higher number.
+        until: Latest time at which the mission may start.
+        number: Sequence number among this signer's approvals, rising.
     """
 
     by: Line
@@ -76,7 +76,7 @@ class Approved(_Part):
 
 
 class TaskPart(_Part):
-    """The Task: its document is ``task.xml``."""
+    """The Task, stored as ``task.xml``."""
 
     id: Line
     sha256: Sha256
@@ -88,10 +88,10 @@ class SitePart(_Part):
     """The site.
 
     Attributes:
-        file: What its file was called: reading it depends on the ending, and the site's name may.
-        sha256: Of its bytes, as the approval has it.
-        content_sha256: Of what was read from them: whoever reads them again must come to the same.
-        lenient: Whether what is unsound was left out.
+        file: Original name of the site file; its extension selects the reader, and it may name the site.
+        sha256: SHA-256 of the site's bytes, as in the approval.
+        content_sha256: SHA-256 of the parsed site, which every later reading must reproduce.
+        lenient: True if invalid parts of the site were skipped in reading it.
     """
 
     name: Annotated[str, Field(max_length=200), AfterValidator(_printable)]
@@ -102,18 +102,18 @@ class SitePart(_Part):
 
 
 class RobotPart(_Part):
-    """The robot: its profile is ``robot.yaml``."""
+    """The robot, whose profile is stored as ``robot.yaml``."""
 
     name: Line
     sha256: Sha256
 
 
 class Manifest(_Part):
-    """What is signed.
+    """The signed content of a bundle.
 
     Attributes:
-        program: What wrote it, with its version.
-        files: SHA-256 of every other file of the bundle, but for the signature, by name.
+        program: Name and version of the program that wrote the bundle.
+        files: SHA-256 of every other file of the bundle except the signature, by name.
     """
 
     format: int
@@ -140,26 +140,26 @@ class Manifest(_Part):
 
     @property
     def until(self) -> datetime:
-        """Until when the mission may be begun."""
+        """Return the latest time at which the mission may start."""
         until = self.approved.until
         return self.approved_at + LONGEST_VALID if until is None else datetime.fromisoformat(until)
 
     @property
     def number(self) -> int:
-        """Return the number of this approval, higher for later ones of a signer; its date in seconds if it has none."""
+        """Return the rising number of this approval, or its time in seconds if it has none."""
         number = self.approved.number
         return int(self.approved_at.timestamp()) if number is None else number
 
     def document(self) -> bytes:
-        """As it stands in the bundle: JSON, UTF-8, the same for the same manifest."""
+        """Return the bytes stored in the bundle: canonical JSON in UTF-8."""
         return (json_text(self.model_dump(exclude_none=True), indent=2) + "\n").encode()
 
 
 def parse_manifest(data: bytes, *, source: str) -> Manifest:
-    """The manifest of a bundle.
+    """Parse the manifest of a bundle.
 
     Raises:
-        BundleError: It is no manifest, or one of a format that is not known.
+        BundleError: The data is not a manifest, or its format version is unknown.
     """
     at = f"{source}, {MANIFEST}"
     content = _content(data, at)

@@ -1,7 +1,7 @@
-"""The site in a bundle: its own files, as they were read, under names that mean nothing to any file system.
+"""The site in a bundle: its original files, byte for byte, under neutral member names.
 
-Not a rewritten one: approvals and Tasks name the SHA-256 of the site's bytes, a rewritten file has another, and corners
-of zones would move by the rounding of their projection.
+The site is not rewritten, because approvals and Tasks cite the SHA-256 of the original bytes, and because projecting
+zone corners again would move them by rounding.
 """
 
 from __future__ import annotations
@@ -16,26 +16,26 @@ from fieldhand.site.formats.records import SHAPEFILE_PARTS
 
 
 def site_members(files: SiteFiles) -> dict[str, bytes]:
-    """The files of a site by their names in the bundle."""
+    """Return the files of a site by member name."""
     return {member_name(name): data for name, data in files.parts.items()}
 
 
 def member_name(file: str) -> str:
-    """``site`` with the ending of the file, if it has a plain one."""
+    """Return the member name: ``site`` plus the file's extension, if it has a plain one."""
     name = f"site{Path(file).suffix.lower()}"
     return name if SITE_MEMBER.fullmatch(name) else "site"
 
 
 def site_files_of(members: Mapping[str, bytes], file: str, *, source: str) -> SiteFiles:
-    """The files of the site as they were read before they were packed.
+    """Return the files of the site as they were read before packing.
 
     Args:
-        members: Of the bundle.
-        file: What the main file was called.
-        source: What to call the bundle in messages.
+        members: Members of the bundle.
+        file: Original name of the main file.
+        source: Name of the bundle in error messages.
 
     Raises:
-        BundleError: The main file is missing, or there are parts that belong to no Shapefile.
+        BundleError: The main file is missing, or a part belongs to no Shapefile.
     """
     held = {name: data for name, data in members.items() if SITE_MEMBER.fullmatch(name)}
     main = member_name(file)

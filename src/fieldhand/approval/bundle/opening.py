@@ -1,4 +1,4 @@
-"""A bundle, checked before anything of it is used: container, signature, trust, manifest, every byte."""
+"""Open a bundle and verify it before use: container, signature, trust, manifest, every byte."""
 
 from __future__ import annotations
 
@@ -26,19 +26,19 @@ from fieldhand.task.codec import decode, encode
 from fieldhand.task.frames import Task
 from fieldhand.task.schema import require_valid
 
-#: Clocks of two machines differ by a time zone that is set wrongly; by more only if one of them is wrong altogether.
+#: Maximum clock difference between two machines: one day covers a wrong time zone.
 FUTURE_ALLOWED = timedelta(days=1)
 _AGAIN = message("ask for the file again from whoever approved it")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Sealed:
-    """A bundle whose signature is good, whoever made it.
+    """A bundle with a valid signature, made by a trusted or an unknown key.
 
     Attributes:
-        members: Its files by name.
-        hashes: SHA-256 of the whole (``bundle``) and of each file.
-        source: What to call it in messages.
+        members: Files by member name.
+        hashes: SHA-256 of the whole bundle (key ``bundle``) and of each file.
+        source: Name of the bundle in error messages.
     """
 
     members: Mapping[str, bytes]
@@ -49,7 +49,7 @@ class Sealed:
 
 @dataclass(frozen=True, kw_only=True)
 class Content:
-    """What was approved, read again from the bytes that were approved."""
+    """The approved Task, site and robot profile, read from the approved bytes."""
 
     task: Task
     site: Site
@@ -61,15 +61,15 @@ class Content:
 
 @dataclass(frozen=True, kw_only=True)
 class Bundle:
-    """A mission that may run here.
+    """A verified mission that may run on this machine.
 
     Attributes:
-        authorized: The Task with its authorization, as it was signed.
-        site, robot: For which it was approved.
-        files, profile: What these were read from, byte for byte.
-        signer: The trusted key that signed it.
-        hashes: SHA-256 of the whole (``bundle``) and of each file: what was verified, for whoever sent it.
-        data: The bundle itself, for whoever keeps it to check it again.
+        authorized: Task with its authorization, as signed.
+        site, robot: Site and robot profile of the approval.
+        files, profile: Original bytes of the site and the robot profile.
+        signer: Trusted key that signed the bundle.
+        hashes: SHA-256 of the whole bundle (key ``bundle``) and of each file, for the sender's receipt.
+        data: Bytes of the bundle, for verifying it again later.
     """
 
     authorized: AuthorizedTask
@@ -84,18 +84,18 @@ class Bundle:
 
 
 def open_bundle(data: bytes, *, source: str, known: Mapping[str, KnownKey], now: datetime) -> Bundle:
-    """A mission from a bundle that a trusted person has signed.
+    """Verify a bundle and return the mission signed by a trusted person.
 
     Args:
-        data: The file.
-        source: What to call it in messages.
-        known: The keys that this machine knows (:meth:`fieldhand.approval.keys.trust.TrustStore.known`).
-        now: With time zone.
+        data: Bytes of the bundle.
+        source: Name of the bundle in error messages.
+        known: Keys known to this machine (:meth:`fieldhand.approval.keys.trust.TrustStore.known`).
+        now: Current time, with time zone.
 
     Raises:
-        BundleError: It is no bundle, was damaged or changed, or is of another format.
-        NotTrustedError: Its key is unknown here, or was revoked.
-        SiteError, ProfileError, TaskError: What was signed cannot be used here.
+        BundleError: The data is not a bundle, is damaged or changed, or has another format version.
+        NotTrustedError: The signing key is unknown here or revoked.
+        SiteError, ProfileError, TaskError: A signed file cannot be used here.
     """
     sealed = unseal(data, source=source)
     signer = require_trusted(sealed, known)
@@ -114,10 +114,10 @@ def open_bundle(data: bytes, *, source: str, known: Mapping[str, KnownKey], now:
 
 
 def unseal(data: bytes, *, source: str) -> Sealed:
-    """A bundle whose signature is one of its manifest; says nothing of who signed it.
+    """Unpack a bundle and verify its signature, without checking trust in the signer.
 
     Raises:
-        BundleError: It is no bundle, or its signature is broken.
+        BundleError: The data is not a bundle, or its signature is invalid.
     """
     members = unwrap(data, source=source)
     signature = require_signature(members[SIGNATURE], members[MANIFEST], source=source)
@@ -126,10 +126,10 @@ def unseal(data: bytes, *, source: str) -> Sealed:
 
 
 def require_trusted(sealed: Sealed, known: Mapping[str, KnownKey]) -> KnownKey:
-    """The key that signed, if it is trusted here.
+    """Return the signing key if this machine trusts it.
 
     Raises:
-        NotTrustedError: It is unknown, or was revoked.
+        NotTrustedError: The key is unknown or revoked.
     """
     fingerprint = sealed.signature.public.fingerprint
     key = known.get(fingerprint)
@@ -156,10 +156,10 @@ def require_trusted(sealed: Sealed, known: Mapping[str, KnownKey]) -> KnownKey:
 
 
 def manifest_of(sealed: Sealed, *, now: datetime) -> Manifest:
-    """Return the manifest, held against the files of the bundle. Nothing else is read of them.
+    """Return the manifest after checking its file list against the bundle; no other file is parsed.
 
     Raises:
-        BundleError: The manifest cannot be used, or a file is not the one that it names.
+        BundleError: The manifest is invalid, or a file differs from the one that it lists.
     """
     manifest = parse_manifest(sealed.members[MANIFEST], source=sealed.source)
     _require_files(manifest, sealed)
@@ -168,16 +168,16 @@ def manifest_of(sealed: Sealed, *, now: datetime) -> Manifest:
 
 
 def content_of(sealed: Sealed, *, now: datetime, stranger: bool = False) -> Content:
-    """Task, site and robot, read again and held against the manifest.
+    """Read Task, site and robot profile from the bundle and check them against the manifest.
 
     Args:
         sealed: The bundle.
-        now: With time zone.
-        stranger: Nobody who is trusted here signed it: a site that takes a program like GDAL to read is not read.
+        now: Current time, with time zone.
+        stranger: The signer is not trusted; site formats that need an external library such as GDAL are refused.
 
     Raises:
-        NotTrustedError: It is of a stranger, and has such a site.
-        BundleError: The manifest cannot be used, a file is not the one that it names, or is read otherwise here.
+        NotTrustedError: The signer is not trusted and the site needs such a library.
+        BundleError: The manifest is invalid, a file differs from the listed one, or is read differently here.
         SiteError, ProfileError, TaskError: One of the files cannot be used.
     """
     source, members = sealed.source, sealed.members
@@ -208,7 +208,7 @@ def content_of(sealed: Sealed, *, now: datetime, stranger: bool = False) -> Cont
 
 
 def authorization_of(manifest: Manifest) -> Authorization:
-    """What the manifest says of the approval."""
+    """Return the authorization recorded in the manifest."""
     approved = manifest.approved
     return Authorization(
         by=approved.by,
@@ -222,7 +222,7 @@ def authorization_of(manifest: Manifest) -> Authorization:
 
 
 def _require_files(manifest: Manifest, sealed: Sealed) -> None:
-    """Every byte: the files are those that the manifest names, no more and no fewer."""
+    """Require exactly the files listed in the manifest, byte for byte."""
     named = manifest.files
     held = {name: sha256 for name, sha256 in sealed.hashes.items() if name not in ("bundle", MANIFEST, SIGNATURE)}
     wrong = sorted(name for name in named.keys() | held.keys() if named.get(name) != held.get(name))
@@ -233,7 +233,7 @@ def _require_files(manifest: Manifest, sealed: Sealed) -> None:
 
 
 def _require_past(manifest: Manifest, now: datetime, source: str) -> None:
-    """A date far ahead authorizes nothing more; but then a clock is wrong, and every time in the log would be, too."""
+    """Refuse an approval date in the future: one of the clocks is wrong, and so would be every time in the log."""
     if datetime.fromisoformat(manifest.approved.at) > now + FUTURE_ALLOWED:
         raise BundleError(
             message(

@@ -1,4 +1,4 @@
-"""A bundle from an approval: the manifest, its signature, and the files that were approved."""
+"""Pack an approved mission: the manifest, its signature, and the approved files."""
 
 from __future__ import annotations
 
@@ -43,21 +43,21 @@ def pack(
     valid_for: timedelta = USUALLY_VALID,
     number: int | None = None,
 ) -> bytes:
-    """The signed bundle: the same bytes for the same approval and key.
+    """Return the signed bundle; the same approval and key give the same bytes.
 
     Args:
-        authorized: What approval gave.
-        site, robot: For which it was approved.
-        files: From which the site was read; ``lenient`` says how.
-        profile: The YAML from which the robot was read.
-        key: Of the person who approves.
-        planner: Who planned the Task.
-        valid_for: How long after the approval the mission may be begun.
-        number: Of this signer's approvals (:meth:`fieldhand.approval.keys.signing.SigningKeys.next_number`); by default
-            the date in seconds.
+        authorized: Approved Task with its authorization.
+        site, robot: Approved site and robot profile.
+        files: Source files of the site, read with ``lenient``.
+        profile: Source YAML of the robot profile.
+        key: Signing key of the approver.
+        planner: Name of the planner that made the Task.
+        valid_for: Period after the approval within which the mission may start.
+        number: Sequence number among this signer's approvals
+            (:meth:`fieldhand.approval.keys.signing.SigningKeys.next_number`); by default the approval time in seconds.
 
     Raises:
-        BundleError: The files are not those that were approved, cannot be read again to the same, or are too large.
+        BundleError: The files differ from the approved ones, cannot be read back identically, or are too large.
     """
     authorization = authorized.authorization
     at = datetime.fromisoformat(authorization.at)
@@ -99,6 +99,6 @@ def pack(
     signed = manifest.document()
     members |= {MANIFEST: signed, SIGNATURE: sign_manifest(signed, key).text()}
     data = wrap(members)
-    # What is given away has been opened once, as the robot will.
+    # Open every bundle once before handing it out, as the robot will.
     content_of(unseal(data, source="the bundle"), now=at)
     return data

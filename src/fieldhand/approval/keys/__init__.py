@@ -1,1 +1,1 @@
-"""Who may approve: keys of those who sign, and on a robot the keys that it trusts."""
+"""Keys for approval: a person's signing keys and the keys that a robot trusts."""

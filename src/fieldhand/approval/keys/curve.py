@@ -1,8 +1,8 @@
-"""Ed25519 public keys that are safe to trust (RFC 8032, section 5.1).
+"""Validation of Ed25519 public keys (RFC 8032, section 5.1).
 
-Libraries verify with any point that they can decode. With a point of small order, signatures can be made that hold for
-almost any message, without a private key; with other points outside the group of prime order, or written in another
-than the one form, one key has several names. A key that was made as the standard says is a point of order L.
+Cryptographic libraries accept any point that they can decode. A point of small order admits signatures valid for
+almost any message without a private key; other points outside the prime-order group, and non-canonical encodings,
+give one key several representations. A key generated according to the standard is a point of order L.
 """
 
 from __future__ import annotations
@@ -12,19 +12,19 @@ _L = 2**252 + 27742317777372353535851937790883648493
 _D = -121665 * pow(121666, _P - 2, _P) % _P
 _ROOT = pow(2, (_P - 1) // 4, _P)
 
-#: Extended coordinates: X, Y, Z, T with x = X/Z, y = Y/Z, x y = T/Z.
+#: Point in extended coordinates X, Y, Z, T with x = X/Z, y = Y/Z, x y = T/Z.
 _Point = tuple[int, int, int, int]
 _ZERO: _Point = (0, 1, 1, 0)
 
 
 def is_sound(raw: bytes) -> bool:
-    """Return True if 32 bytes are the one encoding of a point of order L on the curve."""
+    """Return True if the 32 bytes are the canonical encoding of a point of order L on the curve."""
     point = _decoded(raw)
     return point is not None and not _is_zero(point) and _is_zero(_times(_L, point))
 
 
 def _decoded(raw: bytes) -> _Point | None:
-    """Return the point with this encoding; None if there is none, or it has another encoding, too."""
+    """Return the point with this encoding, or None if the encoding is invalid or not canonical."""
     if len(raw) != 32:
         return None
     number = int.from_bytes(raw, "little")

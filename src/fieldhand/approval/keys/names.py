@@ -1,10 +1,10 @@
-"""Names of keys: what a person reads when deciding whom to trust, so that each can be read in one way only.
+"""Names of keys, restricted so that a person deciding about trust cannot confuse them.
 
-A name is one line of letters of one script, digits 0 to 9, single spaces and punctuation. Refused are letters of two
-scripts, which may look alike (the a of Latin and of Cyrillic), hidden characters, and the other forms of a letter that
-Unicode has (full width, in a circle). Only scripts that are in common use today are taken, and of those that look like
-each other only the letters of living languages: so the table of letters that look alike has an end. Names of one script
-can look alike, too: :func:`look_alike` finds those that do (Unicode Technical Standards 39 and Annex 31).
+A name is one line of letters of one script, digits 0 to 9, single spaces and punctuation. Letters of two scripts,
+which may look alike (Latin and Cyrillic a), hidden characters, and compatibility forms of letters (full width,
+circled) are refused. Only scripts in common use are accepted, and of scripts that resemble each other only the
+letters of living languages, which bounds the table of similar letters. Names of one script can look alike, too:
+:func:`look_alike` detects them (Unicode Technical Standards 39 and Annex 31).
 """
 
 # ruff: noqa: RUF001
@@ -17,7 +17,7 @@ from fieldhand.errors import KeyFileError
 from fieldhand.visible import find_hidden, visible
 
 MAX_NAME = 80
-#: Scripts that are written together in one name.
+#: Combinations of scripts accepted in one name.
 _TOGETHER = (frozenset({"CJK", "HIRAGANA", "KATAKANA"}), frozenset({"CJK", "HANGUL"}), frozenset({"CJK", "BOPOMOFO"}))
 #: Scripts in common use, by the first word of the names of their letters (Unicode Standard Annex 31, Table 5).
 _SCRIPTS = frozenset({
@@ -25,14 +25,14 @@ _SCRIPTS = frozenset({
     "BENGALI", "GURMUKHI", "GUJARATI", "ORIYA", "TAMIL", "TELUGU", "KANNADA", "MALAYALAM", "SINHALA", "THAI", "LAO",
     "TIBETAN", "MYANMAR", "KHMER", "HANGUL", "CJK", "HIRAGANA", "KATAKANA", "BOPOMOFO",
 })  # fmt: skip
-#: Letters without marks of living languages in the scripts that look like Latin. The table below covers these.
+#: Letters (without marks) of living languages in scripts that resemble Latin; covered by the table below.
 _LETTERS = {
     "LATIN": re.compile("[A-Za-zßæœøłđðþıħŋəɓɗɖƙƴƒɛɔɣʋÆŒØŁĐÐÞĦŊƏƁƊƉƘƳƑƐƆƔƲ]"),
     "GREEK": re.compile("[\u0391-\u03a9\u03b1-\u03c9]"),
     "CYRILLIC": re.compile("[\u0402-\u044f\u0452-\u045f\u0490-\u04ff]"),
     "ARMENIAN": re.compile("[\u0531-\u0556\u0561-\u0586]"),
 }
-#: Letters that look like others, as they are written, and what they look like (Unicode's confusables of these letters).
+#: Letters and the letters that they resemble, from Unicode's confusables.
 _LOOKS_LIKE = str.maketrans(
     {
         **dict(zip("АВЕЅІЈКМНОРСТУХԚԜӀЗӠҮЬӨӘГПФЛ", "ABESIJKMHOPCTYXQWI33YbΘƏΓΠΦΛ", strict=True)),
@@ -46,16 +46,16 @@ _LOOKS_LIKE = str.maketrans(
         **dict(zip("ЫыЮюӔӕӇӋє", ("bI", "bi", "IO", "io", "AE", "ae", "Ӊ", "Ҷ", "e"), strict=True)),
     }
 )
-#: After case folding: what is told apart by a good font alone.
+#: Characters that only a good font distinguishes, after case folding.
 _HARDLY_APART = str.maketrans(dict(zip("l1|!ǀǃ0", "iiiiiio", strict=True)))
 _LIKE_PAIRS = (("rn", "m"), ("vv", "w"), ("æ", "ae"), ("œ", "oe"), ("ci", "d"))
 
 
 def clean_name(name: str, source: str = "--name") -> str:
-    """Return the name of a key in its one form (NFC), without spaces around it.
+    """Return the name of a key in normalized form (NFC), without surrounding spaces.
 
     Raises:
-        KeyFileError: It can be taken for another one, is empty or too long; the message names the character.
+        KeyFileError: The name is ambiguous, empty or too long; the message names the offending character.
     """
     name = unicodedata.normalize("NFC", name.strip(" \t\r\n"))
     why = _fault(name)
@@ -69,7 +69,7 @@ def clean_name(name: str, source: str = "--name") -> str:
 
 
 def skeleton(name: str) -> str:
-    """Return what is left of a name when everything is taken away that a person may overlook."""
+    """Return a name reduced to the features that a person is sure to notice."""
     plain = unicodedata.normalize("NFKD", name).translate(_LOOKS_LIKE).casefold().translate(_HARDLY_APART)
     text = "".join(c for c in plain if unicodedata.category(c)[0] in "LN")
     for pair, one in _LIKE_PAIRS:
@@ -78,7 +78,7 @@ def skeleton(name: str) -> str:
 
 
 def look_alike(one: str, other: str) -> bool:
-    """Return True if a person may take one name for the other, also where one is in capitals."""
+    """Return True if a person may mistake one name for the other, ignoring case."""
     return skeleton(one) == skeleton(other) or _bare(one) == _bare(other)
 
 
@@ -87,7 +87,7 @@ def _bare(name: str) -> str:
 
 
 def _fault(name: str) -> str:
-    """Return why a text is no name; empty if it is one."""
+    """Return the reason why a text is not a valid name, or an empty string if it is valid."""
     if not name:
         return "it is empty"
     if len(name) > MAX_NAME:

@@ -1,4 +1,4 @@
-"""A public key (Ed25519, RFC 8032) as one line that can be sent by mail, and its fingerprint, to be read out."""
+"""Ed25519 public keys (RFC 8032): a one-line text form for sending and a fingerprint for reading aloud."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from fieldhand.approval.keys.curve import is_sound
 from fieldhand.approval.keys.names import clean_name
 from fieldhand.errors import KeyFileError
 
-#: What a line with a public key begins with.
+#: First word of a line with a public key.
 MARK = "fieldhand-ed25519"
 KEY_BYTES = 32
-#: 160 bits: nobody finds a second key with the same fingerprint.
+#: A length of 160 bits makes a second key with the same fingerprint infeasible.
 _FINGERPRINT_BYTES = 20
 _LINE = re.compile(rf"[>\s]*{MARK} +([A-Za-z0-9+/=]+)(?: +(.*))?")
 
 
 @dataclass(frozen=True, kw_only=True)
 class PublicKey:
-    """A key with which signatures are checked.
+    """A public key for verifying signatures.
 
     Attributes:
-        raw: Its 32 bytes.
-        name: Of whom it is, as its owner says; empty if nothing is said.
+        raw: Key as 32 bytes.
+        name: Owner's name as stated by the owner; may be empty.
     """
 
     raw: bytes
@@ -34,16 +34,16 @@ class PublicKey:
 
     @property
     def fingerprint(self) -> str:
-        """Eight groups of four letters and digits (base 32, without 0, 1, 8 and 9), of the SHA-256 of the key."""
+        """Return eight groups of four characters (base 32, without 0, 1, 8 and 9) from the SHA-256 of the key."""
         text = base64.b32encode(hashlib.sha256(self.raw).digest()[:_FINGERPRINT_BYTES]).decode()
         return grouped(text)
 
     def line(self) -> str:
-        """The key as one line of text; :func:`parse_public` reads it."""
+        """Return the key as one line of text, readable by :func:`parse_public`."""
         return " ".join(part for part in (MARK, base64.b64encode(self.raw).decode(), self.name) if part)
 
     def verifies(self, signature: bytes, message: bytes) -> bool:
-        """Return True if the key's owner signed exactly this message; False for a key that nobody can own."""
+        """Return True if the signature over this message is valid; always False for an unsafe key."""
         from cryptography.exceptions import InvalidSignature
         from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PublicKey
 
@@ -57,10 +57,10 @@ class PublicKey:
 
 
 def parse_public(text: str, *, source: str) -> PublicKey:
-    """The public key in a text, such as a mail that holds its line.
+    """Parse the single public key in a text, such as a mail that contains its line.
 
     Raises:
-        KeyFileError: There is none, or more than one.
+        KeyFileError: The text contains no key, or several.
     """
     if "PRIVATE KEY" in text:
         raise KeyFileError(
@@ -78,10 +78,10 @@ def parse_public(text: str, *, source: str) -> PublicKey:
 
 
 def parse_fingerprint(text: str) -> str:
-    """A fingerprint as it is written here, from how people type it: small letters, other groups or none.
+    """Normalize a typed fingerprint: lower case and other groupings are accepted.
 
     Raises:
-        KeyFileError: It is none.
+        KeyFileError: The text is not a fingerprint.
     """
     plain = re.sub(r"[\s-]", "", text).upper()
     if not re.fullmatch(r"[A-Z2-7]{32}", plain):
@@ -94,7 +94,7 @@ def parse_fingerprint(text: str) -> str:
 
 
 def grouped(text: str) -> str:
-    """``ABCDEFGH`` as ``ABCD-EFGH``."""
+    """Return ``ABCDEFGH`` as ``ABCD-EFGH``."""
     return "-".join(text[k : k + 4] for k in range(0, len(text), 4))
 
 
@@ -110,10 +110,10 @@ def _raw(encoded: str, source: str) -> bytes:
 
 
 def require_sound(raw: bytes, source: str) -> None:
-    """Refuse a key with which signatures could be made without a private key.
+    """Refuse a key for which signatures can be forged without a private key.
 
     Raises:
-        KeyFileError: It is one.
+        KeyFileError: The key is unsafe.
     """
     if not is_sound(raw):
         raise KeyFileError(

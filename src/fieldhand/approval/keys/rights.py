@@ -1,4 +1,4 @@
-"""Files that hold keys: only their owner reads a private one, only their owner writes what is trusted."""
+"""Access to key files: private keys readable, and trusted keys writable, only by their owner."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from fieldhand.errors import KeyFileError, OutputError
 from fieldhand.files import FileFault, read_file, write_stored, write_whole
 from fieldhand.folders import Unguarded, require_guarded
 
-#: A key is a few lines.
+#: Maximum size of a key file in bytes; a key takes a few lines.
 MAX_BYTES = 64_000
 
 
 def read_guarded(path: Path, *, private: bool, most: int = MAX_BYTES) -> bytes:
-    """The bytes of a small file of the user's own.
+    """Read a small file of the current user after checking its permissions.
 
     Args:
-        path: Of the file.
-        private: Nobody else may read it either; else nobody else may write it.
-        most: Bytes that it may have.
+        path: File to read.
+        private: Refuse a file that others can read; otherwise, only one that others can write.
+        most: Maximum size in bytes.
 
     Raises:
-        KeyFileError: It is missing, no file, too large, not the user's own, or others have rights on it.
+        KeyFileError: The file is missing, not regular, too large, owned by another user, or accessible to others.
     """
     try:
         return read_file(path, most, look=lambda status: require_own(status, path, private=private))
@@ -32,19 +32,19 @@ def read_guarded(path: Path, *, private: bool, most: int = MAX_BYTES) -> bytes:
 
 
 def not_a_key(path: Path, fault: FileFault) -> KeyFileError:
-    """That a file cannot be read, or is too large to hold a key."""
+    """Return the error for a file that cannot be read or is too large for a key."""
     what = "is no key: it is too large" if fault.kind == "too large" else fault.what
     return KeyFileError(what, where=str(path), advice="check the path")
 
 
 def require_own(status: os.stat_result, path: Path, *, private: bool) -> None:
-    """Refuse what others could have read (a private key) or written.
+    """Refuse a private key that others can read, or any file that others can write.
 
     Raises:
-        KeyFileError: Its owner is another user, or the rights on it are too wide.
+        KeyFileError: The owner is another user, or the permissions are too wide.
     """
     if os.name != "posix":
-        return  # rights are lists there, which the folder of the user has already
+        return  # permissions are access control lists there, inherited from the user's folder
     if status.st_uid not in (0, os.geteuid()):
         raise KeyFileError("belongs to another user", where=str(path), advice="take only what is your own")
     wide = stat.S_IRWXG | stat.S_IRWXO if private else stat.S_IWGRP | stat.S_IWOTH
@@ -55,11 +55,11 @@ def require_own(status: os.stat_result, path: Path, *, private: bool) -> None:
 
 
 def require_own_folder(path: Path) -> None:
-    """Refuse a folder of keys that others can change, or put another in the place of.
+    """Refuse a key folder that others can change or replace.
 
     Raises:
-        KeyFileError: They can.
-        OSError: It may not be looked into.
+        KeyFileError: Others can change or replace the folder.
+        OSError: The folder cannot be accessed.
     """
     for folder in (path.parent, path):
         require_own(folder.stat(), folder, private=False)
@@ -72,10 +72,10 @@ def require_own_folder(path: Path) -> None:
 
 
 def make_folder(path: Path) -> None:
-    """A folder of the user alone.
+    """Create a folder that only the user can access.
 
     Raises:
-        OutputError: It cannot be made.
+        OutputError: The folder cannot be created.
     """
     try:
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -85,11 +85,11 @@ def make_folder(path: Path) -> None:
 
 
 def write_new(path: Path, data: bytes) -> None:
-    """Write a file that only its owner may read; never over another one.
+    """Write a new file that only its owner can read; never overwrite one.
 
     Raises:
-        KeyFileError: There is a file of that name.
-        OutputError: It cannot be written.
+        KeyFileError: A file of that name exists.
+        OutputError: The file cannot be written.
     """
     try:
         write_stored(path, data, mode=0o600, new=True)
@@ -100,10 +100,10 @@ def write_new(path: Path, data: bytes) -> None:
 
 
 def replace(path: Path, data: bytes) -> None:
-    """Write a file as a whole or not at all, also where the power fails meanwhile.
+    """Replace a file atomically, so that a power failure leaves either the old or the new content.
 
     Raises:
-        OutputError: It cannot be written.
+        OutputError: The file cannot be written.
     """
     try:
         write_whole(path, data, mode=0o600)

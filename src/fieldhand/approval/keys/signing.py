@@ -1,4 +1,4 @@
-"""The keys with which a person signs: PKCS #8 files in the user's own folder, with a passphrase if one is given."""
+"""A person's signing keys: PKCS #8 files in the user's folder, optionally encrypted with a passphrase."""
 
 from __future__ import annotations
 
@@ -22,22 +22,22 @@ _MAKE_ONE = "make one with fieldhand keys new, and have the robot trust it"
 
 @dataclass(frozen=True, kw_only=True)
 class SigningKey:
-    """A private key in hand, with its public half."""
+    """An opened private key with its public key."""
 
     public: PublicKey
     _private: Ed25519PrivateKey = field(repr=False)
 
     def sign(self, message: bytes) -> bytes:
-        """The signature of a message, 64 bytes; the same for the same message."""
+        """Return the signature of a message, 64 bytes; deterministic."""
         return self._private.sign(message)
 
 
 @dataclass(frozen=True, kw_only=True)
 class OwnKey:
-    """A key in the folder, not opened.
+    """A key file in the folder, not opened.
 
     Attributes:
-        encrypted: It takes a passphrase.
+        encrypted: True if the file needs a passphrase.
     """
 
     file: Path
@@ -49,24 +49,24 @@ class SigningKeys:
     """The folder of a person's own keys.
 
     Args:
-        folder: The user's configuration (:func:`fieldhand.files.config_folder`).
+        folder: Configuration folder of the user (:func:`fieldhand.files.config_folder`).
     """
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder / "keys"
 
     def make(self, name: str, passphrase: str | None = None) -> tuple[SigningKey, Path]:
-        """A new key of that name, kept under it.
+        """Create and store a key under a name.
 
         Args:
-            name: Of the person; the robot shows it where its owner says no other.
-            passphrase: With which the file is encrypted; None for none.
+            name: Name of the owner; a robot shows it unless its owner assigns another.
+            passphrase: Passphrase that encrypts the file; None for an unencrypted file.
 
         Returns:
-            The key, and the file with its public half.
+            The key, and the path of the file with its public key.
 
         Raises:
-            KeyFileError: The name is none, or there is such a key already.
+            KeyFileError: The name is invalid, or the key exists already.
             OutputError: The folder cannot be written.
         """
         from cryptography.hazmat.primitives import serialization
@@ -89,10 +89,10 @@ class SigningKeys:
         return key, shared
 
     def held(self) -> tuple[OwnKey, ...]:
-        """Every key of the folder, by name.
+        """Return every key of the folder, sorted by name.
 
         Raises:
-            KeyFileError: One of them cannot be used.
+            KeyFileError: A key file is invalid.
         """
         found = []
         try:
@@ -112,10 +112,10 @@ class SigningKeys:
         return tuple(found)
 
     def choose(self, name: str | None = None) -> OwnKey:
-        """The key of that name, or the only one.
+        """Return the key of that name, or the only key if no name is given.
 
         Raises:
-            KeyFileError: There is none, or there are several and none is named.
+            KeyFileError: There is no such key, or there are several and no name is given.
         """
         keys = self.held()
         if not keys:
@@ -129,11 +129,11 @@ class SigningKeys:
         return chosen[0]
 
     def next_number(self, key: OwnKey, at: datetime) -> int:
-        """Return the number of the next approval of a key: the time in seconds, and higher than any before it.
+        """Return the number of the key's next approval: the time in seconds, but higher than every earlier number.
 
         Raises:
-            KeyFileError: The number of the last one cannot be read.
-            OutputError: It cannot be kept.
+            KeyFileError: The stored last number cannot be read.
+            OutputError: The number cannot be stored.
         """
         file = key.file.with_suffix(".number")
         try:
@@ -147,14 +147,14 @@ class SigningKeys:
         return number
 
     def open(self, key: OwnKey, passphrase: Callable[[], str | None]) -> SigningKey:
-        """Take a key in hand.
+        """Open a key file, asking for its passphrase if needed.
 
         Args:
-            key: Of this folder.
-            passphrase: Asked if the key needs one.
+            key: Key of this folder.
+            passphrase: Called for the passphrase if the key is encrypted.
 
         Raises:
-            KeyFileError: The file cannot be used, others may read it, or the passphrase is missing or wrong.
+            KeyFileError: The file is invalid or readable by others, or the passphrase is missing or wrong.
         """
         from cryptography.exceptions import UnsupportedAlgorithm
         from cryptography.hazmat.primitives import serialization

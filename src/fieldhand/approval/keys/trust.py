@@ -1,4 +1,4 @@
-"""The keys that a machine trusts: one small file each, which says whose it is, since when, and if it was revoked."""
+"""Keys that a machine trusts: one small file each, with owner, date of trust, and date of revocation."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from fieldhand.approval.keys.rights import make_folder, read_guarded, replace, r
 from fieldhand.errors import KeyFileError
 from fieldhand.language import message
 
-#: Beside the keys: the number of their list.
+#: File with the number of the list, in the folder of the keys.
 _LIST = "list.json"
 State = Literal["trusted", "revoked", "unknown"]
 
@@ -33,7 +33,7 @@ Moment = Annotated[str, AfterValidator(_moment)]
 
 
 class _Record(BaseModel):
-    """The form of the file of a key."""
+    """Schema of a key file."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
 
@@ -46,13 +46,13 @@ class _Record(BaseModel):
 
 @dataclass(frozen=True, kw_only=True)
 class KnownKey:
-    """A key that this machine was told of.
+    """A key listed on this machine, trusted or revoked.
 
     Attributes:
-        name: Of whom it is, as the machine's owner says.
-        since: When it was trusted, or revoked if it never was; ISO 8601.
-        public: None if it was revoked before anyone trusted it.
-        revoked: When it was revoked, else None. A revoked key is never trusted again.
+        name: Owner of the key, as named by the owner of the machine.
+        since: Time at which the key was trusted, or revoked if it never was trusted; ISO 8601.
+        public: Public key; None if the key was revoked before it was ever trusted.
+        revoked: Time of revocation, or None. A revoked key can never be trusted again.
     """
 
     fingerprint: str
@@ -63,22 +63,22 @@ class KnownKey:
 
     @property
     def state(self) -> State:
-        """Whether what it signs may run."""
+        """Return the trust state, which decides about running what the key signed."""
         return "trusted" if self.revoked is None and self.public is not None else "revoked"
 
     @property
     def in_words(self) -> str:
-        """Whose it is, and which."""
+        """Return the owner's name and the fingerprint."""
         return message("the key of {name} ({fingerprint})", name=self.name, fingerprint=self.fingerprint)
 
 
 @dataclass(frozen=True, kw_only=True)
 class TrustSeen:
-    """Memory of the trusted keys, stored apart from them.
+    """Recorded state of the trusted keys, stored apart from them.
 
     Attributes:
-        number: The highest number that their list had.
-        revoked: When each key was revoked, by fingerprint.
+        number: Highest number of the list seen.
+        revoked: Time of revocation of each key, by fingerprint.
     """
 
     number: int = 0
@@ -86,23 +86,23 @@ class TrustSeen:
 
 
 class TrustMemory(Protocol):
-    """Remembers the list of trusted keys (:class:`fieldhand.approval.memory.ApprovalMemory`)."""
+    """Persistent record of the list of trusted keys (:class:`fieldhand.approval.memory.ApprovalMemory`)."""
 
     def trust(self) -> TrustSeen:
-        """Return what is remembered."""
+        """Return the recorded state."""
         ...
 
     def note_trust(self, number: int, revoked: Mapping[str, str]) -> None:
-        """Remember a list."""
+        """Record the number and revocations of a list."""
         ...
 
     def time(self, clock: datetime) -> datetime:
-        """Return the clock, or the latest time that was seen."""
+        """Return the clock, or the latest time seen if that is later."""
         ...
 
 
 class _List(BaseModel):
-    """The form of the file of the list: its number rises with each change; it may run out."""
+    """Schema of the list file: a number that rises with each change, and an optional expiry date."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
 
@@ -111,12 +111,12 @@ class _List(BaseModel):
 
 
 class TrustStore:
-    """The folder of the keys that are trusted here.
+    """The folder of the keys trusted by this machine.
 
     Args:
-        folder: The user's configuration (:func:`fieldhand.files.config_folder`).
-        memory: Remembers what was revoked, and how far the list had come; None to remember nothing.
-        clock: The time, for a list that runs out.
+        folder: Configuration folder of the user (:func:`fieldhand.files.config_folder`).
+        memory: Record of revocations and of the highest list number; None for no record.
+        clock: Current time, for a list with an expiry date.
     """
 
     def __init__(
@@ -129,11 +129,10 @@ class TrustStore:
         self._memory, self._clock = memory, clock
 
     def known(self) -> Mapping[str, KnownKey]:
-        """Every key by its fingerprint, in the order of names.
+        """Return every key by fingerprint, sorted by name.
 
         Raises:
-            KeyFileError: A file cannot be used, others could have written it, or the list is an older copy or has run
-                out.
+            KeyFileError: A file is invalid or writable by others, or the list is an older copy or has expired.
         """
         if self._memory is None:
             return self._files()
@@ -154,19 +153,19 @@ class TrustStore:
         return found
 
     def confirm(self, until: datetime | None = None) -> None:
-        """Take the list as it is for the latest, until a date if one is given; what was revoked stays so.
+        """Accept the present list as the latest, valid until a date if one is given; revoked keys remain revoked.
 
         Raises:
-            KeyFileError: A file cannot be used.
+            KeyFileError: A file is invalid.
             OutputError: The folder cannot be written.
         """
         self._advance(None if until is None else until.isoformat(timespec="seconds"))
 
     def listed(self) -> Mapping[str, KnownKey]:
-        """Every key as the files have it, whatever the list's number; one that was revoked here is revoked.
+        """Return every key from its file without checking the list number; recorded revocations apply.
 
         Raises:
-            KeyFileError: A file cannot be used, or others could have written it.
+            KeyFileError: A file is invalid or writable by others.
         """
         return self._with_revoked(TrustSeen() if self._memory is None else self._memory.trust())
 
@@ -192,7 +191,7 @@ class TrustStore:
             raise _damaged(path) from None
 
     def _advance(self, until: str | None) -> None:
-        """Give the list the next number, and remember it with every key that was revoked."""
+        """Increment the number of the list and record it with every revoked key."""
         seen = TrustSeen() if self._memory is None else self._memory.trust()
         number = max(self._list().number, seen.number) + 1
         make_folder(self.folder)
@@ -213,10 +212,10 @@ class TrustStore:
         return {key.fingerprint: key for key in sorted(found, key=lambda k: (k.name, k.fingerprint))}
 
     def trust(self, public: PublicKey, *, name: str, at: datetime) -> KnownKey:
-        """Trust a key from now on; one that is trusted already gets the new name.
+        """Trust a key from now on; a key that is trusted already is renamed.
 
         Raises:
-            KeyFileError: It was revoked, nobody can own it, or its name looks like that of another trusted key.
+            KeyFileError: The key was revoked or is unsafe, or its name resembles that of another trusted key.
             OutputError: The folder cannot be written.
         """
         require_sound(public.raw, public.fingerprint)
@@ -233,10 +232,10 @@ class TrustStore:
         return self._write(KnownKey(fingerprint=public.fingerprint, name=name, since=since, public=public))
 
     def revoke(self, fingerprint: str, *, at: datetime) -> KnownKey:
-        """Never run again what this key has signed, whenever it did. It need not be known yet.
+        """Revoke a key, so that nothing it has ever signed runs again; the key need not be listed.
 
         Raises:
-            KeyFileError: This is no fingerprint.
+            KeyFileError: The text is not a fingerprint.
             OutputError: The folder cannot be written.
         """
         fingerprint = parse_fingerprint(fingerprint)
@@ -273,7 +272,7 @@ def _read(path: Path) -> KnownKey:
     except (ValidationError, ValueError, RecursionError):
         raise _damaged(path) from None
     public = None if raw is None else PublicKey(raw=raw, name=record.name)
-    # The name of the file and what it says must agree: a key under the name of another is nobody's.
+    # The file name must match the fingerprint of the key inside, or the file was tampered with.
     if record.fingerprint != path.stem or (public is None and record.revoked is None):
         raise _damaged(path)
     if public is not None and (len(public.raw) != KEY_BYTES or public.fingerprint != record.fingerprint):
@@ -290,10 +289,10 @@ def _damaged(path: Path) -> KeyFileError:
 
 
 def _require_other_name(name: str, fingerprint: str, known: Mapping[str, KnownKey]) -> None:
-    """Refuse a name that a person may take for that of another key that is trusted.
+    """Refuse a name that a person may mistake for that of another trusted key.
 
     Raises:
-        KeyFileError: There is one.
+        KeyFileError: The name resembles that of a trusted key.
     """
     for other in known.values():
         if other.state == "trusted" and other.fingerprint != fingerprint and look_alike(other.name, name):
