@@ -41,8 +41,8 @@ from fieldhand.approval.authorize import EveryWarning, approve
 from fieldhand.approval.checks import examine
 from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.errors import NotApprovedError
+from fieldhand.evaluation.budget_guard import BudgetGuard
 from fieldhand.evaluation.failsafe import BudgetFailsafe
-from fieldhand.evaluation.guard import BudgetGuard
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, Progress
 from fieldhand.execution.drivers.simulation import SimulatedDriver
 from fieldhand.execution.journal.store import Journal, create

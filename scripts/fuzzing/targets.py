@@ -20,7 +20,7 @@ from fieldhand.approval.keys.public import parse_public
 from fieldhand.approval.keys.signing import OwnKey, SigningKeys
 from fieldhand.approval.keys.trust import TrustStore
 from fieldhand.errors import FieldhandError, TaskError
-from fieldhand.evaluation.calibration.steps import steps_of
+from fieldhand.evaluation.calibration.measured_steps import measure_mission
 from fieldhand.exchange.btcpp import read_tree, write_tree
 from fieldhand.exchange.mcap.reading import read_mcap
 from fieldhand.exchange.mcap.writing import McapLog
@@ -147,7 +147,7 @@ def _site(name: str) -> Callable[[bytes, Path], None]:
 def _log(data: bytes, folder: Path) -> None:
     path = g.scratch(folder, "events.jsonl", data)
     with suppress(FieldhandError):
-        steps_of(read_events(path, whole=False))
+        measure_mission(read_events(path, whole=False))
     mission.assess(g.tasks()[2], read_events(path))
 
 

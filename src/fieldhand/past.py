@@ -23,8 +23,8 @@ from fieldhand.task.results import Event
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
-    from fieldhand.evaluation.calibration.fit import Calibration
-    from fieldhand.evaluation.calibration.steps import Driven
+    from fieldhand.evaluation.calibration.calibrate import Calibration
+    from fieldhand.evaluation.calibration.measured_steps import MeasuredMission
     from fieldhand.evaluation.report.writing import ReportFiles
     from fieldhand.forecast.estimate import Estimate
     from fieldhand.task.authorization import Authorization, AuthorizedTask
@@ -229,15 +229,15 @@ def keep_history(folder: Path, robot: RobotProfile, events: Sequence[Event], at:
     Raises:
         OutputError: It cannot be written.
     """
-    from fieldhand.evaluation.calibration.history import keep
-    from fieldhand.evaluation.calibration.steps import steps_of
+    from fieldhand.evaluation.calibration.history import save_mission
+    from fieldhand.evaluation.calibration.measured_steps import measure_mission
 
-    return keep(folder, robot, steps_of(events), at)
+    return save_mission(folder, robot, measure_mission(events), at)
 
 
 def missions_of(
     robot: RobotProfile, logs: Sequence[Path], history: Path, *, simulated: bool = False
-) -> tuple[Driven, ...]:
+) -> tuple[MeasuredMission, ...]:
     """The missions of a robot: those of some event logs, or where there are none those that were kept.
 
     Args:
@@ -249,12 +249,12 @@ def missions_of(
     Raises:
         InputError: A log is of another robot or cannot be read; or nothing was kept.
     """
-    from fieldhand.evaluation.calibration.history import kept
-    from fieldhand.evaluation.calibration.steps import steps_of
+    from fieldhand.evaluation.calibration.history import load_missions
+    from fieldhand.evaluation.calibration.measured_steps import measure_mission
 
     read = {}
     for log in logs:
-        driven = steps_of(read_log(log).events, where=str(log))
+        driven = measure_mission(read_log(log).events, where=str(log))
         if driven.robot != robot.name:
             raise InputError(
                 f"is of the robot {driven.robot!r}, not {robot.name!r}", where=str(log), advice="give logs of one robot"
@@ -262,7 +262,7 @@ def missions_of(
         read[driven.key] = driven
     if read:
         return tuple(read.values())
-    every = kept(history, robot.name)
+    every = load_missions(history, robot.name)
     found = tuple(m for m in every if m.simulated == simulated)
     if not found:
         others = len(every) - len(found)
@@ -276,13 +276,13 @@ def missions_of(
     return found
 
 
-def calibrate(robot: RobotProfile, missions: Sequence[Driven], *, seed: int = 0) -> Calibration:
+def calibrate(robot: RobotProfile, missions: Sequence[MeasuredMission], *, seed: int = 0) -> Calibration:
     """Fit the cost model of a robot to its missions.
 
     Raises:
         InputError: They hold too few legs.
     """
-    from fieldhand.evaluation.calibration.fit import calibrate as fitted
+    from fieldhand.evaluation.calibration.calibrate import calibrate as fitted
 
     return fitted(robot, missions, seed=seed)
 

@@ -14,7 +14,7 @@ from lxml import etree
 from mcap.reader import make_reader
 from shapely.geometry import Polygon, shape
 
-from fieldhand.evaluation.telling import Teller
+from fieldhand.evaluation.event_text import EventText
 from fieldhand.exchange.incidents import incidents
 from fieldhand.exchange.mcap import McapLog
 from fieldhand.exchange.replay import film_of, page_of, save_animation
@@ -41,7 +41,7 @@ from fieldhand.task.results import (
 from fieldhand.testing.small_orchard import at, husky, orchard
 
 SITE = orchard()
-TELL = Teller(husky()).tell
+TELL = EventText(husky()).line
 #: Corners of the way in degrees: five metres apart, along the headland.
 A, B, C, D, E = ((lat, lon) for lon, lat in (at(-1, k) for k in (0, 1, 2, 3, 4)))
 WHOLE = {"status": "success", "kind": "tree", "place": "1", "charge_percent": 90.0}

@@ -11,9 +11,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fieldhand.evaluation.drain import Drain
+from fieldhand.evaluation.battery_drain import BatteryDrain
+from fieldhand.evaluation.event_text import EventText
 from fieldhand.evaluation.failsafe import BudgetFailsafe
-from fieldhand.evaluation.telling import Teller
 from fieldhand.execution.world import BatteryDrains, World
 from fieldhand.forecast.mission_state import Spent
 from fieldhand.language import open_language
@@ -144,7 +144,7 @@ def flown_with_lookout(world: World, robot: RobotProfile, tree: str = "r3c4") ->
         guard=NoGuard(),
         clock=rig.clock,
         emit=lambda event: None,
-        failsafe=BudgetFailsafe(task, robot, Drain(robot)),
+        failsafe=BudgetFailsafe(task, robot, BatteryDrain(robot)),
     ).events
 
 
@@ -190,7 +190,7 @@ def test_a_safe_place_is_inside_an_aisle_clear_of_its_ends():
 @settings(max_examples=40, deadline=None)
 @given(factor=st.floats(1.0, 15.0), start=st.floats(30.0, 100.0), coarse=st.booleans())
 def test_the_drain_is_found_from_a_few_percent_and_never_made_up(factor, start, coarse):
-    robot, drain = husky(), Drain(husky())
+    robot, drain = husky(), BatteryDrain(husky())
     by_model = robot.percent(1.0, 1.0)
     full = round(start) if coarse else start
     for metres in range(1, 2000):
@@ -232,7 +232,7 @@ def test_crossings_are_told_in_both_languages():
         spanish = open_language("es").say(english)
         assert "24,5" in spanish
         assert spanish != english
-        assert english in (Teller(husky()).tell(event) or "")
+        assert english in (EventText(husky()).line(event) or "")
 
 
 def test_the_page_names_every_level():

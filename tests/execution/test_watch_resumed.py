@@ -11,7 +11,7 @@ import pytest
 
 from execution.journalled import Cut, PowerCut
 from fieldhand.clock import SimulatedClock
-from fieldhand.evaluation.drain import Drain
+from fieldhand.evaluation.battery_drain import BatteryDrain
 from fieldhand.evaluation.failsafe import BudgetFailsafe
 from fieldhand.execution import mission_clock
 from fieldhand.execution.drivers.simulation import SimulatedDriver
@@ -57,7 +57,7 @@ def fly(folder: Path, factor: float, *, cut: int = 0, behind: bool = False) -> R
             guard=NoGuard(),
             clock=clock,
             emit=lambda event: None,
-            failsafe=BudgetFailsafe(task, robot, Drain(robot)),
+            failsafe=BudgetFailsafe(task, robot, BatteryDrain(robot)),
             log=journal,
             simulated=True,
         )

@@ -6,7 +6,7 @@ from functools import cache
 
 import pytest
 
-from fieldhand.facts import Mismatch, mismatches
+from fieldhand.facts import PlanMismatch, mismatches
 from fieldhand.planning.llm.review import read_draft
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
@@ -39,7 +39,7 @@ def vineyard() -> Site:
     return read(*vines, point(LON, LAT - 2e-4, kind="start"), point(LON - 2e-4, LAT, kind="gate", name="gate"))
 
 
-def doubts(request: str, plan: str, constraints: str = "") -> tuple[Mismatch, ...]:
+def doubts(request: str, plan: str, constraints: str = "") -> tuple[PlanMismatch, ...]:
     document = f"<task><task-composition><plan>{plan}</plan></task-composition>{constraints}</task>"
     draft = read_draft(document, capabilities_of(HUSKY))
     assert isinstance(draft, TaskDraft), draft

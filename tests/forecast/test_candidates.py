@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.errors import ProblemError
-from fieldhand.evaluation import choosing
-from fieldhand.forecast import expected
+from fieldhand.evaluation import visit_chooser
+from fieldhand.forecast import expected_visits
 from fieldhand.forecast.candidates import MOST_CANDIDATES, cheapest
 from fieldhand.forecast.mission_state import Visit
 from fieldhand.forecast.remaining_work import RemainingWork
@@ -113,7 +113,7 @@ def test_straight_drives_need_no_table_and_keep_all() -> None:
 def test_the_forecast_counts_what_is_left_out_and_expects_no_visit_there(monkeypatch: pytest.MonkeyPatch) -> None:
     task = task_for(MADE, MANY, constraints=limited(150.0))
     free = walk_branch(task, MADE, husky(), holds=lambda _: True)
-    monkeypatch.setattr(expected, "cheapest", partial(cheapest, most=FEW))
+    monkeypatch.setattr(expected_visits, "cheapest", partial(cheapest, most=FEW))
     few = walk_branch(task, MADE, husky(), holds=lambda _: True)
     (all_, kept) = (next(s for s in found.steps if s.kind == "visit-list") for found in (free, few))
     assert kept.visit_forecast is not None
@@ -131,7 +131,7 @@ def test_the_guard_visits_only_what_it_chooses_from_and_gives_up_the_rest_at_the
 ) -> None:
     task, places, most = task_for(MADE, MANY, constraints=limited(110.0)), [v.place for v in VISITS], 30
     within = {VISITS[k].place.id for k in cheapest(HERE, VISITS, RemainingWork(stops=(HOME,)), DRIVES, most)}
-    monkeypatch.setattr(choosing, "cheapest", partial(cheapest, most=most))
+    monkeypatch.setattr(visit_chooser, "cheapest", partial(cheapest, most=most))
     paper = Paper(task, MADE, husky(), seed)
     last = paper.optional(MANY, places)
     assert 0 < len(paper.visited) < most
@@ -145,7 +145,7 @@ def test_the_guard_visits_only_what_it_chooses_from_and_gives_up_the_rest_at_the
 def test_when_all_are_visited_the_guard_goes_on_with_those_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
     task, places = task_for(MADE, MANY, constraints=limited(400.0)), [v.place for v in VISITS]
     within = {VISITS[k].place.id for k in cheapest(HERE, VISITS, RemainingWork(stops=(HOME,)), DRIVES, FEW)}
-    monkeypatch.setattr(choosing, "cheapest", partial(cheapest, most=FEW))
+    monkeypatch.setattr(visit_chooser, "cheapest", partial(cheapest, most=FEW))
     paper = Paper(task, MADE, husky(), 0)
     paper.optional(MANY, places)
     assert set(paper.visited[:FEW]) == within
@@ -157,7 +157,7 @@ def test_up_to_the_limit_a_guard_decides_as_it_would_without_one(monkeypatch: py
     task, places = task_for(MADE, MANY, constraints=limited(150.0)), [v.place for v in VISITS]
     found = []
     for most in (MOST_CANDIDATES, len(places)):
-        monkeypatch.setattr(choosing, "cheapest", partial(cheapest, most=most))
+        monkeypatch.setattr(visit_chooser, "cheapest", partial(cheapest, most=most))
         paper = Paper(task, MADE, husky(), 1)
         paper.optional(MANY, places)
         found.append((paper.visited, paper.shed))

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 import pytest
 
+from fieldhand.evaluation.event_text import EventText, goal_names
 from fieldhand.evaluation.outcome import judge_end
-from fieldhand.evaluation.standing import standing
-from fieldhand.evaluation.telling import Teller, goal_names
+from fieldhand.evaluation.progress import mission_progress
 from fieldhand.language import kept_in_log, open_language
 from language.silent_language import silent_language
 from support.missions.faulted_flights import Flown, fly
@@ -20,10 +20,10 @@ SEEDS = range(16)
 
 def printed(flown: Flown) -> Iterator[str]:
     """What ``run`` and ``status`` print of a mission."""
-    teller = Teller(flown.robot)
-    yield from (line for line in map(teller.tell, flown.events) if line is not None)
+    event_text = EventText(flown.robot)
+    yield from (line for line in map(event_text.line, flown.events) if line is not None)
     for count in range(0, len(flown.events) + 1, 3):
-        now = standing(flown.task, flown.robot, flown.events[:count], running=True)
+        now = mission_progress(flown.task, flown.robot, flown.events[:count], running=True)
         yield from (now.doing, now.near, kept_in_log(now.reason), *(g.why for g in now.goals))
         yield from (kept_in_log(one.why) for one in now.exceeded)
     _, reason, found = judge_end(flown.task, flown.events, flown.robot.energy.reserve_percent)

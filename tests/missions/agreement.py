@@ -17,7 +17,7 @@ import numpy as np
 from lxml import etree
 
 from fieldhand import mission
-from fieldhand.evaluation.replay import replay
+from fieldhand.evaluation.log_replay import replay_log
 from fieldhand.exchange.btcpp import write_tree
 from fieldhand.execution.guard import Guard
 from fieldhand.execution.world import ActionFails, Spot, World
@@ -531,7 +531,7 @@ def disagreements(flight: Simulated) -> list[str]:
 
 def _of_replay(flight: Simulated, walked: Walk) -> list[str]:
     """What a replay counts otherwise than the robot did it. What a failure cut off it wants as well."""
-    tallies = replay(flight.task.composition.plan, flight.events)
+    tallies = replay_log(flight.task.composition.plan, flight.events)
     wanted: Counter[str] = Counter()
     for step in walked.steps:
         if step.kind == "act" and step.node.act is not None:

@@ -11,7 +11,7 @@ import yaml
 
 from fieldhand import mission
 from fieldhand.errors import OutputError
-from fieldhand.evaluation.telling import Teller
+from fieldhand.evaluation.event_text import EventText
 from fieldhand.execution.world_faults import AnyFault
 from fieldhand.execution.world_file import parse_world
 from fieldhand.planning.english.planner import EnglishPlanner
@@ -27,14 +27,14 @@ EXAMPLES = EXAMPLE.findall((DOCS / "faults.md").read_text())
 
 @pytest.mark.parametrize(("request_", "world", "said"), EXAMPLES, ids=[str(k) for k in range(len(EXAMPLES))])
 def test_the_log_says_what_the_page_says(request_: str, world: str, said: str) -> None:
-    site, robot, teller = open_site("demo"), load_robot("husky"), Teller(load_robot("husky"))
+    site, robot, event_text = open_site("demo"), load_robot("husky"), EventText(load_robot("husky"))
     outcome = mission.plan(request_, site, robot, EnglishPlanner())
     assert isinstance(outcome, Planned)
     lines: list[str] = []
     try:
         mission.simulate(
             approved(outcome.task, site, robot), world=parse_world(yaml.safe_load(world)), seed=0,
-            speed=None, emit=lambda event: lines.append(teller.tell(event) or ""),
+            speed=None, emit=lambda event: lines.append(event_text.line(event) or ""),
         )  # fmt: skip
     except OutputError as error:
         lines.append(str(error))

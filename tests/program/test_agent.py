@@ -19,7 +19,7 @@ from pathlib import Path
 import pytest
 
 from fieldhand.delivery.verified import sha256_of
-from fieldhand.evaluation.calibration.history import kept
+from fieldhand.evaluation.calibration.history import load_missions
 from support.missions.signed import good
 from support.processes.certificates import certificate
 from support.processes.command import Run, fieldhand
@@ -76,7 +76,9 @@ def test_every_command_of_the_page(tmp_path: Path) -> None:
     page = log.parent / "report.html"
     assert "Take a thermal picture of tree 4" in page.read_text()
     assert f"its report on the robot: {Path('store', *page.parts[-3:])}" in " ".join(watched.split())
-    assert [mission.simulated for mission in kept(tmp_path / "robot" / "fieldhand" / "history", "husky")] == [True]
+    assert [mission.simulated for mission in load_missions(tmp_path / "robot" / "fieldhand" / "history", "husky")] == [
+        True
+    ]
     kinds = [json.loads(line)["event"] for line in log.read_text().splitlines()]
     assert {"paused", "continued"} <= set(kinds)
     assert kinds[-1] == "mission"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import ClassVar
 
-from fieldhand.evaluation.drain import Drain
+from fieldhand.evaluation.battery_drain import BatteryDrain
 from fieldhand.evaluation.failsafe import BudgetFailsafe
 from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.mission_runner import run
@@ -44,7 +44,7 @@ def test_a_drive_is_broken_off_by_what_the_battery_topic_says_on_the_way() -> No
         guard=NoGuard(),
         clock=clock,
         emit=lambda event: None,
-        failsafe=BudgetFailsafe(task, robot, Drain(robot)),
+        failsafe=BudgetFailsafe(task, robot, BatteryDrain(robot)),
     ).events
     levels = [e.level for e in of_type(events, LimitCrossed)]
     assert levels[0] == "warn"

@@ -19,7 +19,7 @@ from fieldhand.api.maps import driven_map
 from fieldhand.api.plan import Planners
 from fieldhand.api.work import Limits, Workers
 from fieldhand.approval.production import require_unsigned_allowed
-from fieldhand.evaluation.telling import Teller, goal_names
+from fieldhand.evaluation.event_text import EventText, goal_names
 from fieldhand.planning.planner import Planned
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Task
@@ -77,7 +77,7 @@ def _deadline(seconds: float) -> Callable[[], str | None]:
 def _answer(run: mission.Run, ground: Ground) -> dict[str, Any]:
     authorized, events, assessment = run.mission.authorized, run.events, run.assessment
     ended = next(event for event in reversed(events) if isinstance(event, Ended))
-    tell = Teller(ground.robot).tell
+    tell = EventText(ground.robot).line
     return {
         "outcome": "ran",
         "authorization": asdict(authorized.authorization),

@@ -12,8 +12,8 @@ from fieldhand.cli.options import JsonOption
 from fieldhand.cli.outputs import to_file
 
 if TYPE_CHECKING:
-    from fieldhand.evaluation.calibration.figures import Fitted
-    from fieldhand.evaluation.calibration.fit import Calibration
+    from fieldhand.evaluation.calibration.calibrate import Calibration
+    from fieldhand.evaluation.calibration.estimators import FittedValue
     from fieldhand.robot.model import RobotProfile
 
 
@@ -56,7 +56,7 @@ def calibrate(
         show.out.print_lines("", "Give -o profile.yaml to write the new profile.")
 
 
-def _rows(robot: RobotProfile, found: Calibration) -> Iterator[tuple[str, float, Fitted | None, str]]:
+def _rows(robot: RobotProfile, found: Calibration) -> Iterator[tuple[str, float, FittedValue | None, str]]:
     """Name, value in the profile, what was fitted, and unit of each figure."""
     fit, energy = found.fit, robot.energy
     yield "leg cost, alpha", robot.leg_cost.alpha, fit.legs.alpha, ""

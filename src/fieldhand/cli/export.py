@@ -140,7 +140,7 @@ def _of_task(source: _Source, to: str) -> _Made:
 
 def _of_log(source: _Source, to: str, output: Path) -> _Made:
     from fieldhand.cli.recorded import ground_of, log_of_folder, plan_of_folder
-    from fieldhand.evaluation.telling import Teller
+    from fieldhand.evaluation.event_text import EventText
     from fieldhand.exchange.routes.route import driven
     from fieldhand.past import read_log
     from fieldhand.robot.loader import load_robot
@@ -161,17 +161,17 @@ def _of_log(source: _Source, to: str, output: Path) -> _Made:
         notes = () if ground else ("without --site the map shows no trees",)
         return _Made(data=None, facts=facts, notes=notes)
     named = plan_of_folder(folder).ground.robot if folder is not None else load_robot(source.robot or "husky")
-    route = driven(events, tell=Teller(named).tell)
+    route = driven(events, tell=EventText(named).line)
     return _Made(data=_WRITERS[to](route), facts=facts | _facts(route))
 
 
 def _write_mcap(events: tuple[Event, ...], output: Path, ground: Ground | None, robot: str) -> None:
-    from fieldhand.evaluation.telling import Teller
+    from fieldhand.evaluation.event_text import EventText
     from fieldhand.exchange.mcap import McapLog
     from fieldhand.robot.loader import load_robot
 
-    teller = Teller(load_robot(robot) if ground is None else ground.robot)
-    with McapLog(output, tell=teller.tell, site=None if ground is None else ground.site) as log:
+    event_text = EventText(load_robot(robot) if ground is None else ground.robot)
+    with McapLog(output, tell=event_text.line, site=None if ground is None else ground.site) as log:
         for event in events:
             log(event)
 

@@ -200,10 +200,10 @@ def _taking(
     site: Site, robot: RobotProfile, orders: Orders, before: Sequence[Event]
 ) -> Iterator[Callable[[Event], None]]:
     """What takes each event: the logs that were asked for, in which those before stand as well, and the terminal."""
-    from fieldhand.evaluation.telling import Teller
+    from fieldhand.evaluation.event_text import EventText
     from fieldhand.execution.log import EventLog
 
-    teller = Teller(robot)
+    event_text = EventText(robot)
     if not orders.quiet:
         show.heading(orders.language.say(message("The mission")))
         if before:
@@ -220,12 +220,12 @@ def _taking(
         if orders.mcap is not None:
             from fieldhand.exchange.mcap import McapLog
 
-            logs.append(stack.enter_context(McapLog(orders.mcap, tell=teller.tell, site=site)))
+            logs.append(stack.enter_context(McapLog(orders.mcap, tell=event_text.line, site=site)))
 
         def take(event: Event) -> None:
             for log in logs:
                 log(event)
-            line = orders.language.say(teller.tell(event) or "")
+            line = orders.language.say(event_text.line(event) or "")
             if line and not orders.quiet:
                 show.out.print(line)
 
@@ -247,7 +247,7 @@ def conclude(
     Returns:
         The exit status, as :func:`fly`.
     """
-    from fieldhand.evaluation.telling import goal_names
+    from fieldhand.evaluation.event_text import goal_names
 
     done = past.conclude(
         approved.authorized,

@@ -40,7 +40,7 @@ def replay(
     from fieldhand.cli.inputs import write_file
     from fieldhand.cli.recorded import folder_of, ground_of, log_of_folder, plan_of_folder, require_nothing_beside
     from fieldhand.errors import OutputError
-    from fieldhand.evaluation.telling import Teller
+    from fieldhand.evaluation.event_text import EventText
     from fieldhand.exchange.replay import film_of, page_of, save_animation
     from fieldhand.past import read_log
 
@@ -54,7 +54,7 @@ def replay(
     else:
         log = read_log(Path(given or "")).events
         ground = ground_of(require_site(site), robot, lenient=lenient)
-    film = film_of(log, ground.site, tell=Teller(ground.robot).tell)
+    film = film_of(log, ground.site, tell=EventText(ground.robot).line)
     if output.suffix.lower() == ".html":
         write_file(output, page_of(film, ground.site))
     else:

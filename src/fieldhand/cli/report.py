@@ -40,8 +40,8 @@ def report(
     from fieldhand.cli import show
     from fieldhand.cli.recorded import folder_of, log_of_folder, plan_of_files, plan_of_folder, require_nothing_beside
     from fieldhand.errors import InputError
+    from fieldhand.evaluation.event_text import goal_names
     from fieldhand.evaluation.report.log_facts import end_of
-    from fieldhand.evaluation.telling import goal_names
     from fieldhand.language import message, spoken
     from fieldhand.task.exceeded import say_status
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fieldhand.evaluation.drain import Drain
+from fieldhand.evaluation.battery_drain import BatteryDrain
 from fieldhand.forecast.failsafe_state import FailsafeForecast, FailsafeState
 from fieldhand.forecast.resource_limits import reserve_percent, resource_limits
 from fieldhand.forecast.route_cost import mean_metres, overrun_chances, route_cost
@@ -35,7 +35,7 @@ class BudgetFailsafe:
         drain: How fast the battery empties; learns at each call.
     """
 
-    def __init__(self, task: Task, robot: RobotProfile, drain: Drain) -> None:
+    def __init__(self, task: Task, robot: RobotProfile, drain: BatteryDrain) -> None:
         self._task, self._model, self._drain = task, robot, drain
         reserve = reserve_percent(task.constraints, robot)
         self._stop_percent = robot.energy.levels(reserve).stop

@@ -13,8 +13,8 @@ import textwrap
 from collections.abc import Sequence
 from typing import Literal
 
-from fieldhand.evaluation.replay import replay
-from fieldhand.evaluation.tally import Tally
+from fieldhand.evaluation.capture_counts import CaptureCount
+from fieldhand.evaluation.log_replay import replay_log
 from fieldhand.language import counted, joined, kept_in_log, message, shaped
 from fieldhand.language.words import say_captures
 from fieldhand.task.exceeded import Exceeded, exceeded_limits, final_status, reason_with, say_status
@@ -34,10 +34,10 @@ def judge(task: Task, events: Sequence[Event], *, under_way: bool = False) -> tu
         events: The event log, from its beginning; it may stop anywhere.
         under_way: More is to come: nothing is said of what the log does not tell yet.
     """
-    tallies = replay(task.composition.plan, events)
+    counts = replay_log(task.composition.plan, events)
     ended = next((e for e in reversed(events) if isinstance(e, Ended)), None)
     return tuple(
-        _outcome(goal, tallies.get(goal.node, Tally(open=True)), ended, under_way=under_way)
+        _outcome(goal, counts.get(goal.node, CaptureCount(open=True)), ended, under_way=under_way)
         for goal in task.command.goals
     )
 
@@ -60,14 +60,14 @@ def judge_end(
     return status, ended.reason if status == ended.status else reason_with(found, ended.reason), found
 
 
-def _outcome(goal: Goal, tally: Tally, ended: Ended | None, *, under_way: bool) -> GoalOutcome:
+def _outcome(goal: Goal, tally: CaptureCount, ended: Ended | None, *, under_way: bool) -> GoalOutcome:
     verdict = _optional(goal, tally, ended) if goal.optional else _mandatory(tally, ended)
     wanted = None if tally.open else tally.wanted
     why = _why(goal, tally, verdict, ended, under_way=under_way)
     return GoalOutcome(goal=goal.id, outcome=verdict, done=tally.done, wanted=wanted, why=why)
 
 
-def _mandatory(tally: Tally, ended: Ended | None) -> Verdict:
+def _mandatory(tally: CaptureCount, ended: Ended | None) -> Verdict:
     if not tally.open and tally.done >= tally.wanted:
         return "success"
     if tally.failed or tally.given_up:
@@ -81,7 +81,7 @@ def _mandatory(tally: Tally, ended: Ended | None) -> Verdict:
     return "failure"
 
 
-def _optional(goal: Goal, tally: Tally, ended: Ended | None) -> Verdict:
+def _optional(goal: Goal, tally: CaptureCount, ended: Ended | None) -> Verdict:
     if tally.failed or tally.given_up:
         return "failure"
     cut = ended is None or ended.status == "aborted"
@@ -95,7 +95,7 @@ def _optional(goal: Goal, tally: Tally, ended: Ended | None) -> Verdict:
     return "indeterminate" if goal.conditional or cut else "failure"
 
 
-def _why(goal: Goal, tally: Tally, verdict: Verdict, ended: Ended | None, *, under_way: bool) -> str:
+def _why(goal: Goal, tally: CaptureCount, verdict: Verdict, ended: Ended | None, *, under_way: bool) -> str:
     """The outcome in words: what there is, then what kept it from being more."""
     parts = [_counted(goal, tally)]
     if tally.done == 0 and tally.wanted == 0 and verdict == "success":
@@ -126,7 +126,7 @@ def _why(goal: Goal, tally: Tally, verdict: Verdict, ended: Ended | None, *, und
     return joined("; ", parts)
 
 
-def _counted(goal: Goal, tally: Tally) -> str:
+def _counted(goal: Goal, tally: CaptureCount) -> str:
     if goal.optional or tally.open:
         return say_captures(goal.action, tally.done)
     if tally.done > tally.wanted:
@@ -134,7 +134,7 @@ def _counted(goal: Goal, tally: Tally) -> str:
     return message("{count} of {captures}", count=tally.done, captures=say_captures(goal.action, tally.wanted))
 
 
-def _not_called_for(tally: Tally) -> str:
+def _not_called_for(tally: CaptureCount) -> str:
     if tally.spared:
         return joined(
             ": ",
@@ -158,7 +158,7 @@ def _not_called_for(tally: Tally) -> str:
     return message("not called for")
 
 
-def _because(tally: Tally) -> str:
+def _because(tally: CaptureCount) -> str:
     """The last reason: what was left out earlier was out of reach for the like of it."""
     reasons = [reason for reason in tally.reasons if reason]
     return because(reasons[-1]) if reasons else ""

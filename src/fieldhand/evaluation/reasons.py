@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.evaluation.means import Means
+from fieldhand.evaluation.mission_budget import MissionBudget
 from fieldhand.forecast.mission_state import MissionState, Visit
 from fieldhand.forecast.resource_limits import ResourceLimit
 from fieldhand.forecast.route_cost import RouteCost
@@ -25,7 +25,7 @@ SKIPPED, _NO_WAY = "skipped", "there is no way to"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Errand:
+class RoundTrip:
     """A way that leads somewhere and home.
 
     Attributes:
@@ -39,51 +39,56 @@ class Errand:
     more: bool = False
 
 
-def running_short(means: Means, state: MissionState, errand: Errand, chances: Floats) -> str:
+def running_short(budget: MissionBudget, state: MissionState, trip: RoundTrip, chances: Floats) -> str:
     """ "12 m left; going to tree 14 and home takes 14 m on average, 31 % chance of running short"."""
-    binding = _binding(means, chances)
+    binding = _binding(budget, chances)
     return message(
         "{known}, {chance} % chance of running short",
         context="log",
-        known=_amounts(means, state, errand, binding),
+        known=_amounts(budget, state, trip, binding),
         chance=f"{100 * chances[binding]:.0f}",
     )
 
 
 def left_out(
-    visits: Sequence[Visit], indices: Sequence[int], means: Means, state: MissionState, errand: Errand, chances: Floats
+    visits: Sequence[Visit],
+    indices: Sequence[int],
+    budget: MissionBudget,
+    state: MissionState,
+    trip: RoundTrip,
+    chances: Floats,
 ) -> str:
     """Optional visits that are given up, and why, told of the one that is least likely to run short.
 
     "skipped trees 14, 15 and 22: 31 % chance of running short (12 m left; going to tree 14 and home takes 14 m on
     average)".
     """
-    binding = _binding(means, chances)
+    binding = _binding(budget, chances)
     told = message(
         "{places}: {chance} % chance of running short ({why})",
         context="log",
         places=named(visits, indices),
         chance=f"{100 * chances[binding]:.0f}",
-        why=_amounts(means, state, errand, binding),
+        why=_amounts(budget, state, trip, binding),
     )
     return message("skipped {what}", context="log", what=told)
 
 
-def _binding(means: Means, chances: Floats) -> int:
-    return int((chances - means.accepted).argmax())
+def _binding(budget: MissionBudget, chances: Floats) -> int:
+    return int((chances - budget.accepted).argmax())
 
 
-def _amounts(means: Means, state: MissionState, errand: Errand, binding: int) -> str:
+def _amounts(budget: MissionBudget, state: MissionState, trip: RoundTrip, binding: int) -> str:
     """What is left of a limit, and what a way takes of it on average."""
-    resource = means.resources(state)[binding]
-    takes = errand.way.sums[0] * resource.per_metre + resource.of_work(means.robot, errand.way.work)
+    resource = budget.resources(state)[binding]
+    takes = trip.way.sums[0] * resource.per_metre + resource.of_work(budget.robot, trip.way.work)
     left = _amount(resource, resource.limit - resource.used(state.spent))
-    ways = {"place": _name(errand.to), "takes": _amount(resource, takes)}
+    ways = {"place": _name(trip.to), "takes": _amount(resource, takes)}
     if resource.kind == "reserve":
         held = message("{left} left above the reserve", context="log", left=left)
     else:
         held = message("{left} left", context="log", left=left)
-    if errand.more:
+    if trip.more:
         goes = message(
             "going to {place}, doing what must follow, and home takes {takes} on average", context="log", **ways
         )

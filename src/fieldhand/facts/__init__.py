@@ -9,6 +9,6 @@ None of it shares a word list or a rule with the English planner, so that it doe
 """
 
 from fieldhand.facts.compare import mismatches
-from fieldhand.facts.mismatch import Mismatch
+from fieldhand.facts.mismatch import PlanMismatch
 
-__all__ = ["Mismatch", "mismatches"]
+__all__ = ["PlanMismatch", "mismatches"]

@@ -26,7 +26,7 @@ _COMPARED = 5
 
 
 @dataclass(frozen=True, kw_only=True)
-class Amount:
+class StatedAmount:
     """A number of the request.
 
     Attributes:
@@ -66,7 +66,7 @@ class _Number:
     ordinal: bool = False
 
 
-def amounts(said: Sequence[Token], nouns: dict[int, Noun], units: frozenset[str]) -> tuple[Amount, ...]:
+def amounts(said: Sequence[Token], nouns: dict[int, Noun], units: frozenset[str]) -> tuple[StatedAmount, ...]:
     """Every number of a request.
 
     Args:
@@ -74,7 +74,7 @@ def amounts(said: Sequence[Token], nouns: dict[int, Noun], units: frozenset[str]
         nouns: By token, the words of the robot that begin there.
         units: Of the quantities that the robot measures, in lower case.
     """
-    found: list[Amount] = []
+    found: list[StatedAmount] = []
     for number in _numbers(said):
         amount = _amount(said, number, nouns, units)
         before = found[-1] if found else None
@@ -86,7 +86,7 @@ def amounts(said: Sequence[Token], nouns: dict[int, Noun], units: frozenset[str]
     return tuple(_shared_units(found, said))
 
 
-def numbers_of(amount: Amount) -> set[int]:
+def numbers_of(amount: StatedAmount) -> set[int]:
     """The whole numbers that an amount stands for, all of a range."""
     found = {int(v) for v in amount.values if float(v).is_integer()}
     return found | set(range(int(amount.values[0]), min(amount.through, int(amount.values[0]) + 10_000) + 1))
@@ -142,11 +142,11 @@ def _open(said: Sequence[Token], k: int) -> bool:
     return before in ("hundred", "thousand")
 
 
-def _amount(said: Sequence[Token], number: _Number, nouns: dict[int, Noun], units: frozenset[str]) -> Amount:
+def _amount(said: Sequence[Token], number: _Number, nouns: dict[int, Noun], units: frozenset[str]) -> StatedAmount:
     value, k = number.value, number.end
     after = said[k].text if k < len(said) else ""
     words = " ".join(t.text for t in said[number.start : min(k + 1, len(said))])
-    made = Amount(
+    made = StatedAmount(
         kind="ordinal" if number.ordinal else "plain",
         values=(value,),
         said=words,
@@ -247,7 +247,7 @@ def _compared(said: Sequence[Token], index: int) -> str:
     return ""
 
 
-def _listed(said: Sequence[Token], before: Amount, number: _Number) -> bool:
+def _listed(said: Sequence[Token], before: StatedAmount, number: _Number) -> bool:
     """Whether a bare number goes on with a list of names: "trees 4, 9 and 12"."""
     if before.kind not in ("id", "row", "name") or number.ordinal:
         return False
@@ -255,7 +255,7 @@ def _listed(said: Sequence[Token], before: Amount, number: _Number) -> bool:
     return 0 < len(between) <= 2 and all(text in _JOINS for text in between)
 
 
-def _shared_units(found: Sequence[Amount], said: Sequence[Token]) -> Iterator[Amount]:
+def _shared_units(found: Sequence[StatedAmount], said: Sequence[Token]) -> Iterator[StatedAmount]:
     """ "Between 380 and 420 ppm": the first number has the unit of the second."""
     for amount, following in zip_longest(found, found[1:]):
         joined = following is not None and [t.text for t in said[amount.index + 1 : following.index]] in (

@@ -10,15 +10,15 @@ from collections.abc import Iterator
 from itertools import accumulate, takewhile
 
 from fieldhand.facts import words as w
-from fieldhand.facts.amounts import Amount, numbers_of
-from fieldhand.facts.limits import limits
-from fieldhand.facts.mismatch import Mismatch
-from fieldhand.facts.places import named_places
-from fieldhand.facts.planned import Captures, Number, Planned, planned
-from fieldhand.facts.sizes import Sizes
-from fieldhand.facts.stated import Stated, hints, stated
-from fieldhand.facts.thresholds import thresholds
-from fieldhand.facts.unheld import unheld
+from fieldhand.facts.amounts import StatedAmount, numbers_of
+from fieldhand.facts.limits import limit_mismatches
+from fieldhand.facts.mismatch import PlanMismatch
+from fieldhand.facts.places import place_mismatches
+from fieldhand.facts.plan_facts import PlanFacts, PlannedCaptures, PlannedNumber, plan_facts
+from fieldhand.facts.request_facts import RequestFacts, hints, request_facts
+from fieldhand.facts.selector_sizes import SelectorSizes
+from fieldhand.facts.thresholds import threshold_mismatches
+from fieldhand.facts.unsupported import unsupported_words
 from fieldhand.language.words import listed, say_name
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -31,26 +31,26 @@ _NAMES = frozenset({"id", "row", "name", "length", "time", "percent", "temperatu
 _PLACES = _NAMES | {"trees", "corners", "rows", "ordinal"}
 
 
-def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[Mismatch, ...]:
+def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[PlanMismatch, ...]:
     """Every certain contradiction between a plan and the request that it was made from, each once.
 
     A request that states no such fact has none, and a plan without any may still be wrong.
     """
     request = task.command.read_as or task.command.request
-    sizes = Sizes(task, site)
-    said, plan = stated(request, robot, site), planned(task, sizes.of_node)
+    sizes = SelectorSizes(task, site)
+    said, plan = request_facts(request, robot, site), plan_facts(task, sizes.of_node)
     found = [
         *_sensors(said, plan, robot),
         *_counts(said, plan, sizes),
-        *thresholds(said, plan, robot),
-        *limits(said, plan),
-        *named_places(said, plan, site),
-        *unheld(said),
+        *threshold_mismatches(said, plan, robot),
+        *limit_mismatches(said, plan),
+        *place_mismatches(said, plan, site),
+        *unsupported_words(said),
     ]
     return tuple(dict.fromkeys(found))
 
 
-def _sensors(said: Stated, plan: Planned, robot: RobotProfile) -> Iterator[Mismatch]:
+def _sensors(said: RequestFacts, plan: PlanFacts, robot: RobotProfile) -> Iterator[PlanMismatch]:
     """Every action that is said is done, and nothing that nobody spoke of."""
     spoken: set[str] = set()
     told: set[frozenset[str]] = set()
@@ -61,20 +61,22 @@ def _sensors(said: Stated, plan: Planned, robot: RobotProfile) -> Iterator[Misma
         told.add(noun.actions)
         words = " ".join(t.text for t in said.said[k : k + noun.length])
         able = listed([say_name(name) for name in sorted(noun.actions)], "or")
-        yield Mismatch(kind="sensor", message=f"the request says '{words}', and nothing in the plan does that ({able})")
+        yield PlanMismatch(
+            kind="sensor", message=f"the request says '{words}', and nothing in the plan does that ({able})"
+        )
     if not spoken or said.unknown:
         return
     stems = {w.singular(word) for word in said.words}
     for one in plan.captures:
         if one.action in spoken or one.action not in robot.action or hints(robot.action[one.action], robot) & stems:
             continue
-        yield Mismatch(
+        yield PlanMismatch(
             kind="sensor", message=f"the plan does '{say_name(one.action)}', of which the request says nothing",
             node=one.node,
         )  # fmt: skip
 
 
-def _counts(said: Stated, plan: Planned, sizes: Sizes) -> Iterator[Mismatch]:
+def _counts(said: RequestFacts, plan: PlanFacts, sizes: SelectorSizes) -> Iterator[PlanMismatch]:
     """A stated number of captures, trees or corners is somewhere in the plan, and no other number is."""
     for amount in said.amounts:
         n = int(amount.values[0]) if float(amount.values[0]).is_integer() else 0
@@ -82,7 +84,7 @@ def _counts(said: Stated, plan: Planned, sizes: Sizes) -> Iterator[Mismatch]:
             continue
         if amount.compared or n in _explained(plan, amount) or n in _visited(plan, sizes):
             continue
-        yield Mismatch(
+        yield PlanMismatch(
             kind="count", message=f"the request says '{_phrase(said, amount)}', and no steps of the plan come to {n}"
         )
     for number in plan.numbers:
@@ -91,17 +93,17 @@ def _counts(said: Stated, plan: Planned, sizes: Sizes) -> Iterator[Mismatch]:
         if number.what.endswith(" count") and _comes_to_what_is_said(said, plan, number.node, sizes):
             continue
         message = f"the plan holds the number {number.value:g} ({number.what}), which the request does not say"
-        yield Mismatch(kind="count", message=message, node=number.node)
+        yield PlanMismatch(kind="count", message=message, node=number.node)
 
 
-def _comes_to_what_is_said(said: Stated, plan: Planned, node: str, sizes: Sizes) -> bool:
+def _comes_to_what_is_said(said: RequestFacts, plan: PlanFacts, node: str, sizes: SelectorSizes) -> bool:
     """Return True if a selector only keeps some of what is counted inside it, as many as the request says."""
     top = next(x for name, x in plan.selectors if name == node)
-    stated = {n for a in said.amounts if a.kind in ("trees", "captures") for n in numbers_of(a)}
-    return not hasattr(top, "count") and sizes.of_node(node) in stated
+    request_facts = {n for a in said.amounts if a.kind in ("trees", "captures") for n in numbers_of(a)}
+    return not hasattr(top, "count") and sizes.of_node(node) in request_facts
 
 
-def _phrase(said: Stated, amount: Amount) -> str:
+def _phrase(said: RequestFacts, amount: StatedAmount) -> str:
     """The number with the words behind it, up to what it counts."""
     end = amount.index + 1
     for k in range(amount.index + 1, min(amount.index + 6, len(said.said))):
@@ -114,7 +116,7 @@ def _phrase(said: Stated, amount: Amount) -> str:
     return " ".join(t.text for t in said.said[amount.index : end])
 
 
-def _explained(plan: Planned, amount: Amount) -> set[int]:
+def _explained(plan: PlanFacts, amount: StatedAmount) -> set[int]:
     """Every number of things that the plan can be said to take or to visit."""
     acts = [one for one in plan.captures if not amount.actions or one.action in amount.actions]
     found = {n for one in acts for n in (one.each, *one.around)}
@@ -130,7 +132,7 @@ def _explained(plan: Planned, amount: Amount) -> set[int]:
     return found
 
 
-def _sums(acts: list[Captures]) -> set[int]:
+def _sums(acts: list[PlannedCaptures]) -> set[int]:
     """What acts that follow each other take together."""
     found: set[int] = {len(acts)}
     for start in range(len(acts)):
@@ -139,7 +141,7 @@ def _sums(acts: list[Captures]) -> set[int]:
     return found
 
 
-def _visited(plan: Planned, sizes: Sizes) -> set[int]:
+def _visited(plan: PlanFacts, sizes: SelectorSizes) -> set[int]:
     """Return at how many places each selector comes out ("all 18 yellow trees"), and steps that follow each other."""
     steps = [sizes.of_node(node.id) for node in plan.nodes if node.selector is not None]
     found = set(sizes.every)
@@ -149,27 +151,29 @@ def _visited(plan: Planned, sizes: Sizes) -> set[int]:
     return found
 
 
-def _allowed(said: Stated, number: Number) -> set[int]:
+def _allowed(said: RequestFacts, number: PlannedNumber) -> set[int]:
     """Whole numbers that may stand where a number of the plan stands, by what the request says.
 
     What only names a tree or a row, or has a unit, is no number of captures.
     """
     captures = number.what == "captures at a place"
     others = _PLACES if captures else _NAMES if number.what.endswith(" count") else frozenset()
-    stated = {n for a in said.amounts if a.kind not in others for n in numbers_of(a)}
-    stated |= {n for word, n in w.MULTIPLES.items() if word in said.words}
-    found = set(stated)
+    request_facts = {n for a in said.amounts if a.kind not in others for n in numbers_of(a)}
+    request_facts |= {n for word, n in w.MULTIPLES.items() if word in said.words}
+    found = set(request_facts)
     if not captures:
-        found |= {n + 1 for n in stated} | {n - 1 for n in stated}
+        found |= {n + 1 for n in request_facts} | {n - 1 for n in request_facts}
     if said.words & {"another", "again", "second", "repeat", "same", "more", "also", "other", "alternate"}:
         found |= {2}
     if said.words & {"odd", "even", "next", "adjacent", "side"}:
         found |= {2}
     if said.words & {"total", "altogether", "overall"} or {"in", "all"} <= said.words:
-        found |= {a * b for a in stated for b in stated} | {a // b for a in stated for b in stated if b and a % b == 0}
+        found |= {a * b for a in request_facts for b in request_facts} | {
+            a // b for a in request_facts for b in request_facts if b and a % b == 0
+        }
     return found
 
 
-def _by_itself(said: Stated, what: str) -> bool:
+def _by_itself(said: RequestFacts, what: str) -> bool:
     """Whether a number needs no words: one of several that were left open, or a row that is one of all."""
     return said.vague or (what.startswith(("rows ", "inrow ")) and bool(said.words & {"each", "every", "all", "per"}))

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from fieldhand.facts.amounts import Amount
-from fieldhand.facts.mismatch import Mismatch
-from fieldhand.facts.planned import Planned
-from fieldhand.facts.stated import Stated
+from fieldhand.facts.amounts import StatedAmount
+from fieldhand.facts.mismatch import PlanMismatch
+from fieldhand.facts.plan_facts import PlanFacts
+from fieldhand.facts.request_facts import RequestFacts
 from fieldhand.facts.words import words_in
 from fieldhand.task.frames import BudgetKind
 
@@ -30,7 +30,7 @@ _CLOSE = 0.02
 _PARTS = {"half": 0.5, "quarter": 0.25, "third": 1 / 3}
 
 
-def limits(said: Stated, plan: Planned) -> Iterator[Mismatch]:
+def limit_mismatches(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     """Contradictions in budgets, reserve and distances."""
     for amount in said.amounts:
         if amount.kind == "percent":
@@ -39,15 +39,15 @@ def limits(said: Stated, plan: Planned) -> Iterator[Mismatch]:
             yield from _dropped(said, plan, amount)
         elif amount.kind == "speed" and not _drives(plan, amount.values[0]):
             message = f"the request says '{amount.said}' as a speed, and the plan does not drive at that"
-            yield Mismatch(kind="limit", message=message)
+            yield PlanMismatch(kind="limit", message=message)
     yield from _invented(said, plan)
     if said.as_many and not any(getattr(node, "optional", False) for node in plan.nodes):
-        yield Mismatch(
+        yield PlanMismatch(
             kind="limit", message="the request asks for as many as possible, and no visit of the plan is optional"
         )
 
 
-def _battery(said: Stated, plan: Planned, amount: Amount) -> Iterator[Mismatch]:
+def _battery(said: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iterator[PlanMismatch]:
     """A part of the battery that may be used is a budget, one that must be left is a reserve."""
     sentence = {t.text for t in said.said if t.sentence == amount.sentence}
     if not sentence & BATTERY or said.conditional(amount.sentence):
@@ -60,12 +60,12 @@ def _battery(said: Stated, plan: Planned, amount: Amount) -> Iterator[Mismatch]:
     keeps, uses = bool(sentence & _KEEPS), bool(sentence & _USES)
     ways = [*(left if keeps or not uses else []), *(used if uses or not keeps else [])]
     if not any(abs(percent - x) < 0.5 for x in ways):
-        yield Mismatch(
+        yield PlanMismatch(
             kind="limit", message=f"the request limits the battery by '{amount.said}', and the plan does not do so"
         )
 
 
-def _dropped(said: Stated, plan: Planned, amount: Amount) -> Iterator[Mismatch]:
+def _dropped(said: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iterator[PlanMismatch]:
     """A distance or a time that is stated stands somewhere in the plan."""
     value = amount.values[0]
     limit: BudgetKind = "distance_m" if amount.kind == "length" else "duration_s"
@@ -83,16 +83,16 @@ def _dropped(said: Stated, plan: Planned, amount: Amount) -> Iterator[Mismatch]:
     if amount.kind == "length" or before & _LIMITS:
         if amount.kind == "length" and not (before & _LIMITS or after & {"apart", "intervals", "interval", "spacing"}):
             return
-        yield Mismatch(kind="limit", message=f"the request says '{amount.said}', which the plan does not hold")
+        yield PlanMismatch(kind="limit", message=f"the request says '{amount.said}', which the plan does not hold")
 
 
-def _drives(plan: Planned, metres_per_second: float) -> bool:
+def _drives(plan: PlanFacts, metres_per_second: float) -> bool:
     """Return True if the plan limits its speed to that."""
     speed = plan.task.constraints.speed_m_s
     return speed is not None and _close(speed, metres_per_second)
 
 
-def _parameters(plan: Planned) -> list[float]:
+def _parameters(plan: PlanFacts) -> list[float]:
     """Numbers that actions are told, as metres where they are centimetres."""
     told = [
         value for node in plan.nodes for _, value in getattr(node, "parameters", ()) if isinstance(value, float | int)
@@ -100,33 +100,33 @@ def _parameters(plan: Planned) -> list[float]:
     return [x for value in told for x in (float(value), float(value) / 100.0)]
 
 
-def _invented(said: Stated, plan: Planned) -> Iterator[Mismatch]:
+def _invented(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     """A limit or a distance of the plan is stated."""
     for budget in plan.task.constraints.budgets:
         kind, unit = _KINDS[budget.kind]
         if not any(_close(budget.limit, x) for x in _stated(said, kind)):
-            yield Mismatch(
+            yield PlanMismatch(
                 kind="limit",
                 message=f"the plan has a budget of {budget.limit:g} {unit}, which the request does not say",
             )
     reserve = plan.task.constraints.reserve_percent
     if reserve is not None and not any(abs(reserve - x) < 0.5 for x in _stated(said, "percent")):
-        yield Mismatch(
+        yield PlanMismatch(
             kind="limit", message=f"the plan keeps {reserve:g} % of the battery, which the request does not say"
         )
     speed = plan.task.constraints.speed_m_s
     if speed is not None and not any(_close(speed, x) for a in said.amounts for x in a.values):
-        yield Mismatch(kind="limit", message=f"the plan drives at {speed:g} m/s, which the request does not say")
+        yield PlanMismatch(kind="limit", message=f"the plan drives at {speed:g} m/s, which the request does not say")
     for number in plan.numbers:
         if number.kind == "length" and not any(_close(number.value, x) for x in _stated(said, "length")):
-            yield Mismatch(
+            yield PlanMismatch(
                 kind="distance",
                 message=f"the plan holds {number.value:g} m ({number.what}), which the request does not say",
                 node=number.node,
             )
 
 
-def _stated(said: Stated, kind: str) -> list[float]:
+def _stated(said: RequestFacts, kind: str) -> list[float]:
     """Every amount of a kind that is stated; a number without a unit may be of any."""
     found = [x for a in said.amounts if a.kind == kind for x in a.values]
     plain = [x for a in said.amounts if a.kind in ("plain", "times") for x in a.values]

@@ -12,7 +12,7 @@ MismatchKind = Literal[
 
 
 @dataclass(frozen=True, kw_only=True)
-class Mismatch:
+class PlanMismatch:
     """One contradiction.
 
     Attributes:

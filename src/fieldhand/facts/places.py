@@ -6,10 +6,10 @@ import re
 from collections.abc import Iterator
 
 from fieldhand.facts import words as w
-from fieldhand.facts.amounts import Amount
-from fieldhand.facts.mismatch import Mismatch
-from fieldhand.facts.planned import Planned
-from fieldhand.facts.stated import Stated
+from fieldhand.facts.amounts import StatedAmount
+from fieldhand.facts.mismatch import PlanMismatch
+from fieldhand.facts.plan_facts import PlanFacts
+from fieldhand.facts.request_facts import RequestFacts
 from fieldhand.places import selectors as s
 from fieldhand.site.model import Site
 from fieldhand.task.build import FAULTED_EXITS
@@ -30,7 +30,7 @@ _SOME_ROWS = re.compile(
 )
 
 
-def named_places(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
+def place_mismatches(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Contradictions in what places are called."""
     yield from _trees(said, plan)
     yield from _rows(said, plan, site)
@@ -43,7 +43,7 @@ def named_places(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
     yield from _order(said, plan)
 
 
-def _trees(said: Stated, plan: Planned) -> Iterator[Mismatch]:
+def _trees(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     """Each tree that is called by a number is in the plan, and no other."""
     named = {_digits(tree) for _, tree in plan.trees}
     spans = [(abs(x.first), abs(x.last)) for _, x in plan.having(s.InRow) if isinstance(x, s.InRow)]
@@ -54,7 +54,7 @@ def _trees(said: Stated, plan: Planned) -> Iterator[Mismatch]:
         n = int(amount.values[0])
         if amount.kind != "id" or str(n) in named or n in counted or any(a <= n <= b for a, b in map(sorted, spans)):
             continue
-        yield Mismatch(kind="place", message=f"the request names tree {n}, and the plan does not")
+        yield PlanMismatch(kind="place", message=f"the request names tree {n}, and the plan does not")
     if said.spaced:
         return  # which trees stand so far from each other, only the site says
     spoken = said.text.replace(" ", "")
@@ -63,7 +63,9 @@ def _trees(said: Stated, plan: Planned) -> Iterator[Mismatch]:
         spelt = "".join(ch for ch in tree.lower() if ch.isalnum())
         if _digits(tree) in numbers or tree.lower() in spoken or spelt in "".join(c for c in spoken if c.isalnum()):
             continue
-        yield Mismatch(kind="place", message=f"the plan names tree {tree[:40]!r}, and the request does not", node=node)
+        yield PlanMismatch(
+            kind="place", message=f"the plan names tree {tree[:40]!r}, and the request does not", node=node
+        )
 
 
 def _digits(name: str) -> str:
@@ -72,7 +74,7 @@ def _digits(name: str) -> str:
     return name[len(head) :].lstrip("0")
 
 
-def _rows(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
+def _rows(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Each row that is called by a number is in the plan, and no other."""
     rows = [(node, x) for node, x in plan.having(s.Rows) if isinstance(x, s.Rows)]
     if not all(_NUMBER.fullmatch(name) for _, row in rows for name in (row.first, row.last)):
@@ -82,16 +84,18 @@ def _rows(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
             continue
         if not any(_holds(row, amount) for _, row in rows) and not _has_named_tree(amount, plan, site):
             message = f"the request names row {amount.values[0]:g}, and the plan does not"
-            yield Mismatch(kind="place", message=message)
+            yield PlanMismatch(kind="place", message=message)
     if said.unknown or _SOME_ROWS.search(said.text):
         return
     for node, row in rows:
         for name in dict.fromkeys((row.first, row.last)):
             if int(name) > 1 and int(name) not in said.whole_numbers:
-                yield Mismatch(kind="place", message=f"the plan names row {name}, and the request does not", node=node)
+                yield PlanMismatch(
+                    kind="place", message=f"the plan names row {name}, and the request does not", node=node
+                )
 
 
-def _is_row(said: Stated, amount: Amount) -> bool:
+def _is_row(said: RequestFacts, amount: StatedAmount) -> bool:
     """Whether a number calls a row: "row 3", "the third row", but not "every third row"."""
     if amount.kind != "ordinal":
         return amount.kind == "row"
@@ -100,7 +104,7 @@ def _is_row(said: Stated, amount: Amount) -> bool:
     return "row" in (after[:1] or [""]) and not {"every", "each"} & set(before)
 
 
-def _of_named_tree(said: Stated, plan: Planned, amount: Amount) -> bool:
+def _of_named_tree(said: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> bool:
     """Whether a row only says where a tree stands that the plan names by its id: "tree 25 of row 2"."""
     named = {_digits(tree) for _, tree in plan.trees}
     return any(
@@ -108,19 +112,19 @@ def _of_named_tree(said: Stated, plan: Planned, amount: Amount) -> bool:
     )
 
 
-def _has_named_tree(amount: Amount, plan: Planned, site: Site) -> bool:
+def _has_named_tree(amount: StatedAmount, plan: PlanFacts, site: Site) -> bool:
     """Whether a tree that the plan names by its id stands in that row of the site."""
     planting, wanted = site.planting, int(amount.values[0])
     stands = {int(planting.row_of[site.by_id[tree].index]) for _, tree in plan.trees if tree in site.by_id}
     return any(row == wanted - 1 or planting.rows[row].name == str(wanted) for row in stands if row >= 0)
 
 
-def _holds(row: s.Rows, amount: Amount) -> bool:
+def _holds(row: s.Rows, amount: StatedAmount) -> bool:
     first, last = int(row.first), int(row.last)
     return first < 0 or last < 0 or min(first, last) <= amount.values[0] <= max(first, last)
 
 
-def _areas(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
+def _areas(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Each zone or block that is called by its name is in the plan; a zone of the plan is called by some word of it."""
     pointed = _pointed(plan)
     held = {_said(name) for _, name in plan.areas}
@@ -129,17 +133,17 @@ def _areas(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
         if name in w.COMPASS and w.COMPASS[name] <= pointed:
             continue  # a block called "North" is not what "from the north" or "the northernmost" means
         if not any(name in other for other in held) and not _stands_in(plan, name, site):
-            yield Mismatch(kind="place", message=f"the request names '{name}', and the plan does not")
+            yield PlanMismatch(kind="place", message=f"the request names '{name}', and the plan does not")
     for node, name in plan.areas:
         words = {t.text for t in _tokens(name)}
         if said.unknown or words & said.words or name.isdecimal() or said.words & {"each", "every", "all", "both"}:
             continue
-        yield Mismatch(kind="place", message=f"the plan names {name[:40]!r}, and the request does not", node=node)
+        yield PlanMismatch(kind="place", message=f"the plan names {name[:40]!r}, and the request does not", node=node)
     if said.words & _CHARGER and "charger" not in plan.markers and not said.words & {"recharge", "recharging"}:
-        yield Mismatch(kind="place", message="the request names the charger, and the plan does not")
+        yield PlanMismatch(kind="place", message="the request names the charger, and the plan does not")
 
 
-def _pointed(plan: Planned) -> set[Side]:
+def _pointed(plan: PlanFacts) -> set[Side]:
     """Return the sides of the compass that a plan holds anywhere: places there, counts from there, ways and orders."""
     held: set[str] = set(plan.sides)
     for _, selector in plan.selectors:
@@ -150,7 +154,7 @@ def _pointed(plan: Planned) -> set[Side]:
     return {side for side in _SIDES if side in held}
 
 
-def _stands_in(plan: Planned, name: str, site: Site) -> bool:
+def _stands_in(plan: PlanFacts, name: str, site: Site) -> bool:
     """Return True if a tree that the plan names by its id stands in the zone or block of that name."""
     from fieldhand.errors import PlaceError
     from fieldhand.places.context import Context
@@ -170,15 +174,17 @@ def _stands_in(plan: Planned, name: str, site: Site) -> bool:
     return False
 
 
-def _gates(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
+def _gates(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Each gate that is called by its name is in the plan, and no other."""
     held = {_said(x.gate): node for node, x in plan.having(s.GateIs) if isinstance(x, s.GateIs)}
     for name in dict.fromkeys(_said(gate.place.id) for gate in site.gates):
         if f" {name} " in f" {said.text} " and not held and name not in said.zones:
-            yield Mismatch(kind="place", message=f"the request names '{name}', and the plan does not")
+            yield PlanMismatch(kind="place", message=f"the request names '{name}', and the plan does not")
     for name, node in held.items():
         if not said.unknown and not set(name.split()) & said.words:
-            yield Mismatch(kind="place", message=f"the plan names {name[:40]!r}, and the request does not", node=node)
+            yield PlanMismatch(
+                kind="place", message=f"the plan names {name[:40]!r}, and the request does not", node=node
+            )
 
 
 def _said(name: str) -> str:
@@ -189,7 +195,7 @@ def _tokens(name: str) -> tuple[w.Token, ...]:
     return w.tokens(name.replace("_", " "))
 
 
-def _sides(said: Stated, plan: Planned) -> Iterator[Mismatch]:
+def _sides(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     """Each side of the compass that is said is in the plan, and no other."""
     by_name = {word for name in said.zones for word in name.split()} | set(said.attributes)
     spoken = {side for side in said.sides if not any(side in name for name in by_name)}
@@ -201,29 +207,31 @@ def _sides(said: Stated, plan: Planned) -> Iterator[Mismatch]:
     )
     if not any(x.counts_from_a_side for _, x in plan.selectors):
         for side in sorted(spoken - held):
-            yield Mismatch(kind="side", message=f"the request says '{side}', and no place of the plan is there")
+            yield PlanMismatch(kind="side", message=f"the request says '{side}', and no place of the plan is there")
     if said.unknown or said.words & w.VAGUE_SIDES or _OTHER_PART.search(said.text):
         return
     around = len(plan.sides) == 4 and not spoken  # each quarter, or the edge all around
     ends = frozenset() if said.sides else plan.ends_driven
     for side, node in plan.sides.items():
         if side not in said.sides and not around and side not in ends:
-            yield Mismatch(
+            yield PlanMismatch(
                 kind="side", message=f"the plan goes to the {side}, of which the request says nothing", node=node
             )
     for by in sorted(orders):
         if "_to_" in by and not any(side in by for side in said.sides):
-            yield Mismatch(
+            yield PlanMismatch(
                 kind="order", message=f"the plan goes {by.replace('_', ' ')}, and the request does not say so"
             )
 
 
-def _attributes(said: Stated, plan: Planned) -> Iterator[Mismatch]:
+def _attributes(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     """What the site records and the request names is asked for in the plan, and nothing else is."""
     held = {" ".join(t.text for t in _tokens(str(value))) for _, _, value in plan.values}
     for word in said.attributes:
         if not any(word in other or other in word for other in held):
-            yield Mismatch(kind="attribute", message=f"the request says '{word}', and the plan does not ask for that")
+            yield PlanMismatch(
+                kind="attribute", message=f"the request says '{word}', and the plan does not ask for that"
+            )
     if said.unknown:
         return
     stems = {w.singular(word) for word in said.words}
@@ -232,14 +240,14 @@ def _attributes(said: Stated, plan: Planned) -> Iterator[Mismatch]:
         if said.words & _EACH_KIND and stems & {w.singular(t.text) for t in _tokens(attribute)}:
             continue  # of each variety
         if isinstance(value, str) and not words & said.words:
-            yield Mismatch(
+            yield PlanMismatch(
                 kind="attribute",
                 message=f"the plan asks for {attribute} {value[:40]!r}, of which the request says nothing",
                 node=node,
             )
 
 
-def _ends(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
+def _ends(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """A return that is asked for is the exit of the plan, or a drive in it."""
     if not said.returns or said.returns not in site.markers:
         return
@@ -248,10 +256,10 @@ def _ends(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
         n.only_drives and n.selector is not None and n.selector.named_marker == said.returns for n in plan.nodes
     )
     if plan.task.composition.nominal != wanted and not driven:
-        yield Mismatch(kind="return", message=f"the request ends at the {said.returns}, and the plan does not")
+        yield PlanMismatch(kind="return", message=f"the request ends at the {said.returns}, and the plan does not")
 
 
-def _faults(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
+def _faults(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """What is done about a fault is what every mission does, or where this one ends, unless that is asked for."""
     if said.unknown or said.words & _OF_FAULTS or not site.markers:
         return
@@ -260,20 +268,22 @@ def _faults(said: Stated, plan: Planned, site: Site) -> Iterator[Mismatch]:
         if chosen.then not in (usual[chosen.fault], plan.task.composition.nominal):
             what = f"{chosen.fault} is answered by {chosen.then}".replace("_", " ")
             message = f"the plan changes what is done about a fault ({what}), unasked"
-            yield Mismatch(kind="return", message=message)
+            yield PlanMismatch(kind="return", message=message)
 
 
-def _order(said: Stated, plan: Planned) -> Iterator[Mismatch]:
+def _order(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     """Trees that are to be visited "in that order" are."""
     if not any(phrase in said.text for phrase in ("in that order", "in this order", "in the given order")):
         return
     numbers = [str(int(a.values[0])) for a in said.amounts if a.kind == "id" and not a.through]
     named = [_digits(tree) for _, tree in plan.trees]
     if len(set(numbers)) == len(numbers) > 1 and sorted(named) == sorted(numbers) and named != numbers:
-        yield Mismatch(
+        yield PlanMismatch(
             kind="order", message=f"the request gives the order {', '.join(numbers)}, the plan {', '.join(named)}"
         )
     free = [n for n in plan.nodes if n.in_any_order]
     given = any(n.keeps_order for n in plan.nodes)
     if free and not given:
-        yield Mismatch(kind="order", message="the request fixes an order, and the plan leaves it open", node=free[0].id)
+        yield PlanMismatch(
+            kind="order", message="the request fixes an order, and the plan leaves it open", node=free[0].id
+        )

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from fieldhand.facts import words as w
-from fieldhand.facts.amounts import Amount
+from fieldhand.facts.amounts import StatedAmount
 from fieldhand.facts.limits import BATTERY
-from fieldhand.facts.mismatch import Mismatch
-from fieldhand.facts.planned import Planned, Tested
-from fieldhand.facts.stated import Stated
+from fieldhand.facts.mismatch import PlanMismatch
+from fieldhand.facts.plan_facts import PlanFacts, PlannedTest
+from fieldhand.facts.request_facts import RequestFacts
 from fieldhand.language.words import TESTS, say_quantity
 from fieldhand.robot.model import RobotProfile
 
@@ -20,7 +20,7 @@ _CALENDAR = (1900.0, 2100.0)
 _WAYS = {"below": ("lt", "le"), "above": ("gt", "ge")}
 
 
-def thresholds(said: Stated, plan: Planned, robot: RobotProfile) -> Iterator[Mismatch]:
+def threshold_mismatches(said: RequestFacts, plan: PlanFacts, robot: RobotProfile) -> Iterator[PlanMismatch]:
     """Contradictions in what is tested."""
     for amount in said.amounts:
         yield from _kept(said, plan, robot, amount)
@@ -30,14 +30,14 @@ def thresholds(said: Stated, plan: Planned, robot: RobotProfile) -> Iterator[Mis
     yield from _levels(said, plan)
 
 
-def _kept(said: Stated, plan: Planned, robot: RobotProfile, amount: Amount) -> Iterator[Mismatch]:
+def _kept(said: RequestFacts, plan: PlanFacts, robot: RobotProfile, amount: StatedAmount) -> Iterator[PlanMismatch]:
     """A threshold that is stated is tested, the right way round and on the quantity that is named."""
     if not _certain(said, amount):
         return
     same = [t for t in plan.tests if any(_same(v, x) for v in amount.values for x in t.values)]
     if not same:
         if not _as_level(plan, robot, amount) and not (amount.kind == "attribute" and _calendar(plan)):
-            yield Mismatch(
+            yield PlanMismatch(
                 kind="condition",
                 message=f"the request states the threshold '{amount.said}', which the plan never tests",
             )
@@ -46,7 +46,7 @@ def _kept(said: Stated, plan: Planned, robot: RobotProfile, amount: Amount) -> I
     yield from _other_quantity(amount, same, said, robot)
 
 
-def _certain(said: Stated, amount: Amount) -> bool:
+def _certain(said: RequestFacts, amount: StatedAmount) -> bool:
     """Whether a number is for certain a threshold that something is made to depend on."""
     if amount.kind == "attribute":
         return bool(amount.compared) and not said.negated(amount.index)
@@ -57,11 +57,11 @@ def _certain(said: Stated, amount: Amount) -> bool:
     return amount.kind in ("temperature", "unit") or (amount.kind == "plain" and bool(amount.compared))
 
 
-def _calendar(plan: Planned) -> bool:
+def _calendar(plan: PlanFacts) -> bool:
     return any(_CALENDAR[0] <= x <= _CALENDAR[1] for t in plan.tests for x in t.values)
 
 
-def _as_level(plan: Planned, robot: RobotProfile, amount: Amount) -> bool:
+def _as_level(plan: PlanFacts, robot: RobotProfile, amount: StatedAmount) -> bool:
     """Whether a threshold is tested by its word ("low" is below 33)."""
     for test in plan.tests:
         quantity = robot.quantity.get(test.quantity)
@@ -71,7 +71,7 @@ def _as_level(plan: Planned, robot: RobotProfile, amount: Amount) -> bool:
     return False
 
 
-def _turned(amount: Amount, same: list[Tested], said: Stated) -> Iterator[Mismatch]:
+def _turned(amount: StatedAmount, same: list[PlannedTest], said: RequestFacts) -> Iterator[PlanMismatch]:
     """ "Below" is not tested as "above" where nothing in plan or request turns it around."""
     alike = {a.compared for a in said.amounts if any(_same(v, x) for v in a.values for x in amount.values)}
     ways = _WAYS.get(amount.compared)
@@ -83,7 +83,7 @@ def _turned(amount: Amount, same: list[Tested], said: Stated) -> Iterator[Mismat
         if test.test not in ("lt", "le", "gt", "ge") or test.test in ways or test.attribute:
             continue
         if test.plainly or (wanted & test.then and not wanted & test.otherwise):
-            yield Mismatch(
+            yield PlanMismatch(
                 kind="threshold",
                 message=f"the request says {amount.compared} '{amount.said}', and the plan tests "
                 f"{TESTS[test.test]} {say_quantity(test.values[0], test.unit)}",
@@ -91,7 +91,7 @@ def _turned(amount: Amount, same: list[Tested], said: Stated) -> Iterator[Mismat
             )
 
 
-def _wanted(said: Stated, amount: Amount) -> frozenset[str]:
+def _wanted(said: RequestFacts, amount: StatedAmount) -> frozenset[str]:
     """What a sentence asks for where its threshold holds, "stop" for an end of the mission."""
     found: set[str] = set()
     for k in range(amount.index + 1, len(said.said)):
@@ -103,16 +103,18 @@ def _wanted(said: Stated, amount: Amount) -> frozenset[str]:
     return frozenset(found)
 
 
-def _other_quantity(amount: Amount, same: list[Tested], said: Stated, robot: RobotProfile) -> Iterator[Mismatch]:
+def _other_quantity(
+    amount: StatedAmount, same: list[PlannedTest], said: RequestFacts, robot: RobotProfile
+) -> Iterator[PlanMismatch]:
     """The quantity that is named right before a threshold is the one that is tested."""
     named = _quantity_before(amount, said, robot)
     if named and all(t.quantity and t.quantity != named for t in same):
         test = same[0]
         message = f"the request compares the {named.replace('_', ' ')} with '{amount.said}', and the plan the "
-        yield Mismatch(kind="sensor", message=message + test.quantity.replace("_", " "), node=test.node)
+        yield PlanMismatch(kind="sensor", message=message + test.quantity.replace("_", " "), node=test.node)
 
 
-def _quantity_before(amount: Amount, said: Stated, robot: RobotProfile) -> str:
+def _quantity_before(amount: StatedAmount, said: RequestFacts, robot: RobotProfile) -> str:
     """The one quantity whose own words stand in the few words before a number; empty if that is open."""
     words: list[str] = []
     for token in reversed(said.said[max(0, amount.index - 7) : amount.index]):
@@ -128,7 +130,7 @@ def _quantity_before(amount: Amount, said: Stated, robot: RobotProfile) -> str:
     return found[0] if len(found) == 1 else ""
 
 
-def _invented(said: Stated, robot: RobotProfile, test: Tested) -> Iterator[Mismatch]:
+def _invented(said: RequestFacts, robot: RobotProfile, test: PlannedTest) -> Iterator[PlanMismatch]:
     """A threshold of the plan is stated, in this unit or one that it follows from."""
     for value in test.values:
         if test.attribute and _CALENDAR[0] <= value <= _CALENDAR[1]:
@@ -140,14 +142,14 @@ def _invented(said: Stated, robot: RobotProfile, test: Tested) -> Iterator[Misma
             continue
         what = test.attribute or test.quantity.replace("_", " ")
         told = say_quantity(value, test.unit)
-        yield Mismatch(
+        yield PlanMismatch(
             kind="threshold",
             message=f"the plan compares the {what} with {told}, which the request does not say",
             node=test.node,
         )
 
 
-def _follows(value: float, amount: Amount, test: Tested) -> bool:
+def _follows(value: float, amount: StatedAmount, test: PlannedTest) -> bool:
     if amount.kind == "unit" and test.unit and amount.unit != test.unit.lower():
         return False
     if amount.kind == "temperature":
@@ -157,18 +159,18 @@ def _follows(value: float, amount: Amount, test: Tested) -> bool:
     return any(_same(value, x * factor) for x in amount.values for factor in factors)
 
 
-def _levels(said: Stated, plan: Planned) -> Iterator[Mismatch]:
+def _levels(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     """ "Low" is not tested as "high", nor left out, where nothing else is tested that it could stand for."""
     tested = {t.level: t.node for t in plan.tests if t.test == "level"}
     if said.levels and not said.unknown:
         for word in sorted(tested.keys() - said.words):
             message = f"the plan tests for '{word}', of which the request says nothing"
-            yield Mismatch(kind="condition", message=message, node=tested[word])
+            yield PlanMismatch(kind="condition", message=message, node=tested[word])
     if tested or any(t.quantity for t in plan.tests):
         return
     for word in sorted(said.levels):
         message = f"the request makes something depend on '{word}', and the plan tests no reading"
-        yield Mismatch(kind="condition", message=message)
+        yield PlanMismatch(kind="condition", message=message)
 
 
 def _same(a: float, b: float) -> bool:

@@ -26,7 +26,7 @@ from fieldhand.task import plan
 from fieldhand.task.frames import Task
 
 if TYPE_CHECKING:
-    from fieldhand.forecast.expected import Expected
+    from fieldhand.forecast.expected_visits import ExpectedVisits
     from fieldhand.site.drives import Drives
 
 #: So many walks are looked at, and so many steps in all of them, before the rest is left. Two are always looked at.
@@ -114,7 +114,7 @@ def branches(
     """
     ways = drives or visit_order.drives_for(site, robot)
     outcomes = ConditionOutcomes(task.composition.plan, site, robot)
-    kept: dict[object, Expected] = {}
+    kept: dict[object, ExpectedVisits] = {}
 
     def likely(answers: Answers) -> ForecastHandler:
         samples = None if leg_costs is None else MissionSamples(leg_costs)

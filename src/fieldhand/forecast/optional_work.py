@@ -9,7 +9,7 @@ import numpy as np
 
 from fieldhand.errors import DriveFault
 from fieldhand.forecast import visit_order
-from fieldhand.forecast.expected import Expected, expected_visits
+from fieldhand.forecast.expected_visits import ExpectedVisits, expected_visits
 from fieldhand.forecast.mission_state import Visit
 from fieldhand.forecast.optional_visits import OptionalVisits
 from fieldhand.forecast.request_handler import ForecastHandler
@@ -28,7 +28,7 @@ class LikelyOptionalWork:
         kept: What was found of optional visits on walks that had the same answers by then.
     """
 
-    def __init__(self, kept: dict[object, Expected]) -> None:
+    def __init__(self, kept: dict[object, ExpectedVisits]) -> None:
         self._kept = kept
 
     def visits(
@@ -79,7 +79,7 @@ class ScriptedOptionalWork:
         kept: What walks with likely visits have found.
     """
 
-    def __init__(self, kept: Mapping[object, Expected]) -> None:
+    def __init__(self, kept: Mapping[object, ExpectedVisits]) -> None:
         self._kept = kept
 
     def visits(

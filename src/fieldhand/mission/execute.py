@@ -62,8 +62,8 @@ def carry_out(
     Raises:
         ExecutionError: The Task was approved for another site or robot.
     """
+    from fieldhand.evaluation.budget_guard import BudgetGuard
     from fieldhand.evaluation.failsafe import BudgetFailsafe
-    from fieldhand.evaluation.guard import BudgetGuard
     from fieldhand.execution.mission_runner import run
     from fieldhand.forecast.visit_order import drives_for
 

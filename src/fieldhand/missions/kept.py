@@ -27,7 +27,7 @@ from fieldhand.task.event_lines import from_json
 from fieldhand.task.results import Event
 
 if TYPE_CHECKING:
-    from fieldhand.evaluation.standing import Standing
+    from fieldhand.evaluation.progress import MissionProgress
     from fieldhand.execution.guard import Guard
     from fieldhand.execution.mission_runner import Result
     from fieldhand.execution.orders import OrderWord
@@ -47,7 +47,7 @@ class Status:
 
     mission: str
     request: str
-    now: Standing
+    now: MissionProgress
     last_event_at: str
     order: str = ""
     report: str = ""
@@ -144,7 +144,7 @@ def status(folder: Path) -> Status:
     Raises:
         JournalError: This is no mission, or its journal cannot be read.
     """
-    from fieldhand.evaluation.standing import standing
+    from fieldhand.evaluation.progress import mission_progress
     from fieldhand.execution.journal.records import observation_of
     from fieldhand.execution.journal.store import heard
     from fieldhand.execution.orders import OrderFile
@@ -157,7 +157,7 @@ def status(folder: Path) -> Status:
     events = tuple(e for e in (from_json(line, where=str(folder)) for _, line in lines) if e is not None)
     task = decode(read_kept(folder, "task.xml", about["files"]["task.xml"]), source=str(folder / "task.xml"))
     robot = parse_profile(read_kept(folder, "robot.yaml", about["files"]["robot.yaml"]), source=f"{folder}/robot.yaml")
-    now = standing(task, robot, events, running=running)
+    now = mission_progress(task, robot, events, running=running)
     if sight is not None and now.state != "ended":
         seen = observation_of(sight)
         now = replace(

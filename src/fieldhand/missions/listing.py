@@ -83,7 +83,7 @@ def remove(entry: Entry) -> None:
 
 
 def _entry(folder: Path) -> Entry:
-    from fieldhand.evaluation.standing import state_of
+    from fieldhand.evaluation.progress import state_of
     from fieldhand.execution.journal.store import heard
     from fieldhand.task.codec import decode
 

@@ -12,8 +12,8 @@ import pytest
 from fieldhand import past
 from fieldhand.errors import InputError, OutputError, ProfileError, TaskError
 from fieldhand.evaluation.calibration import history
-from fieldhand.evaluation.calibration.fit import calibrate
-from fieldhand.evaluation.calibration.steps import Driven, Step, steps_of
+from fieldhand.evaluation.calibration.calibrate import calibrate
+from fieldhand.evaluation.calibration.measured_steps import MeasuredMission, MeasuredStep, measure_mission
 from fieldhand.robot.loader import load_robot, parse_profile, profile_bytes, robot_names
 from fieldhand.robot.rewrite import figure, with_figures
 from fieldhand.task.event_lines import to_json
@@ -24,7 +24,7 @@ NOW = datetime(2026, 5, 1, tzinfo=UTC)
 
 
 def test_a_robot_with_known_figures_gives_them_back():
-    found = calibrate(PROFILE, [steps_of(mission(seed, speeds=(0.8, 0.4))) for seed in range(6)])
+    found = calibrate(PROFILE, [measure_mission(mission(seed, speeds=(0.8, 0.4))) for seed in range(6)])
     fit = found.fit
     assert fit.legs.alpha.says(0.7)
     assert fit.legs.scale.says(1.0)
@@ -40,12 +40,12 @@ def test_a_robot_with_known_figures_gives_them_back():
 
 def test_speed_is_that_of_the_legs_that_were_not_told_to_be_slower():
     robot = replace(TRUE, speed_m_s=1.0)
-    slower = [steps_of(mission(seed, speeds=(1.0, 0.3))) for seed in range(3)]
+    slower = [measure_mission(mission(seed, speeds=(1.0, 0.3))) for seed in range(3)]
     assert calibrate(robot, slower).fit.speed.value == pytest.approx(1.0)
 
 
 def test_at_one_speed_idle_power_cannot_be_told_and_stays_while_the_forecast_is_right():
-    found = calibrate(PROFILE, [steps_of(mission(seed)) for seed in range(4)])
+    found = calibrate(PROFILE, [measure_mission(mission(seed)) for seed in range(4)])
     assert found.fit.idle is None
     assert any("idle_w" in why for why in found.fit.kept)
     fitted = found.fit.profile(PROFILE)
@@ -62,7 +62,7 @@ def test_legs_that_come_out_longer_than_planned_are_counted_as_planned():
         for seed in (0,)
         for e in mission(seed, stops=150)
     ]
-    found = calibrate(PROFILE, [steps_of(long)])
+    found = calibrate(PROFILE, [measure_mission(long)])
     assert found.fit.stretch == pytest.approx(1.3, rel=0.1)
     fitted = found.fit.profile(PROFILE)
     planned = sum(e.planned_m for e in long if isinstance(e, Driving))
@@ -73,7 +73,7 @@ def test_legs_that_come_out_longer_than_planned_are_counted_as_planned():
 def test_what_happened_between_does_not_count_as_driving_or_capturing():
     events = mission(1, stops=3)
     waited = Faulted(t=events[1].t, node="n", fault="x", what="", handled=True)
-    steps = steps_of([*events[:2], waited, *events[2:]]).steps
+    steps = measure_mission([*events[:2], waited, *events[2:]]).steps
     assert math.isnan(steps[0].seconds)
     assert not steps[0].done
     assert steps[1].seconds == pytest.approx(11.0)
@@ -82,19 +82,19 @@ def test_what_happened_between_does_not_count_as_driving_or_capturing():
 def test_a_drive_that_failed_does_not_spoil_the_energy():
     events = mission(1, stops=3)
     lost = [e for k, e in enumerate(events) if k != 2]  # a drive that never arrived, then a capture
-    assert [s.sure for s in steps_of(lost).steps] == [False, True, True, True, True, True]
+    assert [s.sure for s in measure_mission(lost).steps] == [False, True, True, True, True, True]
 
 
 @pytest.mark.parametrize("count", [0, 5, 19])
 def test_too_few_legs_are_refused(count):
     with pytest.raises(InputError, match=f"{count} legs of at least"):
-        calibrate(PROFILE, [steps_of(mission(0, stops=count))])
+        calibrate(PROFILE, [measure_mission(mission(0, stops=count))])
 
 
 def test_steps_whose_figures_are_no_numbers_are_left_out():
     events = mission(0, stops=30)
     broken = [replace(e, leg_m=math.nan) if isinstance(e, Arrived) and k < 9 else e for k, e in enumerate(events)]
-    found = calibrate(PROFILE, [steps_of(broken)])
+    found = calibrate(PROFILE, [measure_mission(broken)])
     assert found.left_out["figures that are no numbers"] == 3
     assert math.isfinite(found.fit.legs.alpha.value)
 
@@ -127,8 +127,8 @@ def test_the_same_log_twice_is_one_mission(tmp_path):
 def test_what_is_kept_comes_back_and_the_same_mission_once(tmp_path):
     events = [mission(seed, stops=4) for seed in range(3)]
     assert [past.keep_history(tmp_path, PROFILE, e, NOW) for e in (*events, events[0])] == [True, True, True, False]
-    kept = history.kept(tmp_path, "husky")
-    assert repr([m.steps for m in kept]) == repr([steps_of(e).steps for e in events]), "nan is not itself"
+    kept = history.load_missions(tmp_path, "husky")
+    assert repr([m.steps for m in kept]) == repr([measure_mission(e).steps for e in events]), "nan is not itself"
     assert all(m.simulated for m in kept)
     with pytest.raises(InputError, match=r"3 simulated ones are: --simulated takes them"):
         past.missions_of(PROFILE, [], tmp_path)
@@ -139,24 +139,28 @@ def test_what_is_kept_is_bounded(tmp_path, monkeypatch):
     monkeypatch.setattr(history, "MOST_MISSIONS", 5)
     monkeypatch.setattr(history, "MOST_STEPS", 21)
     for k in range(9):
-        driven = Driven(key=str(k), task="t", robot="husky", simulated=False, steps=(Step(kind="leg"),) * 7)
-        history.keep(tmp_path, PROFILE, driven, NOW + timedelta(days=k))
-    assert [m.key for m in history.kept(tmp_path, "husky")] == ["6", "7", "8"]
-    large = Driven(key="large", task="t", robot="husky", simulated=False, steps=(Step(kind="leg"),) * 70)
-    history.keep(tmp_path, PROFILE, large, NOW)
-    assert [m.key for m in history.kept(tmp_path, "husky")] == ["large"]
+        driven = MeasuredMission(
+            key=str(k), task="t", robot="husky", simulated=False, steps=(MeasuredStep(kind="leg"),) * 7
+        )
+        history.save_mission(tmp_path, PROFILE, driven, NOW + timedelta(days=k))
+    assert [m.key for m in history.load_missions(tmp_path, "husky")] == ["6", "7", "8"]
+    large = MeasuredMission(
+        key="large", task="t", robot="husky", simulated=False, steps=(MeasuredStep(kind="leg"),) * 70
+    )
+    history.save_mission(tmp_path, PROFILE, large, NOW)
+    assert [m.key for m in history.load_missions(tmp_path, "husky")] == ["large"]
 
 
 def test_a_damaged_history_is_one_clear_line(tmp_path):
     history.history_file(tmp_path, "husky").write_bytes(b"no database at all" * 100)
     with pytest.raises(InputError, match="is not a history of missions"):
-        history.kept(tmp_path, "husky")
+        history.load_missions(tmp_path, "husky")
     with pytest.raises(OutputError, match="cannot be kept"):
         past.keep_history(tmp_path, PROFILE, mission(0, stops=1), NOW)
 
 
 def test_the_new_profile_differs_in_figures_alone_and_is_another_profile():
-    found = calibrate(PROFILE, [steps_of(mission(seed)) for seed in range(3)])
+    found = calibrate(PROFILE, [measure_mission(mission(seed)) for seed in range(3)])
     data = past.calibrated_profile(PROFILE, found, at=NOW)
     new = parse_profile(data)
     assert new.sha256 != PROFILE.sha256

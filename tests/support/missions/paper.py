@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from fieldhand.evaluation.guard import BudgetGuard
+from fieldhand.evaluation.budget_guard import BudgetGuard
 from fieldhand.forecast.mission_state import MissionState, Spent, Verdict, Visit, VisitChoice
 from fieldhand.forecast.service import reward_of, service_of
 from fieldhand.forecast.visit_order import drives_for, start_place, with_stands

@@ -149,7 +149,7 @@ def _replay(seed: int, trees: int) -> None:
     """One mission in words: what was approved, what happened, how it is judged."""
     from fieldhand import mission
     from fieldhand.cli import show
-    from fieldhand.evaluation.telling import Teller
+    from fieldhand.evaluation.event_text import EventText
     from fieldhand_bench.fly import fly
     from fieldhand_bench.summary import wrongs
 
@@ -163,8 +163,8 @@ def _replay(seed: int, trees: int) -> None:
     )
     show.show_review(mission.review(draft.task, draft.site, draft.robot))
     show.heading("What happened")
-    teller = Teller(draft.robot)
-    for line in filter(None, map(teller.tell, flown.events)):
+    event_text = EventText(draft.robot)
+    for line in filter(None, map(event_text.line, flown.events)):
         show.out.print(line)
     show.heading("How it is judged")
     for use in ruling.uses:

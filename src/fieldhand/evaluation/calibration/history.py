@@ -10,7 +10,7 @@ from datetime import datetime
 from pathlib import Path
 
 from fieldhand.errors import InputError, OutputError
-from fieldhand.evaluation.calibration.steps import Driven, Step, predicted
+from fieldhand.evaluation.calibration.measured_steps import MeasuredMission, MeasuredStep, predicted
 from fieldhand.robot.model import RobotProfile
 
 #: The latest missions and steps that are kept of a robot; older ones make room (some 20 MB).
@@ -36,7 +36,7 @@ def history_file(folder: Path, robot: str) -> Path:
     return folder / f"{robot}.sqlite"
 
 
-def keep(folder: Path, robot: RobotProfile, driven: Driven, at: datetime) -> bool:
+def save_mission(folder: Path, robot: RobotProfile, driven: MeasuredMission, at: datetime) -> bool:
     """Keep a mission, unless it is kept already; returns whether it was added.
 
     Each leg and each capture is kept with what the profile expected of it: metres, seconds and percent of the battery.
@@ -68,7 +68,7 @@ def keep(folder: Path, robot: RobotProfile, driven: Driven, at: datetime) -> boo
         ) from None
 
 
-def kept(folder: Path, robot: str) -> tuple[Driven, ...]:
+def load_missions(folder: Path, robot: str) -> tuple[MeasuredMission, ...]:
     """The missions that are kept of a robot, the oldest first; none where there is no file.
 
     Raises:
@@ -81,7 +81,7 @@ def kept(folder: Path, robot: str) -> tuple[Driven, ...]:
         with _open(path) as base:
             missions = base.execute("select id, key, task, simulated from mission order by id").fetchall()
             return tuple(
-                Driven(key=key, task=task, robot=robot, simulated=bool(simulated), steps=_steps(base, number))
+                MeasuredMission(key=key, task=task, robot=robot, simulated=bool(simulated), steps=_steps(base, number))
                 for number, key, task, simulated in missions
             )
     except (sqlite3.Error, ValueError, TypeError) as error:
@@ -117,7 +117,7 @@ def _make_room(base: sqlite3.Connection) -> None:
     )
 
 
-def _row(mission: int | None, step: Step, robot: RobotProfile) -> tuple[object, ...]:
+def _row(mission: int | None, step: MeasuredStep, robot: RobotProfile) -> tuple[object, ...]:
     expected = predicted(step, robot)
     return (
         *(mission, step.kind, step.name, step.planned_m, step.metres, _or_none(step.seconds), step.moved_m),
@@ -125,14 +125,14 @@ def _row(mission: int | None, step: Step, robot: RobotProfile) -> tuple[object, 
     )
 
 
-def _steps(base: sqlite3.Connection, mission: int) -> tuple[Step, ...]:
+def _steps(base: sqlite3.Connection, mission: int) -> tuple[MeasuredStep, ...]:
     rows = base.execute(
         "select kind, name, planned_m, metres, seconds, moved_m, whole_s, percent, sure, speed_m_s, done"
         " from step where mission = ? order by rowid",
         (mission,),
     )
     return tuple(
-        Step(
+        MeasuredStep(
             kind=kind,
             name=str(name),
             planned_m=float(planned),

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from fieldhand.evaluation.outcome import because, judge_end
-from fieldhand.evaluation.report.incidents import Folded, LeftOut, conditions, faults, left_out
+from fieldhand.evaluation.report.incidents import FoldedLines, LeftOut, conditions, faults, left_out
 from fieldhand.evaluation.report.log_facts import branch_taken, captures, start_of, used
 from fieldhand.evaluation.report.place_names import PlaceNames
-from fieldhand.evaluation.report.readings import MOST_ROWS, ReadingRow, Summary, reading_rows, summaries
+from fieldhand.evaluation.report.readings import MOST_ROWS, ReadingRow, ReadingSummary, reading_rows, summaries
 from fieldhand.forecast.estimate import Estimate, Figure
 from fieldhand.language.words import capitalised, listed, say_action, say_count, say_duration, say_number
 from fieldhand.robot.model import RobotProfile
@@ -90,10 +90,10 @@ class ReportContent:
     words: tuple[tuple[str, str], ...]
     goals: tuple[GoalRow, ...]
     left_out: tuple[LeftOut, ...]
-    faults: Folded
-    conditions: Folded
+    faults: FoldedLines
+    conditions: FoldedLines
     bars: tuple[Bar, ...]
-    summaries: tuple[Summary, ...]
+    summaries: tuple[ReadingSummary, ...]
     rows: tuple[ReadingRow, ...]
     more_rows: str
     warnings: tuple[str, ...]

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fieldhand.clock import clock_time
+from fieldhand.evaluation.event_text import EventText
 from fieldhand.evaluation.report.log_facts import end_of, no_way_led_to, places_ahead
 from fieldhand.evaluation.report.place_names import PlaceNames
-from fieldhand.evaluation.telling import Teller
 from fieldhand.language.words import say_action, say_count
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.frames import Task
@@ -52,7 +52,7 @@ class LeftOut:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Folded:
+class FoldedLines:
     """Lines, and if they are many a sentence that stands for them."""
 
     said: str
@@ -73,9 +73,9 @@ def left_out(task: Task, events: Sequence[Event], names: PlaceNames) -> tuple[Le
     return (_not_reached(ahead, events, names), *found) if ahead else tuple(found)
 
 
-def faults(robot: RobotProfile, events: Sequence[Event], names: PlaceNames) -> Folded:
+def faults(robot: RobotProfile, events: Sequence[Event], names: PlaceNames) -> FoldedLines:
     """Return what went wrong, is in doubt or was interrupted, failed attempts at captures included."""
-    lines, told = [], Teller(robot)
+    lines, text = [], EventText(robot)
     for event in events:
         if isinstance(event, Acted) and event.status != "success":
             what = f"{say_action(event.action)} failed at {names.name(event.kind, event.place)}"
@@ -88,11 +88,11 @@ def faults(robot: RobotProfile, events: Sequence[Event], names: PlaceNames) -> F
             what = f"{say_action(event.action)} at {names.name(event.kind, event.place)} is in doubt; {then}"
             lines.append(f"{clock_time(event.t)}: {what}: {event.what}")
         elif isinstance(event, Obstructed | Waited | LimitCrossed | ClockSet | Resumed | Paused | Continued):
-            lines.append(f"{clock_time(event.t)}: {told.in_short(event)}")
+            lines.append(f"{clock_time(event.t)}: {text.brief(event)}")
     return _folded(lines, f"{say_count(len(lines), 'line')}, failed tries included.")
 
 
-def conditions(events: Sequence[Event], names: PlaceNames) -> Folded:
+def conditions(events: Sequence[Event], names: PlaceNames) -> FoldedLines:
     """Return the conditions that were tested, each with its result."""
     lines, held, at = [], 0, ""
     for event in events:
@@ -142,8 +142,8 @@ def _chances(group: Sequence[Shed]) -> str:
     return f" ({spread} % chance of running short)"
 
 
-def _folded(lines: Sequence[str], said: str) -> Folded:
+def _folded(lines: Sequence[str], said: str) -> FoldedLines:
     """Return lines unfolded where they are few, and cut where they are too many."""
     more = len(lines) - _MOST_LINES
     kept = (*lines[:_MOST_LINES], f"and {more} more in the event log") if more > 0 else tuple(lines)
-    return Folded(said=said if len(lines) > _FEW_LINES else "", lines=kept)
+    return FoldedLines(said=said if len(lines) > _FEW_LINES else "", lines=kept)

@@ -29,7 +29,7 @@ from fieldhand.evaluation.report.marks import (
     trees_xy,
     write_values,
 )
-from fieldhand.evaluation.report.readings import Summary
+from fieldhand.evaluation.report.readings import ReadingSummary
 from fieldhand.language.words import capitalised, say_action
 from fieldhand.site.drawing import colours
 from fieldhand.site.drawing.blocks import draw_blocks, name_blocks
@@ -85,13 +85,13 @@ class ReportMap:
     svg: bytes
     width: float
     height: float
-    summary: Summary | None
+    summary: ReadingSummary | None
     scale: tuple[str, ...]
     legend: tuple[LegendEntry, ...]
 
 
 def report_maps(
-    site: Site, events: Sequence[Event], read: Sequence[Summary], ahead: Sequence[str] = ()
+    site: Site, events: Sequence[Event], read: Sequence[ReadingSummary], ahead: Sequence[str] = ()
 ) -> tuple[ReportMap, ...]:
     """Draw a map for each quantity that was read, and one for captures that measured nothing.
 
@@ -101,14 +101,14 @@ def report_maps(
         ahead: Trees still to be visited when the mission ended.
     """
     plain = [e for e in captures(events) if e.status == "success" and not e.readings]
-    shown: list[Summary | None] = list(read[:_MOST])
+    shown: list[ReadingSummary | None] = list(read[:_MOST])
     if plain or not shown:
         shown.append(None)
     return tuple(_map(site, events, summary, plain if summary is None else [], ahead) for summary in shown)
 
 
 def draw_map(
-    site: Site, events: Sequence[Event], summary: Summary | None, ahead: Sequence[str] = ()
+    site: Site, events: Sequence[Event], summary: ReadingSummary | None, ahead: Sequence[str] = ()
 ) -> tuple[Figure, list[LegendEntry]]:
     """Draw a map on a figure that belongs to no window; return it with its legend.
 
@@ -175,7 +175,7 @@ def _draw_whole(figure: Figure, site: Site, events: Sequence[Event], window: Win
 
 
 def _map(
-    site: Site, events: Sequence[Event], summary: Summary | None, plain: Sequence[Acted], ahead: Sequence[str]
+    site: Site, events: Sequence[Event], summary: ReadingSummary | None, plain: Sequence[Acted], ahead: Sequence[str]
 ) -> ReportMap:
     with warnings.catch_warnings():
         # A name in a script that the font lacks is drawn as boxes; the page shows it in full.
@@ -207,7 +207,7 @@ def _svg(figure: Figure) -> bytes:
     return out.getvalue()
 
 
-def _scale(summary: Summary | None, steps: int = 24) -> tuple[str, ...]:
+def _scale(summary: ReadingSummary | None, steps: int = 24) -> tuple[str, ...]:
     """Return the colours of the scale from its low to its high end."""
     from matplotlib import colormaps
     from matplotlib.colors import to_hex

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.evaluation.report.log_facts import captures, cut_off_places, end_of, failed_targets, no_way_led_to
-from fieldhand.evaluation.report.readings import Summary
+from fieldhand.evaluation.report.readings import ReadingSummary
 from fieldhand.language.words import capitalised, say_action
 from fieldhand.site.drawing.labels import Labels
 from fieldhand.site.model import Site
@@ -155,7 +155,7 @@ def _blocked_areas(site: Site, events: Sequence[Event]) -> list[Floats]:
     return [site.projection.metres(a[:, 0], a[:, 1]) for a in found if len(a) > 2 and np.isfinite(a).all()]
 
 
-def draw_readings(ax: Axes, site: Site, good: Sequence[Acted], summary: Summary, disc: float) -> None:
+def draw_readings(ax: Axes, site: Site, good: Sequence[Acted], summary: ReadingSummary, disc: float) -> None:
     """Draw captures coloured by value, the last reading of a place on top."""
     from matplotlib import colormaps
 
@@ -196,7 +196,7 @@ def draw_failed(ax: Axes, site: Site, events: Sequence[Event], disc: float) -> l
     return [("saltire", FAILED, "failed")]
 
 
-def write_values(labels: Labels, site: Site, good: Sequence[Acted], summary: Summary, disc: float) -> None:
+def write_values(labels: Labels, site: Site, good: Sequence[Acted], summary: ReadingSummary, disc: float) -> None:
     """Write the last reading of each place beside it where there is room; write none if there are too many."""
     last = {(e.kind, e.place): e for e in good if math.isfinite(e.readings.get(summary.quantity, math.nan))}
     spots = {key: labels.at((float(x), float(y))) for key, (x, y) in zip(

@@ -34,7 +34,7 @@ class ReadingRow:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Summary:
+class ReadingSummary:
     """Summary of all readings of one quantity.
 
     Attributes:
@@ -60,7 +60,7 @@ class Summary:
         return say_fixed(value, self.decimals)
 
 
-def summaries(task: Task, robot: RobotProfile, events: Sequence[Event]) -> tuple[Summary, ...]:
+def summaries(task: Task, robot: RobotProfile, events: Sequence[Event]) -> tuple[ReadingSummary, ...]:
     """Return a summary per quantity read, in the order of first readings."""
     made = [e for e in captures(events) if e.status == "success"]
     limits = thresholds(task, robot)
@@ -71,7 +71,7 @@ def summaries(task: Task, robot: RobotProfile, events: Sequence[Event]) -> tuple
         digits = decimals(values)
         held = {node: found for (node, q), found in limits.items() if q == quantity}
         found.append(
-            Summary(
+            ReadingSummary(
                 quantity=quantity,
                 name=capitalised(say_name(quantity)),
                 unit=unit,
@@ -84,7 +84,9 @@ def summaries(task: Task, robot: RobotProfile, events: Sequence[Event]) -> tuple
     return tuple(found)
 
 
-def reading_rows(summary: Mapping[str, Summary], events: Sequence[Event], names: PlaceNames) -> tuple[ReadingRow, ...]:
+def reading_rows(
+    summary: Mapping[str, ReadingSummary], events: Sequence[Event], names: PlaceNames
+) -> tuple[ReadingRow, ...]:
     """Return a row per reading, and per capture that measured nothing or is in doubt.
 
     Stops soon after :data:`MOST_ROWS`; the CSV has the rest.
@@ -182,7 +184,7 @@ def _above(
             yield f"above {say_number(limit)}{unit}", f"{sum(v > limit for v in known)} of {len(known)}"
 
 
-def _rows_of(event: Acted | InDoubt, summary: Mapping[str, Summary], names: PlaceNames) -> Iterator[ReadingRow]:
+def _rows_of(event: Acted | InDoubt, summary: Mapping[str, ReadingSummary], names: PlaceNames) -> Iterator[ReadingRow]:
     where = names.where(event.kind, event.place)
     place = names.name(event.kind, event.place)
     values = [(q, v) for q, v in sorted(event.readings.items()) if q in summary]

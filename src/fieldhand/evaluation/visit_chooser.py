@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.errors import DriveFault
-from fieldhand.evaluation.means import Means
-from fieldhand.evaluation.reasons import Errand, left_out, no_way, too_many
+from fieldhand.evaluation.mission_budget import MissionBudget
+from fieldhand.evaluation.reasons import RoundTrip, left_out, no_way, too_many
 from fieldhand.forecast.candidates import cheapest
 from fieldhand.forecast.mission_state import MissionState, Visit, VisitChoice
 from fieldhand.forecast.orienteering_problem import GONE, left_before, policy_for, visits_problem
@@ -85,15 +85,15 @@ class _Run:
         return 0 if _key(place) == self.start else None
 
 
-class Choosing:
+class VisitChooser:
     """Chooses optional visits, one run after another.
 
     Args:
-        means: Of the mission.
+        budget: Of the mission.
     """
 
-    def __init__(self, means: Means) -> None:
-        self._means = means
+    def __init__(self, budget: MissionBudget) -> None:
+        self._budget = budget
         self._runs: dict[str, _Run] = {}
         self._begun: dict[str, float] = {}
 
@@ -121,7 +121,7 @@ class Choosing:
                 return VisitChoice(
                     index=None, shed=tuple(cut_off), reason=no_way(candidates, cut_off), chance_short=1.0
                 )
-            within = cheapest(state.context.here, [candidates[i] for i in open_], rest, self._means.drives)
+            within = cheapest(state.context.here, [candidates[i] for i in open_], rest, self._budget.drives)
             open_ = [open_[k] for k in within]
         else:
             open_ = run.choosable(candidates)
@@ -172,12 +172,12 @@ class Choosing:
         begun = self._begun.pop(state.node, None) if run is None else run.accepted
         accepted = self._accepted(state, rest) if begun is None else begun
         problem = visits_problem(
-            legs=visit_distances(here, visits, rest, self._means.drives, self._means.distances.between),
+            legs=visit_distances(here, visits, rest, self._budget.drives, self._budget.distances.between),
             rewards=[v.reward for v in visits],
             service=[v.work for v in visits],
             rest=rest,
-            resources=self._means.resources(state),
-            robot=self._means.robot,
+            resources=self._budget.resources(state),
+            robot=self._budget.robot,
             spent=state.spent,
             accepted=accepted,
             max_visits=at_most,
@@ -205,13 +205,13 @@ class Choosing:
     def _accepted(self, state: MissionState, rest: RemainingWork) -> float:
         """The chance of running short with which a run is planned: that without it, and its share on top."""
         without = self._without(state, rest)
-        return float(without.max()) + self._means.allowance(without).share(optional_runs(state.frames))
+        return float(without.max()) + self._budget.allowance(without).share(optional_runs(state.frames))
 
     def _without(self, state: MissionState, rest: RemainingWork) -> Floats:
         """For each limit the chance that what must follow runs short."""
         here = state.context.here
-        there = 0.0 if rest.first is None else self._means.length(here, rest.first)
-        return self._means.chances(route_cost([there]) + rest.way, state)
+        there = 0.0 if rest.first is None else self._budget.length(here, rest.first)
+        return self._budget.chances(route_cost([there]) + rest.way, state)
 
     def _ask(self, run: _Run, here: int, near: Sequence[int], left: tuple[float, ...], state: MissionState) -> int:
         from fieldhand.orienteering.policy import State
@@ -224,21 +224,21 @@ class Choosing:
             # A long order is driven as planned at first: its chance is not known yet, so it counts for all its share.
             without = float(self._without(state, run.rest).max())
             priced = run.policy.price is not None
-            self._means.add((1.0 - run.policy.expectation.success if priced else run.accepted) - without)
+            self._budget.add((1.0 - run.policy.expectation.success if priced else run.accepted) - without)
         return chosen
 
     def _fits(self, state: MissionState, visit: Visit, rest: RemainingWork, run: _Run) -> bool:
         """Whether the only visit that there is adds no more than its share: that needs no search."""
         without = self._without(state, rest)
-        added = self._means.chances(self._errand(state, visit, rest).way, state) - without
+        added = self._budget.chances(self._trip(state, visit, rest).way, state) - without
         share = run.accepted - float(without.max())
         if visit.reward <= 0.0 or not (added <= share * (1 + 1e-9) + 1e-12).all():
             return False
-        self._means.add(float(added.max()))
+        self._budget.add(float(added.max()))
         return True
 
     def _left(self, state: MissionState, rest: RemainingWork) -> tuple[float, ...]:
-        return left_before(self._means.resources(state), self._means.robot, state.spent, rest)
+        return left_before(self._budget.resources(state), self._budget.robot, state.spent, rest)
 
     def _rest(
         self, state: MissionState, run: _Run | None, candidates: Sequence[Visit], to_come: Sequence[Visit]
@@ -249,7 +249,7 @@ class Choosing:
         context = state.context
         if len(candidates) == 1 and candidates[0].leaves is not None:
             context = Context(here=candidates[0].leaves, visited=context.visited, bound=context.bound)
-        rest = self._means.rest(state.frames, context, to_come)
+        rest = self._budget.rest(state.frames, context, to_come)
         return run.rest if run is not None and run.rest == rest else rest
 
     def _reachable(self, here: Place, candidates: Sequence[Visit], first: Place | None) -> tuple[list[int], list[int]]:
@@ -257,7 +257,7 @@ class Choosing:
         if len(candidates) > MAX_DOUBLE:
             # They were looked at together when the visits were listed.
             return list(range(len(candidates))), []
-        distances = self._means.distances
+        distances = self._budget.distances
         ends = [here, *([] if first is None else [first])]
         try:
             distances.between([*ends, *(v.place for v in candidates)])
@@ -277,10 +277,10 @@ class Choosing:
         there, back = run.policy.lengths(here)[vertices], run.policy.lengths(problem.end)[vertices]
         for k, visit in enumerate(visits):
             if visit.leaves is not None and run.rest.first is not None:
-                back[k] = self._means.length(visit.leaves, run.rest.first)
+                back[k] = self._budget.length(visit.leaves, run.rest.first)
         after = np.array(problem.legs_after)
         first, squares, cubes = ((there**k + back**k + (after**k).sum()) for k in (1, 2, 3))
-        second, third = cost_model(self._means.robot).cumulants()
+        second, third = cost_model(self._budget.robot).cumulants()
         worst = np.zeros(len(vertices))
         for limit, amount in zip(problem.limits, left, strict=True):
             work = 0.0 if limit.service is None else limit.service[vertices]
@@ -291,15 +291,15 @@ class Choosing:
         self, state: MissionState, candidates: Sequence[Visit], gone: Sequence[int], rest: RemainingWork, safest: Visit
     ) -> str:
         """What is given up and why, told of the one that is least likely to run short."""
-        errand = self._errand(state, safest, rest)
-        return left_out(candidates, gone, self._means, state, errand, self._means.chances(errand.way, state))
+        trip = self._trip(state, safest, rest)
+        return left_out(candidates, gone, self._budget, state, trip, self._budget.chances(trip.way, state))
 
-    def _errand(self, state: MissionState, visit: Visit, rest: RemainingWork) -> Errand:
+    def _trip(self, state: MissionState, visit: Visit, rest: RemainingWork) -> RoundTrip:
         """Straight to a visit, and then on."""
-        there = self._means.length(state.context.here, visit.place)
-        back = 0.0 if rest.first is None else self._means.length(visit.end, rest.first)
+        there = self._budget.length(state.context.here, visit.place)
+        back = 0.0 if rest.first is None else self._budget.length(visit.end, rest.first)
         way = route_cost([there, back], visit.work) + rest.way
-        return Errand(way=way, to=visit.place, more=rest.mandatory)
+        return RoundTrip(way=way, to=visit.place, more=rest.mandatory)
 
 
 def _fewer(run: _Run, visits: Sequence[Visit], at_most: int | None) -> bool:

@@ -15,7 +15,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
-from fieldhand.evaluation.tally import Tallies, Tally
+from fieldhand.evaluation.capture_counts import CaptureCount, CaptureCounts
 from fieldhand.language import message
 from fieldhand.task import instructions as ask
 from fieldhand.task.nodes.base import Cut, Failed, GivenUp, Stopped
@@ -40,13 +40,13 @@ from fieldhand.task.results import (
 from fieldhand.task.run import Outcome, Run, StackFrame, carry_out
 
 
-def replay(plan: Node, events: Sequence[Event]) -> dict[str, Tally]:
+def replay_log(plan: Node, events: Sequence[Event]) -> dict[str, CaptureCount]:
     """The tally of every action of a plan, by the id of its node."""
     return _Replay(plan, events).run()
 
 
 @dataclass(kw_only=True)
-class _Visits:
+class _ReplayedVisits:
     """The visits of a for-each, as the log lists them; the one of an optional step.
 
     Attributes:
@@ -54,14 +54,14 @@ class _Visits:
         most: How many of them may be visited.
         begun: How many visits were begun, without those that were given up half-way.
         shed: How many of the places were given up.
-        before: The tallies when the visit in hand began.
+        before: The counts when the visit in hand began.
     """
 
     listed: frozenset[str] = frozenset()
     most: int
     begun: int = 0
     shed: int = 0
-    before: Mapping[str, Tally] = field(default_factory=dict)
+    before: Mapping[str, CaptureCount] = field(default_factory=dict)
 
     @property
     def unmade(self) -> int:
@@ -78,8 +78,8 @@ class _Replay:
     """The plan under way, the events that belong to it, and how far they are read."""
 
     def __init__(self, plan: Node, events: Sequence[Event]) -> None:
-        self._tallies = Tallies(plan)
-        self._inside = self._tallies.inside
+        self._counts = CaptureCounts(plan)
+        self._inside = self._counts.inside
         over = next((k for k, e in enumerate(events) if isinstance(e, Exited | Ended)), len(events))
         self._orderly = any(isinstance(e, Ended) and e.status in ("completed", "returned", "exceeded") for e in events)
         # The exit itself belongs to the plan only where a stop took it: then it names that stop.
@@ -93,11 +93,11 @@ class _Replay:
         self._run = Run(plan)
         self._run.entered, self._run.left = self._entered, self._left
 
-    def run(self) -> dict[str, Tally]:
-        self._tallies.count(self._events)
+    def run(self) -> dict[str, CaptureCount]:
+        self._counts.count(self._events)
         with suppress(Stopped):
             carry_out(self._run.program(), self._answer)
-        return self._tallies.of
+        return self._counts.of
 
     # --- the log -----------------------------------------------------------------------------------------------
 
@@ -116,10 +116,10 @@ class _Replay:
             return False
         self._next += 1
         visits = self._run.frame.tour
-        if isinstance(visits, _Visits):
+        if isinstance(visits, _ReplayedVisits):
             # Places that were closed when the loop began are shed, and not among those to visit.
             visits.shed += len(visits.listed.intersection(event.places))
-        self._tallies.shed(node, event)
+        self._counts.shed(node, event)
         return True
 
     def _comes(self, nodes: Iterable[Node]) -> bool:
@@ -164,7 +164,7 @@ class _Replay:
             case ask.BeginRound(node=repeat, left=left):
                 if self._shed(repeat):
                     # All of its rounds are given up, whatever its test would have said.
-                    self._tallies.miss(repeat.body, left + 1)
+                    self._counts.miss(repeat.body, left + 1)
                     self._run.frame.left = ()
                     raise self._lost()
             case ask.OfferStep(node=step):
@@ -181,8 +181,8 @@ class _Replay:
         return tuple(sorted(range(len(keys)), key=keys.__getitem__))
 
     def _capture(self, node: Act) -> None:
-        tally = self._tallies.of[node.id]
-        tally.wanted += node.count
+        count = self._counts.of[node.id]
+        count.wanted += node.count
         captures, unknown, failed_at = 0, 0, 0
         while captures + unknown < node.count:
             event = self._peek_own(node)
@@ -196,14 +196,14 @@ class _Replay:
             elif isinstance(event, InDoubt):
                 unknown, failed_at = (unknown + 1, 0) if event.then == "skip" else (unknown, failed_at)
             elif isinstance(event, Shed):
-                tally.given_up += max(1, len(event.places))
-                tally.reasons.append(event.reason)
+                count.given_up += max(1, len(event.places))
+                count.reasons.append(event.reason)
             elif event is None or (begun and not isinstance(event, Faulted)):
                 break
             self._next += 1
-        tally.seen += captures
+        count.seen += captures
         if captures + unknown < node.count:
-            tally.failed += failed_at > 0
+            count.failed += failed_at > 0
             raise self._lost()
 
     def _drive(self, node: Node) -> None:
@@ -222,8 +222,8 @@ class _Replay:
         if isinstance(event, Decided):
             self._next += 1
             if node.is_choice:
-                for tally in self._tallies.under(*(node.children[1:] if event.holds else node.children[:1])):
-                    tally.skipped.append(event.why)
+                for count in self._counts.under(*(node.children[1:] if event.holds else node.children[:1])):
+                    count.skipped.append(event.why)
             return event.holds
         if node.is_choice:
             raise self._absent(node)
@@ -231,15 +231,15 @@ class _Replay:
             raise self._lost()
         return False
 
-    def _begin(self, node: Node) -> _Visits:
+    def _begin(self, node: Node) -> _ReplayedVisits:
         event = self._skim(node)
         if not isinstance(event, Visiting):
             raise self._absent(node)
         self._next += 1
         most = len(event.places) if node.at_most is None else min(len(event.places), node.at_most)
-        return _Visits(listed=frozenset(event.places), most=most)
+        return _ReplayedVisits(listed=frozenset(event.places), most=most)
 
-    def _visit(self, node: Node, visits: _Visits) -> bool | None:
+    def _visit(self, node: Node, visits: _ReplayedVisits) -> bool | None:
         """Begin the next visit, if the log has one."""
         while self._shed(node):
             pass
@@ -251,7 +251,7 @@ class _Replay:
         if not seen and not (self._is_whole() and _is_silent(node)):
             raise self._lost()
         visits.begun += 1
-        visits.before = self._tallies.copies(node)
+        visits.before = self._counts.copies(node)
         return True
 
     def _offer(self, node: Node) -> bool:
@@ -260,7 +260,7 @@ class _Replay:
             return False
         if not self._comes([node]) and not self._is_unseen(node):
             raise self._absent(node)
-        self._run.frame.tour = _Visits(most=1, begun=1, before=self._tallies.copies(node))
+        self._run.frame.tour = _ReplayedVisits(most=1, begun=1, before=self._counts.copies(node))
         return True
 
     # --- what was not reached ----------------------------------------------------------------------------------
@@ -271,22 +271,22 @@ class _Replay:
         self._next += self._comes([node])
         for frame in self._run.frames:
             self._went_well(frame)
-            left = frame.node.children if isinstance(frame.tour, _Visits) and frame.tour.unmade else frame.left
-            for tally in self._tallies.under(*left):
-                tally.stopped = True
+            left = frame.node.children if isinstance(frame.tour, _ReplayedVisits) and frame.tour.unmade else frame.left
+            for count in self._counts.under(*left):
+                count.stopped = True
 
     def _left(self, _: Node, outcome: Outcome) -> None:
         if outcome == "done" and self._run.frames:
             self._went_well(self._run.frame)
 
     def _went_well(self, frame: StackFrame) -> None:
-        for tally in self._tallies.under(*frame.instead):
-            tally.skipped.append(message("what it stands in for went well", context="log"))
+        for count in self._counts.under(*frame.instead):
+            count.skipped.append(message("what it stands in for went well", context="log"))
 
     def _absent(self, node: Node) -> Exception:
         """Count a node to which the log never came, and give what to throw to go on behind it."""
         self._shed(node)
-        self._tallies.miss(node, 1)
+        self._counts.miss(node, 1)
         return self._lost()
 
     def _lost(self) -> Exception:
@@ -303,10 +303,10 @@ class _Replay:
     def _onward(self, around: StackFrame, child: Node) -> Exception | None:
         """Return what to throw where the log goes on behind a child of a node in hand; None where it does not."""
         node, visits = around.node, around.tour
-        if isinstance(visits, _Visits) and self._given_up(around):
+        if isinstance(visits, _ReplayedVisits) and self._given_up(around):
             # What the visit or the step lacks is left out, not failed.
             visits.begun -= 1
-            self._tallies.forgive(visits.before)
+            self._counts.forgive(visits.before)
             return GivenUp(node.id)
         if around.instead:
             return Failed(child.id) if self._comes(around.instead) else None
@@ -322,25 +322,25 @@ class _Replay:
             return False
         if node.is_optional_step:
             self._next += 1
-            self._tallies.spare(node, event)
+            self._counts.spare(node, event)
         return True
 
     def _miss(self, frame: StackFrame) -> None:
         """Count what a node in hand still had before it."""
-        if isinstance(frame.tour, _Visits):
+        if isinstance(frame.tour, _ReplayedVisits):
             self._miss_visits(frame.node, frame.tour)
-        for tally in self._tallies.under(*frame.instead):
-            tally.open = tally.undecided = True
+        for count in self._counts.under(*frame.instead):
+            count.open = count.undecided = True
         for later in frame.left:
-            self._tallies.miss(later, 1)
+            self._counts.miss(later, 1)
 
-    def _miss_visits(self, node: Node, visits: _Visits) -> None:
+    def _miss_visits(self, node: Node, visits: _ReplayedVisits) -> None:
         if not visits.unmade or (node.is_optional and self._orderly):
             return  # an optional loop is whole when the mission ended in order: the budget left out the rest
         if node.is_optional or node.tested is not None:
-            self._tallies.open(node)
+            self._counts.open(node)
         else:
-            self._tallies.miss(node.children[0], visits.unmade)
+            self._counts.miss(node.children[0], visits.unmade)
 
 
 def _is_silent(node: Node) -> bool:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.errors import DriveFault
-from fieldhand.evaluation.drain import Drain
+from fieldhand.evaluation.battery_drain import BatteryDrain
 from fieldhand.forecast.distances import Distances
 from fieldhand.forecast.mission_state import MissionState, Visit
 from fieldhand.forecast.remaining_work import RemainingWork, remaining_work_after
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 
-class Means:
+class MissionBudget:
     """The means of one mission.
 
     Args:
@@ -45,7 +45,7 @@ class Means:
 
     def __init__(self, task: Task, site: Site, robot: RobotProfile, drives: Drives, charge_percent: float) -> None:
         self.task, self.site, self.drives = task, site, drives
-        self.drain = Drain(robot)
+        self.drain = BatteryDrain(robot)
         self._blocked = False
         limits = resource_limits(task.constraints, robot, charge_percent)
         self.accepted: Floats = np.array([r.failure_probability for r in limits])
@@ -57,7 +57,7 @@ class Means:
         """The robot, with a battery that empties as fast as it has been seen to."""
         return self.drain.robot
 
-    def are(self, drives: Drives) -> None:
+    def set_drives(self, drives: Drives) -> None:
         """Let these be the ways from now on."""
         self.drives, self.distances, self._blocked = drives, Distances(drives), True
 

@@ -20,7 +20,7 @@ _LAG = 2
 
 
 @dataclass(frozen=True, kw_only=True)
-class Fitted:
+class FittedValue:
     """A figure with its confidence interval and how many observations it rests on."""
 
     value: float
@@ -28,7 +28,7 @@ class Fitted:
     high: float
     count: int
 
-    def says(self, value: float) -> bool:
+    def contains(self, value: float) -> bool:
         """Whether a value lies in the interval."""
         return self.low <= value <= self.high
 
@@ -42,8 +42,8 @@ class LegFit:
         likely: How likely legs are to spread at least so far from the model (Kolmogorov-Smirnov), 0 to 1.
     """
 
-    alpha: Fitted
-    scale: Fitted
+    alpha: FittedValue
+    scale: FittedValue
     likely: float
 
 
@@ -63,8 +63,8 @@ def fit_legs(ratios: Floats, rng: np.random.Generator) -> LegFit:
     n, least, mean = len(ratios), float(ratios.min()), float(ratios.mean())
     spread = n / (n - 1) * (mean - least)
     if spread <= 1e-9 * mean:
-        scale = Fitted(value=mean, low=mean, high=mean, count=n)
-        return LegFit(alpha=Fitted(value=1.0, low=1.0, high=1.0, count=n), scale=scale, likely=1.0)
+        scale = FittedValue(value=mean, low=mean, high=mean, count=n)
+        return LegFit(alpha=FittedValue(value=1.0, low=1.0, high=1.0, count=n), scale=scale, likely=1.0)
     b = 2 * n * (mean - least) / rng.chisquare(2 * n - 2, _DRAWS)
     a = least - b * rng.standard_exponential(_DRAWS) / n
     first = max(0.0, least - spread / n)
@@ -76,19 +76,19 @@ def fit_legs(ratios: Floats, rng: np.random.Generator) -> LegFit:
     )
 
 
-def fit_mean(values: Floats) -> Fitted:
+def fit_mean(values: Floats) -> FittedValue:
     """The mean with its interval; at least two values."""
     return fit_ratio(values, np.ones_like(values))
 
 
-def fit_ratio(amounts: Floats, sizes: Floats) -> Fitted:
+def fit_ratio(amounts: Floats, sizes: Floats) -> FittedValue:
     """What comes to one of ``sizes``: the sum of amounts over that of sizes, whose errors grow with the size."""
     from scipy import stats
 
     rate = float(amounts.sum() / sizes.sum())
     variance = float(((amounts - rate * sizes) ** 2 / sizes).sum()) / (len(sizes) - 1) / float(sizes.sum())
     half = float(stats.t.ppf(0.5 + CONFIDENCE / 2, len(sizes) - 1)) * math.sqrt(variance)
-    return Fitted(value=rate, low=max(0.0, rate - half), high=rate + half, count=len(sizes))
+    return FittedValue(value=rate, low=max(0.0, rate - half), high=rate + half, count=len(sizes))
 
 
 def apart(columns: Floats) -> bool:
@@ -100,7 +100,7 @@ def apart(columns: Floats) -> bool:
     return bool(values[-1] > _APART * values[0])
 
 
-def fit_shares(columns: Floats, amounts: Floats) -> tuple[Fitted, ...]:
+def fit_shares(columns: Floats, amounts: Floats) -> tuple[FittedValue, ...]:
     """How much of some amounts each cause takes, none of them negative, by least squares.
 
     Args:
@@ -126,7 +126,7 @@ def fit_shares(columns: Floats, amounts: Floats) -> tuple[Fitted, ...]:
     variances = np.clip(np.diag(inverse @ middle @ inverse), 0.0, None) * rows / (rows - causes)
     half = float(stats.t.ppf(0.5 + CONFIDENCE / 2, rows - causes)) * np.sqrt(variances)
     return tuple(
-        Fitted(value=float(v / n), low=max(0.0, float((v - h) / n)), high=float((v + h) / n), count=rows)
+        FittedValue(value=float(v / n), low=max(0.0, float((v - h) / n)), high=float((v + h) / n), count=rows)
         for v, h, n in zip(found, half, norms, strict=True)
     )
 
@@ -137,6 +137,6 @@ def plausible(values: Sequence[float], most: float = 3.0) -> NDArray[np.bool_]:
     return np.asarray(array <= most * np.median(array))
 
 
-def _interval(value: float, draws: Floats, count: int) -> Fitted:
+def _interval(value: float, draws: Floats, count: int) -> FittedValue:
     low, high = np.quantile(draws, [(1 - CONFIDENCE) / 2, (1 + CONFIDENCE) / 2])
-    return Fitted(value=value, low=min(float(low), value), high=max(float(high), value), count=count)
+    return FittedValue(value=value, low=min(float(low), value), high=max(float(high), value), count=count)

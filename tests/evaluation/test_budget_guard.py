@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fieldhand.evaluation.telling import Teller
+from fieldhand.evaluation.event_text import EventText
 from fieldhand.execution.guard import Guard
 from fieldhand.forecast.mission_state import Spent, Visit
 from fieldhand.forecast.visit_order import drives_for, visits_in_order
@@ -291,13 +291,13 @@ def test_the_line_of_a_mission_under_way_names_what_is_left_out_once():
     by_reason = {why: tuple(tree for tree, said in paper.shed if said == why) for _, why in paper.shed}
     assert by_reason
     for why, trees in by_reason.items():
-        line = Teller(ROBOT).tell(Shed(t=1.0, node="n1", places=trees, optional=True, reason=why))
+        line = EventText(ROBOT).line(Shed(t=1.0, node="n1", places=trees, optional=True, reason=why))
         assert line.startswith("    0:01     left out: tree")
         named = line.removeprefix("    0:01     left out: ").partition(":")[0]
         assert len(re.findall(rf"\b{trees[0]}\b", named)) == 1
         assert "skipped" not in line
     other = Shed(t=1.0, node="n1", places=("7",), optional=True, reason="too far")
-    assert Teller(ROBOT).tell(other) == "    0:01     left out: 7 (too far)"
+    assert EventText(ROBOT).line(other) == "    0:01     left out: 7 (too far)"
 
 
 def test_overspent_the_guard_sends_nobody_anywhere():

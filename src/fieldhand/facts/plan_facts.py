@@ -25,7 +25,7 @@ _ACROSS: tuple[tuple[Side, Side], ...] = (("north", "south"), ("east", "west"))
 
 
 @dataclass(frozen=True, kw_only=True)
-class Captures:
+class PlannedCaptures:
     """What one act of the plan takes.
 
     Attributes:
@@ -46,7 +46,7 @@ class Captures:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Tested:
+class PlannedTest:
     """A threshold that the plan tests: a reading's, or an attribute's where ``quantity`` is empty.
 
     Attributes:
@@ -69,7 +69,7 @@ class Tested:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Number:
+class PlannedNumber:
     """A whole number or a distance that stands in a selector or a node, other than the one that holds by itself."""
 
     node: str
@@ -79,15 +79,15 @@ class Number:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Planned:
+class PlanFacts:
     """What a Task holds. ``nodes`` are its plan nodes in their order, ``selectors`` every part of theirs."""
 
     task: Task
     nodes: tuple[p.Node, ...]
     selectors: tuple[tuple[str, Selector], ...]
-    captures: tuple[Captures, ...]
-    tests: tuple[Tested, ...]
-    numbers: tuple[Number, ...]
+    captures: tuple[PlannedCaptures, ...]
+    tests: tuple[PlannedTest, ...]
+    numbers: tuple[PlannedNumber, ...]
 
     def having(self, *classes: type) -> Iterator[tuple[str, Selector]]:
         """The selectors of some classes, each with its node."""
@@ -149,7 +149,7 @@ class Planned:
         return tuple(kept)
 
 
-def planned(task: Task, size: Callable[[str], int | None]) -> Planned:
+def plan_facts(task: Task, size: Callable[[str], int | None]) -> PlanFacts:
     """The facts of a Task.
 
     Args:
@@ -158,18 +158,18 @@ def planned(task: Task, size: Callable[[str], int | None]) -> Planned:
     root = task.composition.plan
     nodes = tuple(p.walk(root))
     selectors = tuple((n.id, x) for n in nodes if (top := n.selector) is not None for x in top.walk())
-    return Planned(
+    return PlanFacts(
         task=task,
         nodes=nodes,
         selectors=selectors,
-        captures=tuple(_captures(root, _Around(), size)),
+        captures=tuple(_captures(root, _Surroundings(), size)),
         tests=tuple(_tests(nodes, selectors)),
         numbers=tuple(_numbers(nodes, selectors)),
     )
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Around:
+class _Surroundings:
     """What stands around a node: distinct places, rounds, numbers, and whether it depends on anything."""
 
     places: CountRange = ONE
@@ -178,12 +178,12 @@ class _Around:
     bound: bool = False
 
 
-def _captures(node: p.Node, around: _Around, size: Callable[[str], int | None]) -> Iterator[Captures]:
+def _captures(node: p.Node, around: _Surroundings, size: Callable[[str], int | None]) -> Iterator[PlannedCaptures]:
     """The acts inside a node."""
     act = node.act
     if act is not None:
         own = {act.count, *(_counts(act.at) if act.at is not None else ())}
-        yield Captures(
+        yield PlannedCaptures(
             node=act.id,
             action=act.action,
             each=act.count,
@@ -203,7 +203,7 @@ def _captures(node: p.Node, around: _Around, size: Callable[[str], int | None]) 
         yield from _captures(child, inside, size)
 
 
-def _visited(node: p.Node, select: Selector, around: _Around, size: int | None, *, loose: bool) -> _Around:
+def _visited(node: p.Node, select: Selector, around: _Surroundings, size: int | None, *, loose: bool) -> _Surroundings:
     """Return what holds inside a node that visits each place: how many places, and the numbers that stand in it."""
     inside = select.size if size is None else exactly(size)
     most = frozenset({node.at_most} if node.at_most is not None else ())
@@ -225,10 +225,10 @@ def _counts(selector: Selector) -> Iterator[int]:
         yield from (count,) if count else ()
 
 
-def _tests(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], ...]) -> Iterator[Tested]:
+def _tests(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], ...]) -> Iterator[PlannedTest]:
     for node, x in selectors:
         if isinstance(x, s.Where) and isinstance(x.value, float | int) and not isinstance(x.value, bool):
-            yield Tested(
+            yield PlannedTest(
                 node=node, quantity="", attribute=x.attribute, test=x.test, values=(float(x.value),), plainly=True
             )
     for one in nodes:
@@ -248,36 +248,36 @@ def _done(node: p.Node) -> frozenset[str]:
     return frozenset(stops | {act.action for act in p.acts(node)})
 
 
-def _tested(part: c.Condition, node: str) -> Iterator[Tested]:
+def _tested(part: c.Condition, node: str) -> Iterator[PlannedTest]:
     match part:
         case c.Compare():
-            yield Tested(
+            yield PlannedTest(
                 node=node, quantity=part.quantity, attribute="", test=part.test, values=(part.value,), unit=part.unit,
             )  # fmt: skip
         case c.Between():
-            yield Tested(
+            yield PlannedTest(
                 node=node, quantity=part.quantity, attribute="", test="between", values=(part.low, part.high),
                 unit=part.unit,
             )  # fmt: skip
         case c.Level():
-            yield Tested(
+            yield PlannedTest(
                 node=node, quantity=part.quantity, attribute="", test="level", values=(), level=part.level,
             )  # fmt: skip
         case c.TreeHas(value=value) if isinstance(value, float | int) and not isinstance(value, bool):
-            yield Tested(node=node, quantity="", attribute=part.attribute, test=part.test, values=(float(value),))
+            yield PlannedTest(node=node, quantity="", attribute=part.attribute, test=part.test, values=(float(value),))
         case _:
             return
 
 
-def _numbers(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], ...]) -> Iterator[Number]:
+def _numbers(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], ...]) -> Iterator[PlannedNumber]:
     """Numbers of nodes and selectors that are not those that hold by themselves."""
     for node in nodes:
         if node.act is not None and node.act.count > 1:
-            yield Number(node=node.id, what="captures at a place", value=node.act.count, kind="count")
+            yield PlannedNumber(node=node.id, what="captures at a place", value=node.act.count, kind="count")
         if node.at_most is not None:
-            yield Number(node=node.id, what="visits at most", value=node.at_most, kind="count")
+            yield PlannedNumber(node=node.id, what="visits at most", value=node.at_most, kind="count")
         if node.rounds is not None and node.tested is None:
-            yield Number(node=node.id, what="rounds", value=node.rounds, kind="count")
+            yield PlannedNumber(node=node.id, what="rounds", value=node.rounds, kind="count")
     for name, x in selectors:
         for field in fields(x):
             value = getattr(x, field.name)
@@ -285,6 +285,6 @@ def _numbers(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], .
                 continue
             what = re.sub("[-_]", " ", f"{element_name(type(x))} {field.name}")
             if isinstance(value, float):
-                yield Number(node=name, what=what, value=value, kind="length")
+                yield PlannedNumber(node=name, what=what, value=value, kind="length")
             elif isinstance(value, int) and abs(value) > 1:
-                yield Number(node=name, what=what, value=abs(value), kind="count")
+                yield PlannedNumber(node=name, what=what, value=abs(value), kind="count")

@@ -32,7 +32,7 @@ _NOISE_PERCENT = 0.5
 
 
 @dataclass(frozen=True, kw_only=True)
-class Step:
+class MeasuredStep:
     """What lies between two readings of the charge: a leg, a capture, or the rest.
 
     Attributes:
@@ -61,7 +61,7 @@ class Step:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Driven:
+class MeasuredMission:
     """A mission as it is kept: who drove it, and its steps.
 
     Attributes:
@@ -74,11 +74,11 @@ class Driven:
     task: str
     robot: str
     simulated: bool
-    steps: tuple[Step, ...]
+    steps: tuple[MeasuredStep, ...]
     left_out: int = 0
 
 
-def steps_of(events: Sequence[Event], *, where: str = "the log") -> Driven:
+def measure_mission(events: Sequence[Event], *, where: str = "the log") -> MeasuredMission:
     """The steps of a mission.
 
     Raises:
@@ -87,10 +87,10 @@ def steps_of(events: Sequence[Event], *, where: str = "the log") -> Driven:
     started = next((e for e in events if isinstance(e, Started)), None)
     if started is None:
         raise InputError("has no line that says which robot it is of", where=where, advice="give a whole event log")
-    found = _Reader(started).read(events)
+    found = _LogReader(started).read(events)
     sound = tuple(step for step in found if _finite(step))
     digest = hashlib.sha256("\n".join(to_json(e) for e in events).encode("utf-8", errors="replace"))
-    return Driven(
+    return MeasuredMission(
         key=digest.hexdigest(),
         task=started.task,
         robot=started.robot,
@@ -100,7 +100,7 @@ def steps_of(events: Sequence[Event], *, where: str = "the log") -> Driven:
     )
 
 
-def predicted(step: Step, robot: RobotProfile) -> tuple[float, float]:
+def predicted(step: MeasuredStep, robot: RobotProfile) -> tuple[float, float]:
     """Seconds and percent of a full battery that a profile expects of a leg or a capture."""
     if step.kind == "leg":
         speed = robot.speed_m_s if math.isnan(step.speed_m_s) else min(robot.speed_m_s, step.speed_m_s)
@@ -112,20 +112,20 @@ def predicted(step: Step, robot: RobotProfile) -> tuple[float, float]:
     return action.duration_s, robot.percent(0.0, action.duration_s, action.energy_j)
 
 
-def _finite(step: Step) -> bool:
+def _finite(step: MeasuredStep) -> bool:
     numbers = (step.planned_m, step.metres, step.moved_m, step.whole_s, step.percent)
     return all(math.isfinite(n) for n in numbers) and not math.isinf(step.seconds) and step.whole_s >= 0
 
 
-class _Reader:
+class _LogReader:
     """Goes along the log and remembers when the charge was read last."""
 
     def __init__(self, started: Started) -> None:
         self._charge, self._at_s, self._travelled = started.charge_percent, started.t, 0.0
         self._astray = False
-        self._steps: list[Step] = []
+        self._steps: list[MeasuredStep] = []
 
-    def read(self, events: Sequence[Event]) -> list[Step]:
+    def read(self, events: Sequence[Event]) -> list[MeasuredStep]:
         before: Event | None = None
         for event in events:
             match event:
@@ -138,11 +138,11 @@ class _Reader:
                     timed = isinstance(before, _PROMPT) and event.attempt == 1
                     seconds = event.t - before.t if timed and before is not None else math.nan
                     done = event.status == "success"
-                    step = Step(kind="capture", name=event.action, seconds=seconds, done=done)
+                    step = MeasuredStep(kind="capture", name=event.action, seconds=seconds, done=done)
                     self._close(step, event.t, event.charge_percent, self._travelled)
                 case Ended():
                     self._astray = False
-                    self._close(Step(kind="rest"), event.t, event.charge_percent, event.travelled_m)
+                    self._close(MeasuredStep(kind="rest"), event.t, event.charge_percent, event.travelled_m)
                 case _:
                     if hasattr(event, "charge_percent"):
                         # A power cut, a pause: what was used meanwhile belongs to no step.
@@ -153,7 +153,7 @@ class _Reader:
     def _arrive(self, event: Arrived, before: Event | None) -> None:
         leg = before if isinstance(before, Driving) else None
         self._astray = False
-        step = Step(
+        step = MeasuredStep(
             kind="leg",
             planned_m=leg.planned_m if leg else 0.0,
             metres=event.leg_m,
@@ -163,7 +163,7 @@ class _Reader:
         )
         self._close(step, event.t, event.charge_percent, event.travelled_m)
 
-    def _close(self, step: Step, t: float, charge: float, travelled: float) -> None:
+    def _close(self, step: MeasuredStep, t: float, charge: float, travelled: float) -> None:
         used = self._charge - charge
         known = not self._astray and used >= -_NOISE_PERCENT
         self._steps.append(

@@ -10,7 +10,7 @@ from fieldhand.task import plan as p
 from fieldhand.task.frames import Task
 
 
-class Sizes:
+class SelectorSizes:
     """Count the places that each selector of a plan names.
 
     The plan is followed step by step, every branch of it, as if each visit list were visited whole: where the robot is

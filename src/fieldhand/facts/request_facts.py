@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from fieldhand.facts import words as w
-from fieldhand.facts.amounts import Amount, Noun, amounts, numbers_of
+from fieldhand.facts.amounts import Noun, StatedAmount, amounts, numbers_of
 from fieldhand.facts.words import Token, tokens
 from fieldhand.robot.model import Action, RobotProfile
 from fieldhand.site.model import Site
@@ -25,7 +25,7 @@ _TO = r"(?: again)? (?:to|at) (?:the |its |your )?"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Stated:
+class RequestFacts:
     """What a request says, with this robot's and this site's names.
 
     Attributes:
@@ -39,7 +39,7 @@ class Stated:
     request: str
     said: tuple[Token, ...]
     nouns: dict[int, Noun]
-    amounts: tuple[Amount, ...]
+    amounts: tuple[StatedAmount, ...]
     zones: frozenset[str]
     attributes: dict[str, int]
     levels: frozenset[str]
@@ -121,7 +121,7 @@ class Stated:
         return bool(re.search(r"\bas many (?:[\w%]+ ){0,6}?as (?:possible|(?:you|it|we|the robot) can)\b", self.text))
 
 
-def stated(request: str, robot: RobotProfile, site: Site) -> Stated:
+def request_facts(request: str, robot: RobotProfile, site: Site) -> RequestFacts:
     """The facts of a request."""
     said = tokens(request)
     names = _names(site)
@@ -134,7 +134,7 @@ def stated(request: str, robot: RobotProfile, site: Site) -> Stated:
     units = frozenset(q.unit.lower() for q in robot.quantities)
     found = amounts(said, nouns, units)
     levels = {word for q in robot.quantities for word in q.levels}
-    facts = Stated(
+    facts = RequestFacts(
         request=request,
         said=said,
         nouns=nouns,

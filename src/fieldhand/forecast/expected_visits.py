@@ -31,7 +31,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Expected:
+class ExpectedVisits:
     """What will probably come of some optional visits.
 
     Attributes:
@@ -58,8 +58,8 @@ def expected_visits(
     node: ForEach | OptionalStep,
     visits: Sequence[Visit],
     rng: np.random.Generator,
-    before: Expected | None = None,
-) -> Expected:
+    before: ExpectedVisits | None = None,
+) -> ExpectedVisits:
     """What will come of optional visits where the walk is.
 
     Args:
@@ -89,7 +89,7 @@ def expected_visits(
     usual = set(found.orders[0].tolist())
     likely = sorted(range(len(visits)), key=lambda k: (chances[k] > 0.0 and k + 1 not in usual, -chances[k]))
     chosen = set(likely[: round(mean)])
-    return Expected(
+    return ExpectedVisits(
         places=tuple(visits[v - 1].place for v in found.vertices.tolist() if v - 1 in chosen),
         shed=(
             *(visits[k].place for k in sorted(likely[round(mean) :], key=lambda k: -chances[k])),

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fieldhand.evaluation.calibration.figures import apart, fit_legs, fit_mean, fit_ratio, fit_shares, plausible
+from fieldhand.evaluation.calibration.estimators import apart, fit_legs, fit_mean, fit_ratio, fit_shares, plausible
 
 
 def legs(alpha, scale, count, seed):

@@ -31,7 +31,7 @@ _FARTHEST = 2.0
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Threshold:
+class VisitRisk:
     """What is known when the question comes up.
 
     Attributes:
@@ -52,7 +52,7 @@ class Threshold:
     left: Floats
     costs: CostModel
 
-    def within(self, accepted: Floats, rng: np.random.Generator) -> Floats:
+    def accepted_chance(self, accepted: Floats, rng: np.random.Generator) -> Floats:
         """For each limit the chance that one visit with the way home may have.
 
         Args:

@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.evaluation.ahead import Ahead, Following
-from fieldhand.evaluation.choosing import Choosing
-from fieldhand.evaluation.drain import Drain
-from fieldhand.evaluation.means import Means
-from fieldhand.evaluation.reasons import Errand, running_short
-from fieldhand.evaluation.threshold import Threshold
+from fieldhand.evaluation.battery_drain import BatteryDrain
+from fieldhand.evaluation.mission_budget import MissionBudget
+from fieldhand.evaluation.reasons import RoundTrip, running_short
+from fieldhand.evaluation.visit_chooser import VisitChooser
+from fieldhand.evaluation.visit_risk import VisitRisk
+from fieldhand.evaluation.work_ahead import WorkAhead, WorkAheadFinder
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
 from fieldhand.forecast.route_cost import RouteCost, cost_model, mean_metres, route_cost
 from fieldhand.language import joined
@@ -65,16 +65,16 @@ class BudgetGuard:
         self, task: Task, site: Site, robot: RobotProfile, drives: Drives, seed: int, charge_percent: float = 100.0
     ) -> None:
         self._rng = np.random.default_rng(seed)
-        self._means = Means(task, site, robot, drives, charge_percent)
-        self._optional = Choosing(self._means)
-        self._ahead = Ahead(self._means)
+        self._budget = MissionBudget(task, site, robot, drives, charge_percent)
+        self._optional = VisitChooser(self._budget)
+        self._ahead = WorkAheadFinder(self._budget)
         self._threshold: Floats | None = None
         self._granted: tuple[_Grant, ...] = ()
 
     @property
-    def drain(self) -> Drain:
+    def drain(self) -> BatteryDrain:
         """Return the drain of the battery, as learned so far."""
-        return self._means.drain
+        return self._budget.drain
 
     def choose(
         self,
@@ -89,7 +89,7 @@ class BudgetGuard:
         What must follow and the way home are set aside first. Candidates that have no way to them, and those that have
         come out of reach, are given up as soon as that is so; all others, in one go, when no visit is worth its risk.
         """
-        self._means.drain.learn(state.spent)
+        self._budget.drain.learn(state.spent)
         choice = self._optional.next(state, candidates, at_most, still_to_come)
         if choice.index is not None:
             self._grant(state, candidates[choice.index])
@@ -97,7 +97,7 @@ class BudgetGuard:
 
     def ways_are(self, drives: Drives) -> None:
         """The robot found a way blocked, or free again: what was thought ahead over the old ways is forgotten."""
-        self._means.are(drives)
+        self._budget.set_drives(drives)
         self._optional.forget()
         self._ahead.forget()
         self._threshold, self._granted = None, ()
@@ -109,58 +109,58 @@ class BudgetGuard:
         to run short. After that, and from the beginning where there is more to do than will last, a visit is made
         where going there and straight home is safe enough, or no riskier than going home at once.
         """
-        self._means.drain.learn(state.spent)
+        self._budget.drain.learn(state.spent)
         if self._is_granted(state, visit.place):
             return Verdict(go=True)
-        means, here = self._means, state.context.here
+        budget, here = self._budget, state.context.here
         ahead = self._ahead.of(state, visit, still_to_come)
-        way_on = None if ahead is None else route_cost([means.length(here, visit.place)]) + ahead.way
-        home = means.length(visit.end, means.home(visit.end))
-        short = route_cost([means.length(here, visit.place), home], visit.work)
-        there = means.chances(short, state)
-        on = there if way_on is None else means.chances(way_on, state)
-        lasts = means.allowance(on).mandatory_fits
-        if way_on is not None and lasts and (on <= np.maximum(_EVEN, means.accepted)).all():
+        way_on = None if ahead is None else route_cost([budget.length(here, visit.place)]) + ahead.way
+        home = budget.length(visit.end, budget.home(visit.end))
+        short = route_cost([budget.length(here, visit.place), home], visit.work)
+        there = budget.chances(short, state)
+        on = there if way_on is None else budget.chances(way_on, state)
+        lasts = budget.allowance(on).mandatory_fits
+        if way_on is not None and lasts and (on <= np.maximum(_EVEN, budget.accepted)).all():
             return self._go(state, visit, on)
-        safe = means.accepted if lasts or ahead is None else self._safe(state, ahead)
-        home_now = route_cost([means.length(here, means.home(here))])
+        safe = budget.accepted if lasts or ahead is None else self._safe(state, ahead)
+        home_now = route_cost([budget.length(here, budget.home(here))])
         for way, chances in ((way_on, on), (short, there)):
             if way is not None and self._may(state, way, chances, safe, home_now):
                 return self._go(state, visit, chances)
-        reason = running_short(means, state, Errand(way=short, to=visit.place), there)
+        reason = running_short(budget, state, RoundTrip(way=short, to=visit.place), there)
         return Verdict(go=False, reason=self._and_the_battery(reason), chance_short=float(there.max()))
 
     def _and_the_battery(self, reason: str) -> str:
-        said = self._means.drain.words
+        said = self._budget.drain.words
         return joined("; ", (reason, said)) if reason and said else reason
 
     def _may(self, state: MissionState, way: RouteCost, chances: Floats, safe: Floats, home_now: RouteCost) -> bool:
         """Whether a way is safe enough, or else no riskier than home; where even home is too far, no detour."""
-        means, resources = self._means, self._means.resources(state)
+        budget, resources = self._budget, self._budget.resources(state)
         left = np.array([r.metres_left(state.spent) for r in resources])
-        enough = np.maximum(left, mean_metres(home_now, resources, means.robot))
-        allowed = np.maximum(safe, means.chances(home_now, state))
-        fits = mean_metres(way, resources, means.robot) <= enough * _LOOK
+        enough = np.maximum(left, mean_metres(home_now, resources, budget.robot))
+        allowed = np.maximum(safe, budget.chances(home_now, state))
+        fits = mean_metres(way, resources, budget.robot) <= enough * _LOOK
         return bool((fits & (chances <= allowed * _LOOK + 1e-12)).all())
 
     def _go(self, state: MissionState, visit: Visit, chances: Floats) -> Verdict:
         self._grant(state, visit)
         return Verdict(go=True, chance_short=float(chances.max()))
 
-    def _safe(self, state: MissionState, ahead: Following) -> Floats:
+    def _safe(self, state: MissionState, ahead: WorkAhead) -> Floats:
         """For each limit the chance that a visit with the way home may have, where not everything will last."""
         if self._threshold is None:
-            means, resources = self._means, self._means.resources(state)
-            threshold = Threshold(
+            budget, resources = self._budget, self._budget.resources(state)
+            threshold = VisitRisk(
                 here=state.context.here,
                 stops=ahead.stops,
-                length=means.length,
-                home=means.home,
-                service=np.array([[r.metres_of(v.work, means.robot) for r in resources] for v in ahead.stops]),
+                length=budget.length,
+                home=budget.home,
+                service=np.array([[r.metres_of(v.work, budget.robot) for r in resources] for v in ahead.stops]),
                 left=np.array([r.metres_left(state.spent) for r in resources]),
-                costs=cost_model(means.robot),
+                costs=cost_model(budget.robot),
             )
-            self._threshold = threshold.within(means.accepted, self._rng)
+            self._threshold = threshold.accepted_chance(budget.accepted, self._rng)
         return self._threshold
 
     def _grant(self, state: MissionState, visit: Visit) -> None:

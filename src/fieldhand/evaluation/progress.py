@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from fieldhand.evaluation.event_text import EventText, noun
 from fieldhand.evaluation.outcome import judge, judge_end
-from fieldhand.evaluation.telling import Teller, noun
 from fieldhand.language import message
 from fieldhand.language.words import say_place
 from fieldhand.robot.model import RobotProfile
@@ -35,7 +35,7 @@ State = Literal["running", "paused", "interrupted", "ended"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Standing:
+class MissionProgress:
     """How a mission stands.
 
     Attributes:
@@ -71,7 +71,7 @@ class Standing:
     exceeded: tuple[Exceeded, ...] = ()
 
 
-def standing(task: Task, robot: RobotProfile, events: Sequence[Event], *, running: bool) -> Standing:
+def mission_progress(task: Task, robot: RobotProfile, events: Sequence[Event], *, running: bool) -> MissionProgress:
     """How a mission stands.
 
     Args:
@@ -86,7 +86,7 @@ def standing(task: Task, robot: RobotProfile, events: Sequence[Event], *, runnin
     charged = [e.charge_percent for e in events if isinstance(e, _CHARGED)]
     driven = [e.travelled_m for e in events if isinstance(e, Arrived | LimitCrossed | Ended)]
     status, reason, found = judge_end(task, events, robot.energy.reserve_percent)
-    return Standing(
+    return MissionProgress(
         state=state,
         doing=_doing(robot, last, task),
         node=next((e.node for e in reversed(events) if e.node), ""),
@@ -146,4 +146,4 @@ def _doing(robot: RobotProfile, last: Event | None, task: Task) -> str:
                 return message("at {place}", context="log", place=place)
             return message("{capture} at {place}", capture=noun(robot, action), place=place)
         case _:
-            return Teller(robot).in_short(last)
+            return EventText(robot).brief(last)

@@ -10,7 +10,7 @@ from fieldhand.task.results import Acted, Event, InDoubt, Shed
 
 
 @dataclass(kw_only=True)
-class Tally:
+class CaptureCount:
     """A count of one action of the plan in an event log.
 
     Attributes:
@@ -45,32 +45,32 @@ class Tally:
     reasons: list[str] = field(default_factory=list)
 
 
-class Tallies:
+class CaptureCounts:
     """The tallies of a plan.
 
     Attributes:
-        of: The tally of each action, by the id of its node.
+        of: The count of each action, by the id of its node.
         inside: The ids of a node and of all inside it, by the id of the node.
     """
 
     def __init__(self, plan: p.Node) -> None:
-        self.of = {act.id: Tally() for act in p.acts(plan)}
+        self.of = {act.id: CaptureCount() for act in p.acts(plan)}
         self.inside = {node.id: frozenset(n.id for n in p.walk(node)) for node in p.walk(plan)}
 
     def count(self, events: Iterable[Event]) -> None:
         """Add what was done, wherever the plan was then."""
         for event in events:
-            tally = self.of.get(event.node)
-            if tally is not None and isinstance(event, Acted | InDoubt):
-                tally.reached = True
-                tally.done += event.count if isinstance(event, Acted) and event.status == "success" else 0
-                tally.in_doubt += isinstance(event, InDoubt) and event.then == "skip"
+            count = self.of.get(event.node)
+            if count is not None and isinstance(event, Acted | InDoubt):
+                count.reached = True
+                count.done += event.count if isinstance(event, Acted) and event.status == "success" else 0
+                count.in_doubt += isinstance(event, InDoubt) and event.then == "skip"
 
-    def under(self, *nodes: p.Node) -> list[Tally]:
+    def under(self, *nodes: p.Node) -> list[CaptureCount]:
         """The tallies of the actions in some nodes, in the order in which they stand."""
         return [self.of[act.id] for node in nodes for act in p.acts(node)]
 
-    def copies(self, node: p.Node) -> Mapping[str, Tally]:
+    def copies(self, node: p.Node) -> Mapping[str, CaptureCount]:
         """The tallies of a node's actions as they are now, for :meth:`forgive`."""
         return {name: replace(self.of[name]) for name in self.inside[node.id] & self.of.keys()}
 
@@ -87,24 +87,24 @@ class Tallies:
     def open(self, node: p.Node, *, undecided: bool = False) -> None:
         """More may be wanted of a node's actions; ``undecided``: or nothing, as a condition was not tested."""
         for branch in (child for inner in p.walk(node) if inner.is_choice for child in inner.children):
-            for tally in self.under(branch):
-                tally.undecided = True
-        for tally in self.under(node):
-            tally.open = True
-            tally.undecided = tally.undecided or undecided
+            for count in self.under(branch):
+                count.undecided = True
+        for count in self.under(node):
+            count.open = True
+            count.undecided = count.undecided or undecided
 
-    def forgive(self, before: Mapping[str, Tally]) -> None:
+    def forgive(self, before: Mapping[str, CaptureCount]) -> None:
         """Take back what a visit wanted beyond what it gave."""
         for name, old in before.items():
-            tally = self.of[name]
-            tally.wanted = old.wanted + tally.seen - old.seen
-            tally.open, tally.undecided = old.open, old.undecided
+            count = self.of[name]
+            count.wanted = old.wanted + count.seen - old.seen
+            count.open, count.undecided = old.open, old.undecided
 
     def spare(self, node: p.Node, event: Shed) -> None:
         """An optional step was given up."""
-        for tally in self.under(node):
-            tally.spared += 1
-            tally.reasons.append(event.reason)
+        for count in self.under(node):
+            count.spared += 1
+            count.reasons.append(event.reason)
 
     def shed(self, node: p.Node, event: Shed) -> None:
         """Places of a node were given up."""
@@ -113,12 +113,12 @@ class Tallies:
         for step in p.walk(node):
             if step.is_optional_step and not event.optional:
                 self.spare(step, event)
-        for name, tally in self.of.items():
+        for name, count in self.of.items():
             if name not in self.inside[node.id] or (name in perhaps and not event.optional):
                 continue
             if event.optional:
-                tally.left_out += len(event.places)
+                count.left_out += len(event.places)
             else:
-                tally.given_up += max(1, len(event.places))
-            if event.reason not in tally.reasons:
-                tally.reasons.append(event.reason)
+                count.given_up += max(1, len(event.places))
+            if event.reason not in count.reasons:
+                count.reasons.append(event.reason)

@@ -10,8 +10,8 @@ import re
 from collections.abc import Iterator
 
 from fieldhand.facts import words as w
-from fieldhand.facts.mismatch import Mismatch
-from fieldhand.facts.stated import Stated
+from fieldhand.facts.mismatch import PlanMismatch
+from fieldhand.facts.request_facts import RequestFacts
 
 _PARTS = "morning|afternoon|evening|night|midnight|noon|midday|lunch|lunchtime|dawn|dusk|sunrise|sunset|nightfall"
 _UNITS = "day|night|week|weekend|fortnight|month|year|season|hour|minute"
@@ -58,7 +58,7 @@ _KINDS = (
 _REMARKS = _KINDS[1][0]
 
 
-def unheld(said: Stated) -> Iterator[Mismatch]:
+def unsupported_words(said: RequestFacts) -> Iterator[PlanMismatch]:
     """Yield a contradiction for each stretch of the request that no plan can hold."""
     starts: dict[int, int] = {}
     at = 0
@@ -72,4 +72,4 @@ def unheld(said: Stated) -> Iterator[Mismatch]:
             remark = pattern is _REMARKS and not any(said.said[k].sentence == sentence for k in said.nouns)
             speed = first and said.said[first - 1].text in w.LENGTHS and match[0].startswith(("per ", "a ", "an "))
             if not remark and not speed and said.named.isdisjoint(range(first, first + len(match[0].split()))):
-                yield Mismatch(kind="unheld", message=f"the request says '{match[0]}', and {why}")
+                yield PlanMismatch(kind="unheld", message=f"the request says '{match[0]}', and {why}")

@@ -38,26 +38,26 @@ from fieldhand.task.results import (
 NAMED = 8
 
 
-class Teller:
+class EventText:
     """Says events in words; remembers nothing but the robot."""
 
     def __init__(self, robot: RobotProfile) -> None:
         self._robot = robot
 
-    def tell(self, event: Event) -> str | None:
+    def line(self, event: Event) -> str | None:
         """The event as a line, or None where it is not worth one."""
-        words = self.words(event)
+        words = self.sentence(event)
         if words is None:
             return None
         indent = "   " if isinstance(event, Acted | InDoubt | Decided) or _is_left_out(event) else ""
         return joined("  ", (f"{clock_time(event.t):>8}", joined("", (indent, words))))
 
-    def in_short(self, event: Event) -> str:
+    def brief(self, event: Event) -> str:
         """Return what happened on one line without its time; the event's name where it is not worth a line."""
-        words = self.words(event)
+        words = self.sentence(event)
         return event.event if words is None else shaped(words, _on_one_line)
 
-    def words(self, event: Event) -> str | None:
+    def sentence(self, event: Event) -> str | None:
         """Return what happened, without its time, or None where it is not worth a line."""
         match event:
             case Started():

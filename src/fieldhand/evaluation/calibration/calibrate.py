@@ -9,8 +9,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from fieldhand.errors import InputError
-from fieldhand.evaluation.calibration.figures import (
-    Fitted,
+from fieldhand.evaluation.calibration.estimators import (
+    FittedValue,
     LegFit,
     apart,
     fit_legs,
@@ -19,7 +19,7 @@ from fieldhand.evaluation.calibration.figures import (
     fit_shares,
     plausible,
 )
-from fieldhand.evaluation.calibration.steps import Driven, Step, predicted
+from fieldhand.evaluation.calibration.measured_steps import MeasuredMission, MeasuredStep, predicted
 from fieldhand.robot.model import LegCost, RobotProfile
 
 #: Fewer legs, or captures of an action, than these say too little.
@@ -30,7 +30,7 @@ _FOLDS = 5
 
 
 @dataclass(frozen=True, kw_only=True)
-class Fit:
+class CostModelFit:
     """What was fitted; what the data do not tell is None or missing, and stays as the profile has it.
 
     Attributes:
@@ -42,17 +42,17 @@ class Fit:
     """
 
     legs: LegFit
-    speed: Fitted | None = None
-    drive: Fitted | None = None
-    idle: Fitted | None = None
-    durations: Mapping[str, Fitted] = field(default_factory=dict)
-    energies: Mapping[str, Fitted] = field(default_factory=dict)
+    speed: FittedValue | None = None
+    drive: FittedValue | None = None
+    idle: FittedValue | None = None
+    durations: Mapping[str, FittedValue] = field(default_factory=dict)
+    energies: Mapping[str, FittedValue] = field(default_factory=dict)
     kept: tuple[str, ...] = ()
 
     @property
     def stretch(self) -> float:
         """Metres driven for one planned, as the profile has to count it: 1 unless the legs say otherwise."""
-        return 1.0 if self.legs.scale.says(1.0) else self.legs.scale.value
+        return 1.0 if self.legs.scale.contains(1.0) else self.legs.scale.value
 
     def profile(self, robot: RobotProfile) -> RobotProfile:
         """The profile with what was fitted; it counts metres as planned: speed and energy are those of such a metre."""
@@ -77,7 +77,7 @@ class Fit:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Quality:
+class PredictionError:
     """Predicted against actual.
 
     Attributes:
@@ -104,17 +104,17 @@ class Calibration:
         after: By fits each of which had not seen the steps that it predicts.
     """
 
-    fit: Fit
+    fit: CostModelFit
     missions: int
     legs: int
     captures: int
     left_out: Mapping[str, int]
     actual: tuple[float, float]
-    before: Quality
-    after: Quality
+    before: PredictionError
+    after: PredictionError
 
 
-def calibrate(robot: RobotProfile, missions: Sequence[Driven], *, seed: int = 0) -> Calibration:
+def calibrate(robot: RobotProfile, missions: Sequence[MeasuredMission], *, seed: int = 0) -> Calibration:
     """Fit the cost model of a robot to its missions.
 
     Args:
@@ -136,7 +136,7 @@ def calibrate(robot: RobotProfile, missions: Sequence[Driven], *, seed: int = 0)
         )
     compared = [s for s in steps if _comparable(s)]
     parts = np.array_split(np.arange(len(steps)), _FOLDS)
-    after: list[tuple[Step, RobotProfile]] = []
+    after: list[tuple[MeasuredStep, RobotProfile]] = []
     for part in parts:
         held = set(part.tolist())
         other = _fit(robot, [s for k, s in enumerate(steps) if k not in held], seed) or fit
@@ -161,12 +161,12 @@ def calibrate(robot: RobotProfile, missions: Sequence[Driven], *, seed: int = 0)
     )
 
 
-def _fit(robot: RobotProfile, steps: Sequence[Step], seed: int) -> Fit | None:
+def _fit(robot: RobotProfile, steps: Sequence[MeasuredStep], seed: int) -> CostModelFit | None:
     legs = _legs(steps)
     if len(legs) < LEAST_LEGS:
         return None
     ratios = np.array([s.metres / s.planned_m for s in legs])
-    fit = Fit(legs=fit_legs(ratios, np.random.default_rng(seed)))
+    fit = CostModelFit(legs=fit_legs(ratios, np.random.default_rng(seed)))
     fit = replace(fit, speed=_speed(robot, legs), durations=_durations(robot, steps))
     fit = _with_energy(fit, robot, steps)
     kept = list(fit.kept)
@@ -176,15 +176,15 @@ def _fit(robot: RobotProfile, steps: Sequence[Step], seed: int) -> Fit | None:
     return replace(fit, kept=tuple(kept))
 
 
-def _comparable(step: Step) -> bool:
+def _comparable(step: MeasuredStep) -> bool:
     return step.done and step.sure and math.isfinite(step.seconds) and step.kind != "rest"
 
 
-def _legs(steps: Sequence[Step]) -> list[Step]:
+def _legs(steps: Sequence[MeasuredStep]) -> list[MeasuredStep]:
     return [s for s in steps if s.kind == "leg" and s.done and s.planned_m >= SHORTEST_M and s.metres > 0]
 
 
-def _speed(robot: RobotProfile, legs: Sequence[Step]) -> Fitted | None:
+def _speed(robot: RobotProfile, legs: Sequence[MeasuredStep]) -> FittedValue | None:
     """Of the legs that were not driven slower because the Task wanted it."""
     free = [s for s in legs if s.seconds > 0 and not s.speed_m_s < robot.speed_m_s * (1 - 1e-9)]
     if len(free) < LEAST_LEGS:
@@ -193,10 +193,10 @@ def _speed(robot: RobotProfile, legs: Sequence[Step]) -> Fitted | None:
     sound = plausible((seconds / metres).tolist())
     pace = fit_ratio(seconds[sound], metres[sound])
     slowest = 1.0 / pace.high
-    return Fitted(value=1.0 / pace.value, low=slowest, high=1.0 / max(pace.low, 1e-9), count=pace.count)
+    return FittedValue(value=1.0 / pace.value, low=slowest, high=1.0 / max(pace.low, 1e-9), count=pace.count)
 
 
-def _durations(robot: RobotProfile, steps: Sequence[Step]) -> dict[str, Fitted]:
+def _durations(robot: RobotProfile, steps: Sequence[MeasuredStep]) -> dict[str, FittedValue]:
     found = {}
     for action in robot.actions:
         seconds = [s.seconds for s in steps if s.kind == "capture" and s.name == action.name and s.done]
@@ -207,7 +207,7 @@ def _durations(robot: RobotProfile, steps: Sequence[Step]) -> dict[str, Fitted]:
     return found
 
 
-def _with_energy(fit: Fit, robot: RobotProfile, steps: Sequence[Step]) -> Fit:
+def _with_energy(fit: CostModelFit, robot: RobotProfile, steps: Sequence[MeasuredStep]) -> CostModelFit:
     """Energy by metres, time and captures. What cannot be told apart from the rest is taken as the profile says."""
     rows = [s for s in steps if s.sure and s.whole_s > 0]
     counts = {a.name: np.array([float(s.name == a.name and s.kind == "capture") for s in rows]) for a in robot.actions}
@@ -232,7 +232,7 @@ def _with_energy(fit: Fit, robot: RobotProfile, steps: Sequence[Step]) -> Fit:
     return replace(fit, drive=found[0], energies=dict(zip(asked, found[1:], strict=True)), kept=(why,))
 
 
-def _quality(pairs: Sequence[tuple[Step, RobotProfile]]) -> Quality:
+def _quality(pairs: Sequence[tuple[MeasuredStep, RobotProfile]]) -> PredictionError:
     expected = [predicted(step, robot) for step, robot in pairs]
     apart_s = [abs(s.seconds - e[0]) for (s, _), e in zip(pairs, expected, strict=True)]
     apart_percent = [abs(s.percent - e[1]) for (s, _), e in zip(pairs, expected, strict=True)]
@@ -242,7 +242,7 @@ def _quality(pairs: Sequence[tuple[Step, RobotProfile]]) -> Quality:
         for s, r in pairs
         if s.kind == "leg" and s.planned_m >= SHORTEST_M
     ]
-    return Quality(
+    return PredictionError(
         seconds=math.fsum(e[0] for e in expected),
         percent=math.fsum(e[1] for e in expected),
         errors=(math.fsum(apart_s) / max(1, len(pairs)), math.fsum(apart_percent) / max(1, len(pairs))),

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fieldhand.evaluation.threshold import Threshold
+from fieldhand.evaluation.visit_risk import VisitRisk
 from fieldhand.forecast.mission_state import Visit
 from fieldhand.orienteering.costs import ShiftedExponential
 from fieldhand.orienteering.overrun import overrun_probability
@@ -42,7 +42,7 @@ def test_a_mission_that_will_not_last_runs_short_no_more_often_than_accepted(acc
     rng = np.random.default_rng(int(spread))
     stops = [place(*xy) for xy in rng.uniform(-spread, spread, (60, 2))]
     left = 12.0 * spread
-    threshold = Threshold(
+    threshold = VisitRisk(
         here=place(0.0),
         stops=[Visit(place=p) for p in stops],
         length=metres,
@@ -51,7 +51,7 @@ def test_a_mission_that_will_not_last_runs_short_no_more_often_than_accepted(acc
         left=np.array([left]),
         costs=COSTS,
     )
-    (chance,) = threshold.within(np.array([accepted]), np.random.default_rng(0))
+    (chance,) = threshold.accepted_chance(np.array([accepted]), np.random.default_rng(0))
     assert 0.0 < chance <= accepted
     failed, visits = missions(threshold, chance, stops, left, 600, 1)
     assert failed <= accepted * 600 + 3 * np.sqrt(accepted * (1 - accepted) * 600)
@@ -64,7 +64,7 @@ def test_work_and_several_limits_count():
     stops = [place(float(x)) for x in range(1, 40)]
 
     def within(service, left):
-        return Threshold(
+        return VisitRisk(
             here=place(0.0),
             stops=[Visit(place=p) for p in stops],
             length=metres,
@@ -72,7 +72,7 @@ def test_work_and_several_limits_count():
             service=np.full((len(stops), len(left)), service),
             left=np.array(left),
             costs=COSTS,
-        ).within(np.full(len(left), 0.1), np.random.default_rng(3))
+        ).accepted_chance(np.full(len(left), 0.1), np.random.default_rng(3))
 
     alone = within(0.0, [30.0])
     assert within(0.0, [30.0, 1e6])[0] == alone[0]

@@ -29,7 +29,7 @@ _SAME = 0.01
 _KEPT = 256
 
 
-class Drain:
+class BatteryDrain:
     """Compares a battery with its model.
 
     Args:

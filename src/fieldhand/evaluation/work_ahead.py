@@ -7,14 +7,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fieldhand.errors import DriveFault
-from fieldhand.evaluation.means import Means
+from fieldhand.evaluation.mission_budget import MissionBudget
 from fieldhand.forecast.mission_state import MissionState, Visit
 from fieldhand.forecast.remaining_work import RemainingWork, arrived
 from fieldhand.forecast.route_cost import RouteCost, route_cost
 
 
 @dataclass(frozen=True, kw_only=True)
-class Following:
+class WorkAhead:
     """From the arrival at a visit on.
 
     Attributes:
@@ -43,22 +43,22 @@ class _Loop:
         return k if same else None
 
 
-class Ahead:
+class WorkAheadFinder:
     """Looks ahead; what it finds for a loop is kept for the loop's later visits.
 
     Args:
-        means: Of the mission.
+        budget: Of the mission.
     """
 
-    def __init__(self, means: Means) -> None:
-        self._means = means
+    def __init__(self, budget: MissionBudget) -> None:
+        self._budget = budget
         self._loop: _Loop | None = None
 
     def forget(self) -> None:
         """What was found is found anew."""
         self._loop = None
 
-    def of(self, state: MissionState, visit: Visit, later: Sequence[Visit]) -> Following | None:
+    def of(self, state: MissionState, visit: Visit, later: Sequence[Visit]) -> WorkAhead | None:
         """What follows, on the branch that takes most; None where there is no way.
 
         Args:
@@ -74,16 +74,16 @@ class Ahead:
             except DriveFault:
                 # Said when it is its turn; until then what can be done is.
                 return None
-        return Following(way=loop.ways[k], stops=loop.stops[k:])
+        return WorkAhead(way=loop.ways[k], stops=loop.stops[k:])
 
     def _looked(self, state: MissionState, stops: tuple[Visit, ...]) -> _Loop:
-        means = self._means
-        rest = means.rest(state.frames, arrived(state.context, stops))
+        budget = self._budget
+        rest = budget.rest(state.frames, arrived(state.context, stops))
         last = stops[-1].end
-        way = route_cost([0.0 if rest.first is None else means.length(last, rest.first)], stops[-1].work) + rest.way
+        way = route_cost([0.0 if rest.first is None else budget.length(last, rest.first)], stops[-1].work) + rest.way
         ways = [way]
         for stop, following in reversed(list(itertools.pairwise(stops))):
-            way = route_cost([means.length(stop.end, following.place)], stop.work) + way
+            way = route_cost([budget.length(stop.end, following.place)], stop.work) + way
             ways.append(way)
         known = _Loop(node=state.node, stops=(*stops, *_visits(rest)), ways=tuple(reversed(ways)))
         if rest.fixed:
