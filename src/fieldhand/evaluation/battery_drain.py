@@ -1,4 +1,4 @@
-"""How much faster than its model says a battery empties, learned from what has been spent."""
+"""The rate at which a battery empties compared with its model, learned during the mission."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _KEPT = 256
 
 
 class BatteryDrain:
-    """Compares a battery with its model.
+    """Learns the drain of a battery relative to its model.
 
     Args:
         robot: With the model, as its profile says it.
@@ -72,7 +72,7 @@ class BatteryDrain:
             self._seen = [self._seen[0], *self._seen[2::2]]
 
     def _latest(self, modelled: float, spent: float) -> float:
-        """The greatest pace of the spans that end now."""
+        """Return the highest rate of the spans that end now."""
         seen: NDArray[np.float64] = np.array(self._seen)
         fallen, by_model = spent - seen[:, 1], modelled - seen[:, 0]
         long_enough = (fallen >= max(SPAN, STEPS * self._step)) & (by_model > 0.0)
@@ -93,6 +93,6 @@ class BatteryDrain:
 
 
 def _damped(modelled: float, spent: float) -> float:
-    """The pace since the beginning, where little evidence says little."""
+    """Return the rate since the beginning, damped while there is little evidence."""
     missing = max(0.0, LEAST - modelled)
     return (spent + missing) / (modelled + missing)

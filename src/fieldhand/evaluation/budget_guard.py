@@ -1,4 +1,4 @@
-"""The budget guard: before every drive it asks whether what is left lasts for it, for what must follow, and for home.
+"""The budget guard: before every drive it checks the budget for the drive, the following work and the way home.
 
 Each limit (distance, time, energy, the battery's reserve) is checked by itself; all share the legs' one random cost
 (:mod:`fieldhand.forecast.resource_limits`). The accepted failure probability holds for the whole mission, not for each
@@ -84,7 +84,7 @@ class BudgetGuard:
         at_most: int | None = None,
         still_to_come: Sequence[Visit] = (),
     ) -> VisitChoice:
-        """Which optional visit comes next, of ``at_most`` that may still be made. Asked again after every leg.
+        """Choose the next optional visit, of ``at_most`` that may still be made. Called again after every leg.
 
         What must follow and the way home are set aside first. Candidates that have no way to them, and those that have
         come out of reach, are given up as soon as that is so; all others, in one go, when no visit is worth its risk.
@@ -96,14 +96,14 @@ class BudgetGuard:
         return replace(choice, reason=self._and_the_battery(choice.reason))
 
     def ways_are(self, drives: Drives) -> None:
-        """The robot found a way blocked, or free again: what was thought ahead over the old ways is forgotten."""
+        """Use new drives after a way was blocked or free again; discard all that was computed for the old ones."""
         self._budget.set_drives(drives)
         self._optional.forget()
         self._ahead.forget()
         self._threshold, self._granted = None, ()
 
     def admit(self, state: MissionState, visit: Visit, still_to_come: Sequence[Visit] = ()) -> Verdict:
-        """May the robot make this mandatory visit?
+        """Decide whether the robot may make this mandatory visit.
 
         Work that was within what is accepted when it was first asked for is gone on with until it is as likely as not
         to run short. After that, and from the beginning where there is more to do than will last, a visit is made
@@ -135,7 +135,7 @@ class BudgetGuard:
         return joined("; ", (reason, said)) if reason and said else reason
 
     def _may(self, state: MissionState, way: RouteCost, chances: Floats, safe: Floats, home_now: RouteCost) -> bool:
-        """Whether a way is safe enough, or else no riskier than home; where even home is too far, no detour."""
+        """Return True if a route is safe enough or no riskier than going home now."""
         budget, resources = self._budget, self._budget.resources(state)
         left = np.array([r.metres_left(state.spent) for r in resources])
         enough = np.maximum(left, mean_metres(home_now, resources, budget.robot))
@@ -148,7 +148,7 @@ class BudgetGuard:
         return Verdict(go=True, chance_short=float(chances.max()))
 
     def _safe(self, state: MissionState, ahead: WorkAhead) -> Floats:
-        """For each limit the chance that a visit with the way home may have, where not everything will last."""
+        """Return for each limit the overrun probability accepted for one visit, where not everything fits."""
         if self._threshold is None:
             budget, resources = self._budget, self._budget.resources(state)
             threshold = VisitRisk(
@@ -172,7 +172,7 @@ class BudgetGuard:
             self._granted = (*around, _Grant(node=node.id, xy=None if inside else visit.place.xy))
 
     def _is_granted(self, state: MissionState, place: Place) -> bool:
-        """Whether work was allowed with the visit it is part of. Work elsewhere or after it ends that."""
+        """Return True if a place is part of a visit already granted. Work elsewhere ends the grant."""
         here = state.context.here.xy
         outer = _outer(state)
         self._granted = tuple(
@@ -182,5 +182,5 @@ class BudgetGuard:
 
 
 def _outer(state: MissionState) -> frozenset[str]:
-    """The ids of the nodes around the one in hand."""
+    """Return the ids of the nodes around the current one."""
     return frozenset(frame.node.id for frame in state.frames[:-1])

@@ -1,4 +1,4 @@
-"""Tallies of the actions of a plan in an event log."""
+"""Counts of captures per action of a plan, from an event log."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from fieldhand.task.results import Acted, Event, InDoubt, Shed
 
 @dataclass(kw_only=True)
 class CaptureCount:
-    """A count of one action of the plan in an event log.
+    """Counts of one action of the plan in an event log.
 
     Attributes:
         wanted: Captures to be made on the branch that was taken, as far as that is known.
@@ -46,7 +46,7 @@ class CaptureCount:
 
 
 class CaptureCounts:
-    """The tallies of a plan.
+    """The counts of all actions of a plan.
 
     Attributes:
         of: The count of each action, by the id of its node.
@@ -67,15 +67,15 @@ class CaptureCounts:
                 count.in_doubt += isinstance(event, InDoubt) and event.then == "skip"
 
     def under(self, *nodes: p.Node) -> list[CaptureCount]:
-        """The tallies of the actions in some nodes, in the order in which they stand."""
+        """Return the counts of the actions in some nodes, in plan order."""
         return [self.of[act.id] for node in nodes for act in p.acts(node)]
 
     def copies(self, node: p.Node) -> Mapping[str, CaptureCount]:
-        """The tallies of a node's actions as they are now, for :meth:`forgive`."""
+        """Return copies of the counts of a node's actions, for :meth:`forgive`."""
         return {name: replace(self.of[name]) for name in self.inside[node.id] & self.of.keys()}
 
     def miss(self, node: p.Node, times: int) -> None:
-        """Add what a node wants as far as the plan alone says it; the rest is open."""
+        """Add what a node wants as far as the plan fixes it; the rest is open."""
         if node.act is not None:
             self.of[node.id].wanted += node.act.count * times
         for part in node.parts:
@@ -101,13 +101,13 @@ class CaptureCounts:
             count.open, count.undecided = old.open, old.undecided
 
     def spare(self, node: p.Node, event: Shed) -> None:
-        """An optional step was given up."""
+        """Record that an optional step was given up."""
         for count in self.under(node):
             count.spared += 1
             count.reasons.append(event.reason)
 
     def shed(self, node: p.Node, event: Shed) -> None:
-        """Places of a node were given up."""
+        """Record that places of a node were given up."""
         unsure = (part.node for inner in p.walk(node) for part in inner.parts if not part.certain)
         perhaps = frozenset[str]().union(*(self.inside[inner.id] for inner in unsure))
         for step in p.walk(node):

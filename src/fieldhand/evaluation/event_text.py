@@ -1,4 +1,4 @@
-"""Events in words, one line each, as they happen: what a terminal and a web page show of a mission under way."""
+"""Events as sentences: one line each for a terminal and a web page."""
 
 from __future__ import annotations
 
@@ -39,13 +39,13 @@ NAMED = 8
 
 
 class EventText:
-    """Says events in words; remembers nothing but the robot."""
+    """Describes events in words."""
 
     def __init__(self, robot: RobotProfile) -> None:
         self._robot = robot
 
     def line(self, event: Event) -> str | None:
-        """The event as a line, or None where it is not worth one."""
+        """Return the event as a line with its time, or None if it is not worth one."""
         words = self.sentence(event)
         if words is None:
             return None
@@ -194,7 +194,7 @@ def _exited(event: Exited) -> str:
 
 
 def goal_names(task: Task, robot: RobotProfile) -> Callable[[str], str]:
-    """A function that says the goal of an id in words."""
+    """Return a function that names the goal of an id in words."""
     goals = {goal.id: goal for goal in task.command.goals}
 
     def name(goal: str) -> str:
@@ -204,7 +204,7 @@ def goal_names(task: Task, robot: RobotProfile) -> Callable[[str], str]:
 
 
 def noun(robot: RobotProfile, action: str) -> str:
-    """What an action yields, as people say it."""
+    """Return the noun for what an action yields."""
     known = robot.action.get(action)
     return named(known.words[0], "capture") if known and known.words else say_name(action)
 

@@ -79,7 +79,7 @@ class BudgetFailsafe:
         )
 
     def _homeward(self, now: FailsafeState, metres: float) -> FailsafeForecast:
-        """Hold the way home against the charge above the stop level."""
+        """Compare the energy for the way home with the charge above the stop level."""
         robot = self._drain.robot
         per_metre = resource_limits(self._task.constraints, robot)[-1].per_metre
         left = now.charge_percent - self._stop_percent

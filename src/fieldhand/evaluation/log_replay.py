@@ -41,7 +41,7 @@ from fieldhand.task.run import Outcome, Run, StackFrame, carry_out
 
 
 def replay_log(plan: Node, events: Sequence[Event]) -> dict[str, CaptureCount]:
-    """The tally of every action of a plan, by the id of its node."""
+    """Return the capture count of every action of a plan, by the id of its node."""
     return _Replay(plan, events).run()
 
 
@@ -65,12 +65,12 @@ class _ReplayedVisits:
 
     @property
     def unmade(self) -> int:
-        """The number of visits that were not begun."""
+        """Return the number of visits not begun."""
         return max(0, self.most - self.begun)
 
     @property
     def to_come(self) -> int:
-        """The number of visits that the log can still have."""
+        """Return the number of visits that may still follow in the log."""
         return min(self.most, len(self.listed) - self.shed) - self.begun
 
 
@@ -105,7 +105,7 @@ class _Replay:
         return self._events[self._next] if self._next < len(self._events) else None
 
     def _peek_own(self, node: Node) -> Event | None:
-        """The next event if it belongs to the node itself."""
+        """Return the next event if it belongs to the node itself."""
         event = self._peek()
         return event if event is not None and event.node == node.id else None
 
@@ -128,7 +128,7 @@ class _Replay:
         return event is not None and any(event.node in self._inside[node.id] for node in nodes)
 
     def _skim(self, node: Node) -> Event | None:
-        """The next event if it belongs to the node itself, its drives and faults passed over."""
+        """Return the next event if it belongs to the node itself, after skipping its drives and faults."""
         while isinstance(event := self._peek_own(node), Driving | Arrived | Faulted):
             self._next += 1
         return event
@@ -142,7 +142,7 @@ class _Replay:
         return _is_silent(node) and (self._is_whole() or not any(acts(node)))
 
     def _when(self, node: Node) -> int:
-        """The position of the next event of a node or of one inside."""
+        """Return the position of the next event of a node or of one inside."""
         some = [self._of[name] for name in self._inside[node.id] if name in self._of]
         later = (positions[k] for positions in some if (k := bisect_left(positions, self._next)) < len(positions))
         return min(later, default=len(self._events))
@@ -174,7 +174,7 @@ class _Replay:
         return None
 
     def _arrange(self, node: Node) -> tuple[int, ...]:
-        """The order of the log; steps without events come last, and of those such that need have none (a stop)."""
+        """Return the order of the log; steps without events come last, those that need none (a stop) at the end."""
         if not self._comes([node]) and not self._is_unseen(node):
             raise self._absent(node)
         keys = [(self._when(step), _is_silent(step)) for step in node.children]
@@ -240,7 +240,7 @@ class _Replay:
         return _ReplayedVisits(listed=frozenset(event.places), most=most)
 
     def _visit(self, node: Node, visits: _ReplayedVisits) -> bool | None:
-        """Begin the next visit, if the log has one."""
+        """Begin the next visit if the log has one."""
         while self._shed(node):
             pass
         if visits.to_come <= 0:

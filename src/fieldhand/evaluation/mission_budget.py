@@ -1,4 +1,4 @@
-"""What a mission has, what ways take of it, and how much chance of running short is still to be given away."""
+"""The budget of a mission: resources, what routes take of them, and the failure probability left to spend."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Floats = NDArray[np.float64]
 
 
 class MissionBudget:
-    """The means of one mission.
+    """The budget of one mission.
 
     Args:
         task, site, robot: The mission.
@@ -54,15 +54,15 @@ class MissionBudget:
 
     @property
     def robot(self) -> RobotProfile:
-        """The robot, with a battery that empties as fast as it has been seen to."""
+        """Return the robot with a battery model as fast as observed."""
         return self.drain.robot
 
     def set_drives(self, drives: Drives) -> None:
-        """Let these be the ways from now on."""
+        """Use these drives from now on."""
         self.drives, self.distances, self._blocked = drives, Distances(drives), True
 
     def allowance(self, mandatory: Floats) -> RiskAllowance:
-        """What may still be added to the chance of running short.
+        """Return what may still be added to the overrun probability.
 
         Args:
             mandatory: For each limit the chance that what must be done runs short; only the first answer counts.
@@ -77,16 +77,16 @@ class MissionBudget:
             self._allowance = self._allowance.reduced_by(chance)
 
     def resources(self, state: MissionState) -> tuple[ResourceLimit, ...]:
-        """The limits as they are now: the battery is asked what is left in it, not what should be."""
+        """Return the current resource limits; the battery's is based on its measured charge."""
         charge = state.charge_percent + state.spent.percent
         return resource_limits(self.task.constraints, self.robot, charge)
 
     def chances(self, way: RouteCost, state: MissionState) -> Floats:
-        """For each limit the chance that a way takes more than is left."""
+        """Return for each limit the probability that a route takes more than is left."""
         return overrun_chances(way, self.resources(state), self.robot, state.spent)
 
     def length(self, a: Place, b: Place) -> float:
-        """Metres of the drive between two places.
+        """Return the length of the drive between two places in metres.
 
         Raises:
             DriveFault: There is no way.
@@ -94,7 +94,7 @@ class MissionBudget:
         return 0.0 if a.xy == b.xy else self.drives.between(a, b).length_m
 
     def home(self, at: Place) -> Place:
-        """Where the robot goes when little is left; it stays where there is no way to that (approval warned of it)."""
+        """Return where the robot goes when little is left; its own place if no way leads there."""
         home = self.site.home(exit_of(self.task, "low_budget"), at)
         return home if self.distances.connected(at, home) else at
 

@@ -1,4 +1,4 @@
-"""What came of each goal, from the event log alone: success, failure, or indeterminate (IEEE 1872.1, results frame).
+"""The outcome of each goal, from the event log alone (IEEE 1872.1, results frame).
 
 * Every goal counts captures: those that succeeded against those wanted on the branch that was taken.
 * What had to be done and was not is a failure, whatever the reason; a goal whose branch was not taken, or whose step is
@@ -27,7 +27,7 @@ Verdict = Literal["success", "failure", "indeterminate"]
 
 
 def judge(task: Task, events: Sequence[Event], *, under_way: bool = False) -> tuple[GoalOutcome, ...]:
-    """The outcome of each goal of a Task, in the order of its goals.
+    """Return the outcome of each goal of a Task, in the order of its goals.
 
     Args:
         task: What was carried out.
@@ -96,7 +96,7 @@ def _optional(goal: Goal, tally: CaptureCount, ended: Ended | None) -> Verdict:
 
 
 def _why(goal: Goal, tally: CaptureCount, verdict: Verdict, ended: Ended | None, *, under_way: bool) -> str:
-    """The outcome in words: what there is, then what kept it from being more."""
+    """Return the outcome in words: the captures, then what prevented more."""
     parts = [_counted(goal, tally)]
     if tally.done == 0 and tally.wanted == 0 and verdict == "success":
         return _not_called_for(tally)
@@ -159,13 +159,13 @@ def _not_called_for(tally: CaptureCount) -> str:
 
 
 def _because(tally: CaptureCount) -> str:
-    """The last reason: what was left out earlier was out of reach for the like of it."""
+    """Return the last recorded reason in brackets."""
     reasons = [reason for reason in tally.reasons if reason]
     return because(reasons[-1]) if reasons else ""
 
 
 def because(reason: str) -> str:
-    """A reason as it stands in brackets behind what was left out: whoever says it elsewhere finds it by this."""
+    """Return a reason in brackets as it follows what was left out; reports find it by this form."""
     return joined("", (" (", shaped(kept_in_log(" ".join(reason.split())), _shortened), ")"))
 
 

@@ -1,4 +1,4 @@
-"""How a mission stands, from the events that are safe so far: where it is, what is done, what is left."""
+"""The progress of a mission: where it is, what is done, what is left."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ State = Literal["running", "paused", "interrupted", "ended"]
 
 @dataclass(frozen=True, kw_only=True)
 class MissionProgress:
-    """How a mission stands.
+    """The progress of a mission.
 
     Attributes:
         doing: What it does, or did last, in words.
@@ -72,7 +72,7 @@ class MissionProgress:
 
 
 def mission_progress(task: Task, robot: RobotProfile, events: Sequence[Event], *, running: bool) -> MissionProgress:
-    """How a mission stands.
+    """Return the progress of a mission.
 
     Args:
         task, robot: Of the mission.
@@ -109,7 +109,7 @@ def mission_progress(task: Task, robot: RobotProfile, events: Sequence[Event], *
 
 
 def state_of(events: Sequence[Event], *, running: bool) -> tuple[State, Ended | None]:
-    """Whether a mission has ended, and else whether it goes on; and its end.
+    """Return the state of a mission, and its end if it has ended.
 
     Args:
         events: Those that are safe; of them are needed ends, exits, and the beginnings and ends of pauses.

@@ -1,4 +1,4 @@
-"""Why the guard says no, in words that a grower reads."""
+"""Reasons for the guard's decisions, in words."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ SKIPPED, _NO_WAY = "skipped", "there is no way to"
 
 @dataclass(frozen=True, kw_only=True)
 class RoundTrip:
-    """A way that leads somewhere and home.
+    """A route to a place and home.
 
     Attributes:
         way: With its work.
@@ -40,7 +40,7 @@ class RoundTrip:
 
 
 def running_short(budget: MissionBudget, state: MissionState, trip: RoundTrip, chances: Floats) -> str:
-    """ "12 m left; going to tree 14 and home takes 14 m on average, 31 % chance of running short"."""
+    """Return "12 m left; going to tree 14 and home takes 14 m on average, 31 % chance of running short"."""
     binding = _binding(budget, chances)
     return message(
         "{known}, {chance} % chance of running short",
@@ -58,7 +58,7 @@ def left_out(
     trip: RoundTrip,
     chances: Floats,
 ) -> str:
-    """Optional visits that are given up, and why, told of the one that is least likely to run short.
+    """Return which optional visits are given up and why, for the one least likely to run short.
 
     "skipped trees 14, 15 and 22: 31 % chance of running short (12 m left; going to tree 14 and home takes 14 m on
     average)".
@@ -79,7 +79,7 @@ def _binding(budget: MissionBudget, chances: Floats) -> int:
 
 
 def _amounts(budget: MissionBudget, state: MissionState, trip: RoundTrip, binding: int) -> str:
-    """What is left of a limit, and what a way takes of it on average."""
+    """Return what is left of a limit, and what a round trip takes of it on average."""
     resource = budget.resources(state)[binding]
     takes = trip.way.sums[0] * resource.per_metre + resource.of_work(budget.robot, trip.way.work)
     left = _amount(resource, resource.limit - resource.used(state.spent))
@@ -98,7 +98,7 @@ def _amounts(budget: MissionBudget, state: MissionState, trip: RoundTrip, bindin
 
 
 def no_way(visits: Sequence[Visit], indices: Sequence[int]) -> str:
-    """ "there is no way to trees 3 and 4"."""
+    """Return "there is no way to trees 3 and 4"."""
     return message("there is no way to {places}", context="log", places=named(visits, indices))
 
 
@@ -114,12 +114,12 @@ def too_many(visits: Sequence[Visit], indices: Sequence[int], chosen_from: int) 
 
 
 def names_places(reason: str) -> bool:
-    """Whether a reason says itself what was left out, so that who tells it need not name that again."""
+    """Return True if a reason names what was left out."""
     return reason.startswith((f"{SKIPPED} ", f"{_NO_WAY} "))
 
 
 def named(visits: Sequence[Visit], indices: Sequence[int]) -> str:
-    """Some places in words: "tree 14", "trees 14, 15 and 22", "trees 14, 15, 16, 17, 18, 19 and 6 more"."""
+    """Return places in words: "tree 14", "trees 14, 15 and 22", "trees 14, 15, 16, 17, 18, 19 and 6 more"."""
     names = [visits[i].place.id for i in indices]
     if len(names) == 1:
         return _name(visits[indices[0]].place)

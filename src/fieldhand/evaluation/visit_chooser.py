@@ -1,4 +1,4 @@
-"""Optional visits on board: which comes next, which are given up, and why."""
+"""Optional visits during a mission: which comes next, which are given up, and why."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ class _Run:
         return bool(numbers) and None not in numbers and self.done.isdisjoint(numbers)
 
     def here(self, place: Place) -> int | None:
-        """The vertex at which the robot stands; None for a place that the run does not know."""
+        """Return the vertex of the robot's place; None for a place unknown to the run."""
         vertex = self.vertex.get(_key(place))
         if vertex in self.done:
             return vertex
@@ -98,14 +98,14 @@ class VisitChooser:
         self._begun: dict[str, float] = {}
 
     def forget(self) -> None:
-        """Runs under way are planned anew, with the chance of running short that they were begun with."""
+        """Plan current runs again, with the overrun probability that they began with."""
         self._begun = {**self._begun, **{node: run.accepted for node, run in self._runs.items()}}
         self._runs.clear()
 
     def next(
         self, state: MissionState, candidates: Sequence[Visit], at_most: int | None, to_come: Sequence[Visit]
     ) -> VisitChoice:
-        """The visit that comes next, as the guard's ``choose`` says."""
+        """Return the next visit, as :meth:`BudgetGuard.choose` describes."""
         if not candidates:
             return VisitChoice(index=None)
         run = self._runs.get(state.node)
@@ -165,7 +165,7 @@ class VisitChooser:
         at_most: int | None,
         beyond: frozenset[Key],
     ) -> _Run:
-        """The run that goes on; made anew where it does not know a place, or what follows has changed."""
+        """Return the current run, or a new one if a place is unknown or the following work has changed."""
         here = state.context.here
         if run is not None and run.rest is rest and run.here(here) is not None and not _fewer(run, visits, at_most):
             return run
@@ -203,12 +203,12 @@ class VisitChooser:
         return made
 
     def _accepted(self, state: MissionState, rest: RemainingWork) -> float:
-        """The chance of running short with which a run is planned: that without it, and its share on top."""
+        """Return the overrun probability that a run is planned with: that without it plus its share."""
         without = self._without(state, rest)
         return float(without.max()) + self._budget.allowance(without).share(optional_runs(state.frames))
 
     def _without(self, state: MissionState, rest: RemainingWork) -> Floats:
-        """For each limit the chance that what must follow runs short."""
+        """Return for each limit the probability that the following work alone runs short."""
         here = state.context.here
         there = 0.0 if rest.first is None else self._budget.length(here, rest.first)
         return self._budget.chances(route_cost([there]) + rest.way, state)
@@ -228,7 +228,7 @@ class VisitChooser:
         return chosen
 
     def _fits(self, state: MissionState, visit: Visit, rest: RemainingWork, run: _Run) -> bool:
-        """Whether the only visit that there is adds no more than its share: that needs no search."""
+        """Return True if the only visit adds no more than its share; that needs no search."""
         without = self._without(state, rest)
         added = self._budget.chances(self._trip(state, visit, rest).way, state) - without
         share = run.accepted - float(without.max())
@@ -243,7 +243,7 @@ class VisitChooser:
     def _rest(
         self, state: MissionState, run: _Run | None, candidates: Sequence[Visit], to_come: Sequence[Visit]
     ) -> RemainingWork:
-        """What must follow; computed anew in a run only where it hangs on where the robot has been."""
+        """Return the following work; within a run it is computed again only if it depends on the position."""
         if run is not None and run.rest.fixed:
             return run.rest
         context = state.context
@@ -253,7 +253,7 @@ class VisitChooser:
         return run.rest if run is not None and run.rest == rest else rest
 
     def _reachable(self, here: Place, candidates: Sequence[Visit], first: Place | None) -> tuple[list[int], list[int]]:
-        """Positions of the candidates that can be reached and left again, and of the others."""
+        """Return the positions of the candidates that can be reached and left, and of the others."""
         if len(candidates) > MAX_DOUBLE:
             # They were looked at together when the visits were listed.
             return list(range(len(candidates))), []
@@ -272,7 +272,7 @@ class VisitChooser:
     def _chances(
         self, run: _Run, here: int, visits: Sequence[Visit], known: Sequence[int], left: tuple[float, ...]
     ) -> Floats:
-        """For each candidate the chance that going straight there, and then on, runs short of some limit."""
+        """Return for each candidate the probability that going straight there and on exceeds a limit."""
         problem, vertices = run.problem, np.array(known)
         there, back = run.policy.lengths(here)[vertices], run.policy.lengths(problem.end)[vertices]
         for k, visit in enumerate(visits):
@@ -290,12 +290,12 @@ class VisitChooser:
     def _skipped(
         self, state: MissionState, candidates: Sequence[Visit], gone: Sequence[int], rest: RemainingWork, safest: Visit
     ) -> str:
-        """What is given up and why, told of the one that is least likely to run short."""
+        """Return what is given up and why, for the candidate least likely to run short."""
         trip = self._trip(state, safest, rest)
         return left_out(candidates, gone, self._budget, state, trip, self._budget.chances(trip.way, state))
 
     def _trip(self, state: MissionState, visit: Visit, rest: RemainingWork) -> RoundTrip:
-        """Straight to a visit, and then on."""
+        """Return the route straight to a visit and on."""
         there = self._budget.length(state.context.here, visit.place)
         back = 0.0 if rest.first is None else self._budget.length(visit.end, rest.first)
         way = route_cost([there, back], visit.work) + rest.way
@@ -303,7 +303,7 @@ class VisitChooser:
 
 
 def _fewer(run: _Run, visits: Sequence[Visit], at_most: int | None) -> bool:
-    """Whether candidates were given up that a run with so many visits would count as made."""
+    """Return True if candidates were given up that ``at_most`` of the run would count as visited."""
     return at_most is not None and len(visits) + len(run.done) < run.problem.end - 1
 
 

@@ -1,4 +1,4 @@
-"""Up to which chance a visit is safe enough, where more must be done than will last.
+"""The overrun probability accepted for one visit where the mandatory work exceeds the budget.
 
 The robot makes one visit after another as long as going to the next and straight home from there runs short with no
 more than a certain chance. Each visit takes such a chance anew; so that the whole mission keeps to what is accepted, it
@@ -32,7 +32,7 @@ _FARTHEST = 2.0
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class VisitRisk:
-    """What is known when the question comes up.
+    """The situation in which the accepted probability of a visit is computed.
 
     Attributes:
         here: Where the robot is.
@@ -53,7 +53,7 @@ class VisitRisk:
     costs: CostModel
 
     def accepted_chance(self, accepted: Floats, rng: np.random.Generator) -> Floats:
-        """For each limit the chance that one visit with the way home may have.
+        """Return for each limit the overrun probability that one visit with the way home may have.
 
         Args:
             accepted: For each limit the chance that the whole mission may have.
@@ -68,7 +68,7 @@ class VisitRisk:
         return np.asarray(_PARTS[-1] * accepted)
 
     def _lengths(self) -> tuple[Floats, Floats]:
-        """Metres to each stop that can be reached at all, and home from it; inf for those that surely can be left."""
+        """Return metres to each stop within reach, and home from it; 0 where the way home is not needed."""
         legs: list[float] = []
         driven, at = 0.0, self.here
         for stop, work in zip(self.stops, self.service, strict=True):
@@ -83,7 +83,7 @@ class VisitRisk:
         return np.array(legs), homes
 
     def _failed(self, chances: Floats, legs: Floats, homes: Floats, factors: Floats) -> Floats:
-        """For each limit how often missions run short that hold each visit to these chances."""
+        """Return for each limit the share of missions that run short if each visit keeps to these probabilities."""
         left = np.repeat(self.left[None, :], _DRAWS, axis=0)
         under_way = np.ones(_DRAWS, dtype=bool)
         failed = np.zeros((_DRAWS, len(self.left)), dtype=bool)

@@ -1,4 +1,4 @@
-"""What must follow a mandatory visit: the visits of the loops around it, the rest of the plan, the way home."""
+"""The work that follows a mandatory visit: visits of the loops around it, the rest of the plan, the way home."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class _Loop:
     ways: tuple[RouteCost, ...]
 
     def position(self, node: str, visit: Visit, later: Sequence[Visit]) -> int | None:
-        """Which of the stops a visit is, where all that are to come after it are those that stand here."""
+        """Return the index of a visit among the stops, or None if the visits after it differ."""
         k = len(self.stops) - 1 - len(later)
         if node != self.node or k < 0 or self.stops[k] is not visit:
             return None
@@ -44,7 +44,7 @@ class _Loop:
 
 
 class WorkAheadFinder:
-    """Looks ahead; what it finds for a loop is kept for the loop's later visits.
+    """Computes the work ahead; caches that of a loop for its later visits.
 
     Args:
         budget: Of the mission.
@@ -55,11 +55,11 @@ class WorkAheadFinder:
         self._loop: _Loop | None = None
 
     def forget(self) -> None:
-        """What was found is found anew."""
+        """Discard the cached work."""
         self._loop = None
 
     def of(self, state: MissionState, visit: Visit, later: Sequence[Visit]) -> WorkAhead | None:
-        """What follows, on the branch that takes most; None where there is no way.
+        """Return the work that follows on the most demanding branch; None if no way leads there.
 
         Args:
             state: Of the mission.
@@ -92,5 +92,5 @@ class WorkAheadFinder:
 
 
 def _visits(rest: RemainingWork) -> tuple[Visit, ...]:
-    """The stops of the rest but its last, which is home."""
+    """Return the stops of the remaining work except the last, which is home."""
     return tuple(Visit(place=place) for place in rest.stops[:-1])

@@ -1,4 +1,4 @@
-"""Numbers of a request: what each counts or measures, as far as the words right around it say so."""
+"""Numbers in a request, each with the quantity that the words around it name."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class StatedAmount:
 
 @dataclass(frozen=True, kw_only=True)
 class Noun:
-    """What a robot's words at a token may mean: a phrase of so many tokens, and the actions that it may stand for."""
+    """A noun of the robot's vocabulary at a token: its length in tokens and the actions that it may mean."""
 
     length: int
     actions: frozenset[str]
@@ -67,7 +67,7 @@ class _Number:
 
 
 def amounts(said: Sequence[Token], nouns: dict[int, Noun], units: frozenset[str]) -> tuple[StatedAmount, ...]:
-    """Every number of a request.
+    """Return every number of a request.
 
     Args:
         said: The request.
@@ -87,13 +87,13 @@ def amounts(said: Sequence[Token], nouns: dict[int, Noun], units: frozenset[str]
 
 
 def numbers_of(amount: StatedAmount) -> set[int]:
-    """The whole numbers that an amount stands for, all of a range."""
+    """Return the whole numbers of an amount, including all of a range."""
     found = {int(v) for v in amount.values if float(v).is_integer()}
     return found | set(range(int(amount.values[0]), min(amount.through, int(amount.values[0]) + 10_000) + 1))
 
 
 def _numbers(said: Sequence[Token]) -> Iterator[_Number]:
-    """Numbers in digits and in words; "one" alone is a pronoun as often as a number and says nothing."""
+    """Yield numbers in digits and words; "one" alone is skipped, since it is mostly a pronoun."""
     k = 0
     while k < len(said):
         text = said[k].text
@@ -113,7 +113,7 @@ def _numbers(said: Sequence[Token]) -> Iterator[_Number]:
 
 
 def _spelt(said: Sequence[Token], start: int) -> tuple[float, int]:
-    """A number in words and where it ends: "twenty five", "two hundred and fifty"."""
+    """Parse a number in words and return it with its end: "twenty five", "two hundred and fifty"."""
     total, k = 0.0, start
     while k < len(said):
         text = said[k].text
@@ -128,14 +128,14 @@ def _spelt(said: Sequence[Token], start: int) -> tuple[float, int]:
 
 
 def _room(before: str) -> float:
-    """How large a number word may be behind another one and belong to it."""
+    """Return the bound below which a number word continues the one before it."""
     if before in ("hundred", "thousand", "and"):
         return 100.0
     return 10.0 if before == "-" or w.NUMBERS.get(before, 0.0) >= 20.0 else 0.0
 
 
 def _open(said: Sequence[Token], k: int) -> bool:
-    """Whether a number goes on behind a joining word: "hundred and fifty", "twenty-five", but not "two and three"."""
+    """Return True if a number continues after a joining word: "hundred and fifty", but not "two and three"."""
     before = said[k - 1].text
     if said[k].text == "-":
         return w.NUMBERS.get(before, 0.0) >= 20.0 and w.NUMBERS[said[k + 1].text] < 10.0
@@ -188,7 +188,7 @@ def _pace(said: Sequence[Token], k: int) -> float:
 
 
 def _name(before: Sequence[Token]) -> AmountKind | None:
-    """What a number is the name of, by the words right before it: "tree 7", "row #3"."""
+    """Return the kind of name that a number is, from the words before it: "tree 7", "row #3"."""
     texts = [token.text for token in before]
     numbered = bool(texts) and texts[-1] in _NUMBERED
     head = "" if not texts else texts[0] if numbered and len(texts) > 1 else texts[-1]
@@ -202,20 +202,20 @@ def _name(before: Sequence[Token]) -> AmountKind | None:
 
 
 def _degrees(said: Sequence[Token], k: int) -> bool:
-    """Whether a degree sign or letter is a temperature: "90 F", "33c", but not "3 c ..." of anything else."""
+    """Return True if a degree sign or letter is a temperature: "90 F", "33c"."""
     text = said[k].text
     return text not in ("c", "f") or k + 1 >= len(said) or not said[k + 1].joined or not said[k + 1].text.isalpha()
 
 
 def _celsius(value: float, said: Sequence[Token], k: int) -> tuple[float, ...]:
-    """A temperature in degC; both readings of it where the scale is not said."""
+    """Return a temperature in degC; both readings if the scale is not given."""
     scale = next((t.text[0] for t in said[k : k + 4] if t.text in w.DEGREES and t.text[0] in "cf"), "")
     fahrenheit = (value - 32.0) / 1.8
     return (value,) if scale == "c" else (fahrenheit,) if scale == "f" else (value, fahrenheit)
 
 
 def _counted(said: Sequence[Token], k: int, nouns: dict[int, Noun]) -> tuple[AmountKind, frozenset[str]] | None:
-    """What a number counts: the noun at the end of the phrase that it begins."""
+    """Return what a number counts: the noun at the end of its phrase."""
     for at in range(k, min(k + 6, len(said))):
         text = said[at].text
         if at in nouns and nouns[at].actions:
@@ -232,7 +232,7 @@ def _counted(said: Sequence[Token], k: int, nouns: dict[int, Noun]) -> tuple[Amo
 
 
 def _compared(said: Sequence[Token], index: int) -> str:
-    """The comparison that a number is the threshold of."""
+    """Return the comparison of which a number is the threshold."""
     for k in range(index - 1, max(-1, index - 1 - _COMPARED), -1):
         text = said[k].text
         number = k + 2 < len(said) and (w.is_number(said[k + 1].text) or said[k + 1].text in w.NUMBERS)
@@ -248,7 +248,7 @@ def _compared(said: Sequence[Token], index: int) -> str:
 
 
 def _listed(said: Sequence[Token], before: StatedAmount, number: _Number) -> bool:
-    """Whether a bare number goes on with a list of names: "trees 4, 9 and 12"."""
+    """Return True if a bare number continues a list of names: "trees 4, 9 and 12"."""
     if before.kind not in ("id", "row", "name") or number.ordinal:
         return False
     between = [t.text for t in said[before.index + 1 : number.start]]
@@ -256,7 +256,7 @@ def _listed(said: Sequence[Token], before: StatedAmount, number: _Number) -> boo
 
 
 def _shared_units(found: Sequence[StatedAmount], said: Sequence[Token]) -> Iterator[StatedAmount]:
-    """ "Between 380 and 420 ppm": the first number has the unit of the second."""
+    """Yield amounts with a unit taken from the second number of a range: "between 380 and 420 ppm"."""
     for amount, following in zip_longest(found, found[1:]):
         joined = following is not None and [t.text for t in said[amount.index + 1 : following.index]] in (
             ["and"], ["to"], ["-"], ["or"]

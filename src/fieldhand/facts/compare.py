@@ -1,4 +1,4 @@
-"""Where a plan and its request contradict each other for certain.
+"""Comparison of a plan with its request: certain contradictions only.
 
 Each function takes what was stated and what is planned and yields contradictions of one kind. Two questions are asked
 of each fact: is what the request states in the plan, and does what the plan holds come from the request?
@@ -32,7 +32,7 @@ _PLACES = _NAMES | {"trees", "corners", "rows", "ordinal"}
 
 
 def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[PlanMismatch, ...]:
-    """Every certain contradiction between a plan and the request that it was made from, each once.
+    """Return every certain contradiction between a plan and its request, each once.
 
     A request that states no such fact has none, and a plan without any may still be wrong.
     """
@@ -51,7 +51,7 @@ def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[PlanMismatc
 
 
 def _sensors(said: RequestFacts, plan: PlanFacts, robot: RobotProfile) -> Iterator[PlanMismatch]:
-    """Every action that is said is done, and nothing that nobody spoke of."""
+    """Yield requested actions that the plan lacks, and planned actions that the request does not mention."""
     spoken: set[str] = set()
     told: set[frozenset[str]] = set()
     for k, noun in said.nouns.items():
@@ -77,7 +77,7 @@ def _sensors(said: RequestFacts, plan: PlanFacts, robot: RobotProfile) -> Iterat
 
 
 def _counts(said: RequestFacts, plan: PlanFacts, sizes: SelectorSizes) -> Iterator[PlanMismatch]:
-    """A stated number of captures, trees or corners is somewhere in the plan, and no other number is."""
+    """Yield stated numbers of captures, trees or corners that the plan lacks, and numbers only in the plan."""
     for amount in said.amounts:
         n = int(amount.values[0]) if float(amount.values[0]).is_integer() else 0
         if amount.kind not in ("captures", "trees", "corners") or n < 2 or said.negated(amount.index):
@@ -104,7 +104,7 @@ def _comes_to_what_is_said(said: RequestFacts, plan: PlanFacts, node: str, sizes
 
 
 def _phrase(said: RequestFacts, amount: StatedAmount) -> str:
-    """The number with the words behind it, up to what it counts."""
+    """Return a number with the words after it, up to what it counts."""
     end = amount.index + 1
     for k in range(amount.index + 1, min(amount.index + 6, len(said.said))):
         text = said.said[k].text
@@ -117,7 +117,7 @@ def _phrase(said: RequestFacts, amount: StatedAmount) -> str:
 
 
 def _explained(plan: PlanFacts, amount: StatedAmount) -> set[int]:
-    """Every number of things that the plan can be said to take or to visit."""
+    """Return every number of things that the plan may be said to take or visit."""
     acts = [one for one in plan.captures if not amount.actions or one.action in amount.actions]
     found = {n for one in acts for n in (one.each, *one.around)}
     for one in acts:
@@ -133,7 +133,7 @@ def _explained(plan: PlanFacts, amount: StatedAmount) -> set[int]:
 
 
 def _sums(acts: list[PlannedCaptures]) -> set[int]:
-    """What acts that follow each other take together."""
+    """Return the totals of consecutive acts."""
     found: set[int] = {len(acts)}
     for start in range(len(acts)):
         highs = [one.total.high for one in acts[start:]]
@@ -152,7 +152,7 @@ def _visited(plan: PlanFacts, sizes: SelectorSizes) -> set[int]:
 
 
 def _allowed(said: RequestFacts, number: PlannedNumber) -> set[int]:
-    """Whole numbers that may stand where a number of the plan stands, by what the request says.
+    """Return the whole numbers that the request permits in place of a number of the plan.
 
     What only names a tree or a row, or has a unit, is no number of captures.
     """
@@ -175,5 +175,5 @@ def _allowed(said: RequestFacts, number: PlannedNumber) -> set[int]:
 
 
 def _by_itself(said: RequestFacts, what: str) -> bool:
-    """Whether a number needs no words: one of several that were left open, or a row that is one of all."""
+    """Return True if a number needs no words, such as one row of "each row"."""
     return said.vague or (what.startswith(("rows ", "inrow ")) and bool(said.words & {"each", "every", "all", "per"}))

@@ -1,4 +1,4 @@
-"""Limits and distances: each budget, reserve and distance that the request states is in the plan, and no other."""
+"""Check budgets, reserve, speed and distances of a plan against the request."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _PARTS = {"half": 0.5, "quarter": 0.25, "third": 1 / 3}
 
 
 def limit_mismatches(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
-    """Contradictions in budgets, reserve and distances."""
+    """Yield contradictions in budgets, reserve, speed and distances."""
     for amount in said.amounts:
         if amount.kind == "percent":
             yield from _battery(said, plan, amount)
@@ -48,7 +48,7 @@ def limit_mismatches(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismat
 
 
 def _battery(said: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iterator[PlanMismatch]:
-    """A part of the battery that may be used is a budget, one that must be left is a reserve."""
+    """Yield a battery share of the request that is neither a budget nor a reserve of the plan."""
     sentence = {t.text for t in said.said if t.sentence == amount.sentence}
     if not sentence & BATTERY or said.conditional(amount.sentence):
         return
@@ -66,7 +66,7 @@ def _battery(said: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Itera
 
 
 def _dropped(said: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iterator[PlanMismatch]:
-    """A distance or a time that is stated stands somewhere in the plan."""
+    """Yield a stated distance or time that the plan lacks."""
     value = amount.values[0]
     limit: BudgetKind = "distance_m" if amount.kind == "length" else "duration_s"
     have = [b.limit for b in plan.task.constraints.budgets if b.kind == limit]
@@ -93,7 +93,7 @@ def _drives(plan: PlanFacts, metres_per_second: float) -> bool:
 
 
 def _parameters(plan: PlanFacts) -> list[float]:
-    """Numbers that actions are told, as metres where they are centimetres."""
+    """Return numeric parameters of actions, also converted from centimetres to metres."""
     told = [
         value for node in plan.nodes for _, value in getattr(node, "parameters", ()) if isinstance(value, float | int)
     ]
@@ -101,7 +101,7 @@ def _parameters(plan: PlanFacts) -> list[float]:
 
 
 def _invented(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
-    """A limit or a distance of the plan is stated."""
+    """Yield limits and distances of the plan that the request does not state."""
     for budget in plan.task.constraints.budgets:
         kind, unit = _KINDS[budget.kind]
         if not any(_close(budget.limit, x) for x in _stated(said, kind)):
@@ -127,7 +127,7 @@ def _invented(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
 
 
 def _stated(said: RequestFacts, kind: str) -> list[float]:
-    """Every amount of a kind that is stated; a number without a unit may be of any."""
+    """Return the stated amounts of a kind; a number without a unit may be of any kind."""
     found = [x for a in said.amounts if a.kind == kind for x in a.values]
     plain = [x for a in said.amounts if a.kind in ("plain", "times") for x in a.values]
     if kind == "percent":

@@ -1,4 +1,4 @@
-"""Names of places: trees, rows, markers, zones, sides, what the trees are, in which order, and where the robot ends."""
+"""Check the places of a plan against the request: trees, rows, zones, gates, sides, attributes, order, exit."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _SOME_ROWS = re.compile(
 
 
 def place_mismatches(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
-    """Contradictions in what places are called."""
+    """Yield contradictions in places."""
     yield from _trees(said, plan)
     yield from _rows(said, plan, site)
     yield from _areas(said, plan, site)
@@ -44,7 +44,7 @@ def place_mismatches(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterato
 
 
 def _trees(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
-    """Each tree that is called by a number is in the plan, and no other."""
+    """Yield numbered trees of the request that the plan lacks, and the reverse."""
     named = {_digits(tree) for _, tree in plan.trees}
     spans = [(abs(x.first), abs(x.last)) for _, x in plan.having(s.InRow) if isinstance(x, s.InRow)]
     counted = {int(n.value) for n in plan.numbers if n.kind == "count"} | {
@@ -69,13 +69,13 @@ def _trees(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
 
 
 def _digits(name: str) -> str:
-    """The number at the end of a name, without leading zeros: of "T042" it is "42"."""
+    """Return the number at the end of a name without leading zeros: "42" of "T042"."""
     head = name.rstrip("0123456789")
     return name[len(head) :].lstrip("0")
 
 
 def _rows(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
-    """Each row that is called by a number is in the plan, and no other."""
+    """Yield numbered rows of the request that the plan lacks, and the reverse."""
     rows = [(node, x) for node, x in plan.having(s.Rows) if isinstance(x, s.Rows)]
     if not all(_NUMBER.fullmatch(name) for _, row in rows for name in (row.first, row.last)):
         return
@@ -96,7 +96,7 @@ def _rows(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMisma
 
 
 def _is_row(said: RequestFacts, amount: StatedAmount) -> bool:
-    """Whether a number calls a row: "row 3", "the third row", but not "every third row"."""
+    """Return True if a number names a row: "row 3", "the third row", but not "every third row"."""
     if amount.kind != "ordinal":
         return amount.kind == "row"
     after = [t.text for t in said.said[amount.index + 1 : amount.index + 3]]
@@ -105,7 +105,7 @@ def _is_row(said: RequestFacts, amount: StatedAmount) -> bool:
 
 
 def _of_named_tree(said: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> bool:
-    """Whether a row only says where a tree stands that the plan names by its id: "tree 25 of row 2"."""
+    """Return True if a row only locates a tree that the plan names by its id: "tree 25 of row 2"."""
     named = {_digits(tree) for _, tree in plan.trees}
     return any(
         a.kind == "id" and 0 < amount.index - a.index <= 8 and str(int(a.values[0])) in named for a in said.amounts
@@ -113,7 +113,7 @@ def _of_named_tree(said: RequestFacts, plan: PlanFacts, amount: StatedAmount) ->
 
 
 def _has_named_tree(amount: StatedAmount, plan: PlanFacts, site: Site) -> bool:
-    """Whether a tree that the plan names by its id stands in that row of the site."""
+    """Return True if a tree that the plan names by its id is in that row of the site."""
     planting, wanted = site.planting, int(amount.values[0])
     stands = {int(planting.row_of[site.by_id[tree].index]) for _, tree in plan.trees if tree in site.by_id}
     return any(row == wanted - 1 or planting.rows[row].name == str(wanted) for row in stands if row >= 0)
@@ -125,7 +125,7 @@ def _holds(row: s.Rows, amount: StatedAmount) -> bool:
 
 
 def _areas(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
-    """Each zone or block that is called by its name is in the plan; a zone of the plan is called by some word of it."""
+    """Yield zones and blocks of the request that the plan lacks, and the reverse."""
     pointed = _pointed(plan)
     held = {_said(name) for _, name in plan.areas}
     rows = {t for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) for t in (x.first.lower(), x.last.lower())}
@@ -175,7 +175,7 @@ def _stands_in(plan: PlanFacts, name: str, site: Site) -> bool:
 
 
 def _gates(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
-    """Each gate that is called by its name is in the plan, and no other."""
+    """Yield gates of the request that the plan lacks, and the reverse."""
     held = {_said(x.gate): node for node, x in plan.having(s.GateIs) if isinstance(x, s.GateIs)}
     for name in dict.fromkeys(_said(gate.place.id) for gate in site.gates):
         if f" {name} " in f" {said.text} " and not held and name not in said.zones:
@@ -196,7 +196,7 @@ def _tokens(name: str) -> tuple[w.Token, ...]:
 
 
 def _sides(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
-    """Each side of the compass that is said is in the plan, and no other."""
+    """Yield sides of the compass of the request that the plan lacks, and the reverse."""
     by_name = {word for name in said.zones for word in name.split()} | set(said.attributes)
     spoken = {side for side in said.sides if not any(side in name for name in by_name)}
     corners = {letter for _, x in plan.having(s.Corners) if isinstance(x, s.Corners) for c in x.which for letter in c}
@@ -225,7 +225,7 @@ def _sides(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
 
 
 def _attributes(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
-    """What the site records and the request names is asked for in the plan, and nothing else is."""
+    """Yield attribute values of the request that the plan lacks, and the reverse."""
     held = {" ".join(t.text for t in _tokens(str(value))) for _, _, value in plan.values}
     for word in said.attributes:
         if not any(word in other or other in word for other in held):
@@ -248,7 +248,7 @@ def _attributes(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
 
 
 def _ends(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
-    """A return that is asked for is the exit of the plan, or a drive in it."""
+    """Yield a requested return that is neither the exit of the plan nor a drive in it."""
     if not said.returns or said.returns not in site.markers:
         return
     wanted = f"return_to_{said.returns}"
@@ -260,7 +260,7 @@ def _ends(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMisma
 
 
 def _faults(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
-    """What is done about a fault is what every mission does, or where this one ends, unless that is asked for."""
+    """Yield reactions to faults that are not the usual ones and were not requested."""
     if said.unknown or said.words & _OF_FAULTS or not site.markers:
         return
     usual = {e.fault: e.then for e in FAULTED_EXITS}
@@ -272,7 +272,7 @@ def _faults(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
 
 
 def _order(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
-    """Trees that are to be visited "in that order" are."""
+    """Yield a mismatch if trees requested "in that order" are planned in another order."""
     if not any(phrase in said.text for phrase in ("in that order", "in this order", "in the given order")):
         return
     numbers = [str(int(a.values[0])) for a in said.amounts if a.kind == "id" and not a.through]

@@ -1,4 +1,4 @@
-"""The facts of a plan that can be counted: captures and places, tests, limits, names, sides, where it ends.
+"""Countable facts of a plan: captures, places, tests, limits, names, sides, exit.
 
 From the Task alone. Where the plan leaves a number to the site, to a reading or to the budget, there is a range.
 """
@@ -90,33 +90,33 @@ class PlanFacts:
     numbers: tuple[PlannedNumber, ...]
 
     def having(self, *classes: type) -> Iterator[tuple[str, Selector]]:
-        """The selectors of some classes, each with its node."""
+        """Return the selectors of some classes, each with its node."""
         return ((node, x) for node, x in self.selectors if isinstance(x, classes))
 
     @cached_property
     def actions(self) -> frozenset[str]:
-        """Actions that the plan holds."""
+        """Return the actions of the plan."""
         return frozenset(one.action for one in self.captures)
 
     @cached_property
     def trees(self) -> tuple[tuple[str, str], ...]:
-        """Ids of trees that are named, each with its node."""
+        """Return the ids of named trees, each with its node."""
         return tuple((node, x.named_tree) for node, x in self.selectors if x.named_tree)
 
     @cached_property
     def markers(self) -> frozenset[str]:
-        """Markers that are named."""
+        """Return the named markers."""
         return frozenset(x.named_marker for _, x in self.selectors if x.named_marker)
 
     @cached_property
     def areas(self) -> tuple[tuple[str, str], ...]:
-        """Zones and blocks that are named, each with its node."""
+        """Return the named zones and blocks, each with its node."""
         named = ((node, getattr(x, "zone", "") or getattr(x, "block", "")) for node, x in self.selectors)
         return tuple((node, name) for node, name in named if name)
 
     @cached_property
     def sides(self) -> dict[Side, str]:
-        """Sides of the compass that selectors name, each with a node; all four corners together name none."""
+        """Return the sides of the compass that selectors name, each with a node; none for all four corners together."""
         found: dict[Side, str] = {}
         visited: dict[Selector, set[str]] = {}
         for _, x in self.selectors:
@@ -131,7 +131,7 @@ class PlanFacts:
 
     @cached_property
     def ends_driven(self) -> frozenset[Side]:
-        """Sides that only tell apart the ends of a way: drives to both ends of the same trees, and no other place."""
+        """Return sides that only distinguish the two ends of one way, and no other place."""
         drives = {n.id: n.selector for n in self.nodes if n.only_drives and isinstance(n.selector, s.Extreme)}
         ends = {(place.of, place.side) for place in drives.values()}
         elsewhere = {side for node, x in self.selectors if x != drives.get(node) for side in x.sides}
@@ -140,7 +140,7 @@ class PlanFacts:
 
     @cached_property
     def values(self) -> tuple[tuple[str, str, Value], ...]:
-        """Node, attribute and value of each test of what the site records."""
+        """Return node, attribute and value of each test of a site attribute."""
         kept = [(node, x.attribute, x.value) for node, x in self.selectors if isinstance(x, s.Where)]
         for node in self.nodes:
             condition = node.tested
@@ -150,7 +150,7 @@ class PlanFacts:
 
 
 def plan_facts(task: Task, size: Callable[[str], int | None]) -> PlanFacts:
-    """The facts of a Task.
+    """Return the facts of a Task.
 
     Args:
         size: At how many places the selector of a node comes out on the site, by the node's id; None where it is open.
@@ -179,7 +179,7 @@ class _Surroundings:
 
 
 def _captures(node: p.Node, around: _Surroundings, size: Callable[[str], int | None]) -> Iterator[PlannedCaptures]:
-    """The acts inside a node."""
+    """Yield the captures of the acts inside a node."""
     act = node.act
     if act is not None:
         own = {act.count, *(_counts(act.at) if act.at is not None else ())}
@@ -219,7 +219,7 @@ def _visited(node: p.Node, select: Selector, around: _Surroundings, size: int | 
 
 
 def _counts(selector: Selector) -> Iterator[int]:
-    """The counts in a selector."""
+    """Yield the counts in a selector."""
     for part in selector.walk():
         count = getattr(part, "count", 0)
         yield from (count,) if count else ()
@@ -243,7 +243,7 @@ def _tests(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], ...
 
 
 def _done(node: p.Node) -> frozenset[str]:
-    """The actions inside a node, and "stop" where it ends the mission."""
+    """Return the actions inside a node, and "stop" if it ends the mission."""
     stops = {"stop" for one in p.walk(node) if one.ends_plan}
     return frozenset(stops | {act.action for act in p.acts(node)})
 
@@ -270,7 +270,7 @@ def _tested(part: c.Condition, node: str) -> Iterator[PlannedTest]:
 
 
 def _numbers(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], ...]) -> Iterator[PlannedNumber]:
-    """Numbers of nodes and selectors that are not those that hold by themselves."""
+    """Yield the numbers of nodes and selectors that differ from their defaults."""
     for node in nodes:
         if node.act is not None and node.act.count > 1:
             yield PlannedNumber(node=node.id, what="captures at a place", value=node.act.count, kind="count")

@@ -1,4 +1,4 @@
-"""The facts that a request states outright, read by words, numbers and names alone."""
+"""Facts that a request states outright, found by words, numbers and names."""
 
 from __future__ import annotations
 
@@ -48,33 +48,33 @@ class RequestFacts:
 
     @cached_property
     def text(self) -> str:
-        """The words with one space between."""
+        """Return the words separated by single spaces."""
         return " ".join(token.text for token in self.said)
 
     @cached_property
     def words(self) -> frozenset[str]:
-        """Every word."""
+        """Return the set of words."""
         return frozenset(token.text for token in self.said)
 
     @cached_property
     def unknown(self) -> bool:
-        """Whether there is a word that this check does not know: then what a plan adds may come from it."""
+        """Return True if a word is unknown to this check, so that additions of the plan may come from it."""
         return any(t.text[0].isalpha() and t.text not in self.known for t in self.said)
 
     @cached_property
     def vague(self) -> bool:
-        """Whether "several" or the like stands there, which leaves a number to the reader."""
+        """Return True if "several" or the like leaves a number open."""
         return bool(w.VAGUE.search(self.text))
 
     @cached_property
     def whole_numbers(self) -> frozenset[int]:
-        """Every whole number that stands there, ordinals and "twice" too, ranges with all in them."""
+        """Return every whole number of the request, with ordinals, "twice" and all of a range."""
         found = {n for a in self.amounts for n in numbers_of(a)}
         return frozenset(found | {n for word, n in w.MULTIPLES.items() if word in self.words})
 
     @cached_property
     def sides(self) -> frozenset[Side]:
-        """Sides of the compass that are said."""
+        """Return the sides of the compass that are mentioned."""
         return frozenset(side for word in self._compass_words for side in w.COMPASS[word])
 
     @cached_property
@@ -84,7 +84,7 @@ class RequestFacts:
         return tuple(x for x in (*(t.text for t in self.said if len(t.text) > 1), *pairs, *split) if x in w.COMPASS)
 
     def conditional(self, sentence: int) -> bool:
-        """Whether a sentence makes something depend on something; one that only asks whether, does not."""
+        """Return True if a sentence has a condition; a mere question ("check whether") is none."""
         inside = [t.text for t in self.said if t.sentence == sentence]
         asked = re.search(r"\b(?:check|see|find out|tell me|know|report|look) (?:if|whether)\b|\bwhether\b", self.text)
         if asked and sum(t.text in w.CONDITIONAL for t in self.said) <= 1:
@@ -92,13 +92,13 @@ class RequestFacts:
         return bool(w.CONDITIONAL.intersection(inside))
 
     def negated(self, index: int) -> bool:
-        """Whether what stands at a token is said not to be done."""
+        """Return True if the phrase at a token is negated."""
         before = [t for t in self.said[max(0, index - 8) : index] if t.sentence == self.said[index].sentence]
         return any(t.text in w.NEGATIONS for t in before)
 
     @cached_property
     def returns(self) -> str:
-        """Where the request says to end: ``start``, ``end``, or empty."""
+        """Return where the request ends: ``start``, ``end``, or empty."""
         text = self.text
         home = re.search(
             rf"\b{_GOES_BACK}(?: \w+)?{_TO}{_START}\b(?! of| tree)|\b(?:go|come|return|drive|head) home\b", text
@@ -111,18 +111,18 @@ class RequestFacts:
 
     @cached_property
     def spaced(self) -> bool:
-        """Whether places are asked for that are so many metres from each other."""
+        """Return True if the request asks for places a distance apart."""
         apart = re.search(r"\bapart\b|\b(?:from|between) (?:each|one|them|the next)\b", self.text)
         return bool(apart) and any(a.kind == "length" for a in self.amounts)
 
     @cached_property
     def as_many(self) -> bool:
-        """Whether as many as possible are asked for."""
+        """Return True if the request asks for as many as possible."""
         return bool(re.search(r"\bas many (?:[\w%]+ ){0,6}?as (?:possible|(?:you|it|we|the robot) can)\b", self.text))
 
 
 def request_facts(request: str, robot: RobotProfile, site: Site) -> RequestFacts:
-    """The facts of a request."""
+    """Return the facts of a request."""
     said = tokens(request)
     names = _names(site)
     zones, covered = _said_names(said, names)
@@ -160,7 +160,7 @@ def _norm(name: str) -> str:
 
 
 def _names(site: Site) -> set[str]:
-    """Zones, blocks and rows that have a name of their own, as words."""
+    """Return the zones, blocks and rows that have a name, as words."""
     blocks = [b.name for b in site.planting.blocks]
     rows = [r.name for b in site.planting.blocks for r in b.rows]
     named = {_norm(name) for name in (*(z.name for z in site.zones if z.name), *blocks, *rows)}
@@ -168,7 +168,7 @@ def _names(site: Site) -> set[str]:
 
 
 def _kinds(site: Site) -> set[str]:
-    """Words that the site records of its trees ("yellow", "Carmel"); names of trees are none."""
+    """Return the attribute values of the site's trees ("yellow", "Carmel"), without names of trees."""
     words = {
         _norm(value)
         for values in site.attributes.values()
@@ -181,7 +181,7 @@ def _kinds(site: Site) -> set[str]:
 
 
 def _said_names(said: Sequence[Token], names: set[str]) -> tuple[set[str], set[int]]:
-    """The names that are said, and the tokens that they cover. A name of plain words alone is none ("row", "end")."""
+    """Return the names in the request and their tokens; a name of plain words alone ("row", "end") is none."""
     found: set[str] = set()
     covered: set[int] = set()
     for name, k in _phrases(said, names):
@@ -192,7 +192,7 @@ def _said_names(said: Sequence[Token], names: set[str]) -> tuple[set[str], set[i
 
 
 def _phrases(said: Sequence[Token], phrases: set[str]) -> Iterator[tuple[str, int]]:
-    """Every phrase of a set that is said, with its first token; the longest where several begin at one."""
+    """Yield every phrase of a set that occurs, with its first token; the longest at each token."""
     longest = min(max((len(p.split()) for p in phrases), default=0), 8)
     for k in range(len(said)):
         for length in range(min(longest, len(said) - k), 0, -1):
@@ -203,7 +203,7 @@ def _phrases(said: Sequence[Token], phrases: set[str]) -> Iterator[tuple[str, in
 
 
 def _nouns(said: Sequence[Token], robot: RobotProfile, site: Site) -> dict[int, Noun]:
-    """Where the robot's words for what it takes are said, the longest phrase at each token."""
+    """Return the robot's nouns by token, the longest phrase at each."""
     told = {_singular(word): word for a in robot.actions for word in (*a.words, *a.verbs)}
     of_attributes = {word for name in site.attributes for word in _norm(name).split()}
     found: dict[int, Noun] = {}
@@ -225,7 +225,7 @@ def _singular(phrase: str) -> str:
 
 
 def _stem(phrase: str) -> str:
-    """A phrase as the profile writes it: singular, and a verb without its ending ("photographing")."""
+    """Return a phrase as the profile writes it: singular, and a verb without its ending ("photographing")."""
     head, space, last = phrase.rpartition(" ")
     for ending in ("ing", "ed"):
         if not head and last.endswith(ending) and len(last) > len(ending) + 4:
@@ -234,7 +234,7 @@ def _stem(phrase: str) -> str:
 
 
 def _meant(word: str, robot: RobotProfile) -> frozenset[str]:
-    """Actions that a word may mean: those that have it, and those that measure a quantity that has it."""
+    """Return the actions that a word may mean: those that have it, and those that measure a quantity that has it."""
     quantities = {q.name for q in robot.quantities if word in q.words}
     return frozenset(
         a.name for a in robot.actions if word in (*a.words, *a.verbs) or quantities.intersection(a.measures)
@@ -242,7 +242,7 @@ def _meant(word: str, robot: RobotProfile) -> frozenset[str]:
 
 
 def hints(action: Action, robot: RobotProfile) -> frozenset[str]:
-    """Every word that may speak of an action: of its names, verbs, description and quantities."""
+    """Return every word that may refer to an action: of its names, verbs, description and quantities."""
     quantities = [robot.quantity[name] for name in action.measures if name in robot.quantity]
     phrases = [action.name, action.description, *action.words, *action.verbs, *(q.name for q in quantities)]
     phrases += [word for q in quantities for word in q.words]
@@ -251,7 +251,7 @@ def hints(action: Action, robot: RobotProfile) -> frozenset[str]:
 
 
 def _known(robot: RobotProfile, site: Site, names: set[str]) -> frozenset[str]:
-    """Every word that this check knows."""
+    """Return every word known to this check."""
     phrases = [word for a in robot.actions for word in (a.name, *a.words, *a.verbs)]
     phrases += [word for q in robot.quantities for word in (q.name, *q.words, *q.levels)]
     phrases += [*names, *_kinds(site), *site.attributes]

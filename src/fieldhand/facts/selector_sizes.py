@@ -1,4 +1,4 @@
-"""At how many places the selectors of a plan come out, counted on the site."""
+"""The number of places that each selector of a plan gives on the site."""
 
 from __future__ import annotations
 

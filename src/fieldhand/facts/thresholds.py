@@ -1,4 +1,4 @@
-"""Thresholds and words such as "low": each that the request states is tested, the right way round, and no other."""
+"""Check the thresholds and levels ("low") that a plan tests against those that the request states."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _WAYS = {"below": ("lt", "le"), "above": ("gt", "ge")}
 
 
 def threshold_mismatches(said: RequestFacts, plan: PlanFacts, robot: RobotProfile) -> Iterator[PlanMismatch]:
-    """Contradictions in what is tested."""
+    """Yield contradictions in what is tested."""
     for amount in said.amounts:
         yield from _kept(said, plan, robot, amount)
     for test in plan.tests:
@@ -31,7 +31,7 @@ def threshold_mismatches(said: RequestFacts, plan: PlanFacts, robot: RobotProfil
 
 
 def _kept(said: RequestFacts, plan: PlanFacts, robot: RobotProfile, amount: StatedAmount) -> Iterator[PlanMismatch]:
-    """A threshold that is stated is tested, the right way round and on the quantity that is named."""
+    """Yield a mismatch if a stated threshold is not tested, or with the wrong direction or quantity."""
     if not _certain(said, amount):
         return
     same = [t for t in plan.tests if any(_same(v, x) for v in amount.values for x in t.values)]
@@ -47,7 +47,7 @@ def _kept(said: RequestFacts, plan: PlanFacts, robot: RobotProfile, amount: Stat
 
 
 def _certain(said: RequestFacts, amount: StatedAmount) -> bool:
-    """Whether a number is for certain a threshold that something is made to depend on."""
+    """Return True if a number is certainly the threshold of a condition."""
     if amount.kind == "attribute":
         return bool(amount.compared) and not said.negated(amount.index)
     if not said.conditional(amount.sentence):
@@ -62,7 +62,7 @@ def _calendar(plan: PlanFacts) -> bool:
 
 
 def _as_level(plan: PlanFacts, robot: RobotProfile, amount: StatedAmount) -> bool:
-    """Whether a threshold is tested by its word ("low" is below 33)."""
+    """Return True if a threshold is tested by its level ("low" is below 33)."""
     for test in plan.tests:
         quantity = robot.quantity.get(test.quantity)
         level = quantity.levels.get(test.level) if quantity is not None else None
@@ -72,7 +72,7 @@ def _as_level(plan: PlanFacts, robot: RobotProfile, amount: StatedAmount) -> boo
 
 
 def _turned(amount: StatedAmount, same: list[PlannedTest], said: RequestFacts) -> Iterator[PlanMismatch]:
-    """ "Below" is not tested as "above" where nothing in plan or request turns it around."""
+    """Yield a mismatch if "below" is tested as "above", unless plan or request negates it."""
     alike = {a.compared for a in said.amounts if any(_same(v, x) for v in a.values for x in amount.values)}
     ways = _WAYS.get(amount.compared)
     around = [t.text for t in said.said if t.sentence == amount.sentence]
@@ -92,7 +92,7 @@ def _turned(amount: StatedAmount, same: list[PlannedTest], said: RequestFacts) -
 
 
 def _wanted(said: RequestFacts, amount: StatedAmount) -> frozenset[str]:
-    """What a sentence asks for where its threshold holds, "stop" for an end of the mission."""
+    """Return the actions that a sentence requests if its threshold holds; "stop" for an end of the mission."""
     found: set[str] = set()
     for k in range(amount.index + 1, len(said.said)):
         token = said.said[k]
@@ -106,7 +106,7 @@ def _wanted(said: RequestFacts, amount: StatedAmount) -> frozenset[str]:
 def _other_quantity(
     amount: StatedAmount, same: list[PlannedTest], said: RequestFacts, robot: RobotProfile
 ) -> Iterator[PlanMismatch]:
-    """The quantity that is named right before a threshold is the one that is tested."""
+    """Yield a mismatch if another quantity is tested than the one named before the threshold."""
     named = _quantity_before(amount, said, robot)
     if named and all(t.quantity and t.quantity != named for t in same):
         test = same[0]
@@ -115,7 +115,7 @@ def _other_quantity(
 
 
 def _quantity_before(amount: StatedAmount, said: RequestFacts, robot: RobotProfile) -> str:
-    """The one quantity whose own words stand in the few words before a number; empty if that is open."""
+    """Return the one quantity named in the few words before a number; empty if not unique."""
     words: list[str] = []
     for token in reversed(said.said[max(0, amount.index - 7) : amount.index]):
         if token.sentence != amount.sentence or token.text in ("if", "when", "where", "or", "and", ",", "unless"):
@@ -131,7 +131,7 @@ def _quantity_before(amount: StatedAmount, said: RequestFacts, robot: RobotProfi
 
 
 def _invented(said: RequestFacts, robot: RobotProfile, test: PlannedTest) -> Iterator[PlanMismatch]:
-    """A threshold of the plan is stated, in this unit or one that it follows from."""
+    """Yield thresholds of the plan that do not follow from the request."""
     for value in test.values:
         if test.attribute and _CALENDAR[0] <= value <= _CALENDAR[1]:
             continue
@@ -160,7 +160,7 @@ def _follows(value: float, amount: StatedAmount, test: PlannedTest) -> bool:
 
 
 def _levels(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
-    """ "Low" is not tested as "high", nor left out, where nothing else is tested that it could stand for."""
+    """Yield levels tested but not requested, and levels requested while no reading is tested."""
     tested = {t.level: t.node for t in plan.tests if t.test == "level"}
     if said.levels and not said.unknown:
         for word in sorted(tested.keys() - said.words):
@@ -174,7 +174,7 @@ def _levels(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
 
 
 def _same(a: float, b: float) -> bool:
-    """Equal, but for the digits that a conversion loses."""
+    """Return True if two numbers are equal but for rounding in a conversion."""
     return abs(a - b) <= max(
         1e-6, 0.002 * abs(a), 0.06 if not float(b).is_integer() or not float(a).is_integer() else 0.0
     )

@@ -1,4 +1,4 @@
-"""Words that no plan can hold: times of day, schedules, what was done on other days, waiting.
+"""Words that no plan can express: times of day, schedules, earlier days, waiting.
 
 A plan has no element for any of these, so whatever it holds, it leaves them out. They are looked for in the words
 alone, and a name of the site ("the Sunday block") is none of them.

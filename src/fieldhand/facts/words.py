@@ -14,7 +14,7 @@ from fieldhand.terms import Side
 
 
 def words_in(text: str) -> frozenset[str]:
-    """The words of a list that is written with spaces."""
+    """Return the words of a list separated by spaces."""
     return frozenset(text.split())
 
 
@@ -154,7 +154,7 @@ class Token:
 
 
 def tokens(request: str) -> tuple[Token, ...]:
-    """The words, numbers and signs of a request in their order.
+    """Return the words, numbers and signs of a request in their order.
 
     ``joined`` says that nothing stands between a token and the one before it, as in "33C".
     """
@@ -170,12 +170,12 @@ def tokens(request: str) -> tuple[Token, ...]:
 
 
 def is_number(text: str) -> bool:
-    """Whether a token is written in digits."""
+    """Return True if a token is written in digits."""
     return text[:1].isdecimal() and text.replace(",", "").replace(".", "", 1).isdecimal() and text.isascii()
 
 
 def singular(word: str) -> str:
-    """A noun without the ending of its plural, good enough to compare two nouns."""
+    """Return a noun without its plural ending, accurate enough to compare two nouns."""
     for ending, instead in (("leaves", "leaf"), ("ies", "y"), ("sses", "ss"), ("xes", "x"), ("ches", "ch")):
         if word.endswith(ending):
             return word.removesuffix(ending) + instead

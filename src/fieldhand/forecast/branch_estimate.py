@@ -1,4 +1,4 @@
-"""What a branch takes: metres, time and charge as distributions, and the chance of running short of each."""
+"""Estimate of one branch: metres, time and charge as distributions, and the chance of exceeding each limit."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class Figure:
-    """A random amount: its mean, what it exceeds every other time (median), and once in ten (90th percentile)."""
+    """A random amount: its mean, median and 90th percentile."""
 
     mean: float
     p50: float
@@ -31,7 +31,7 @@ class Figure:
 
 @dataclass(frozen=True, kw_only=True)
 class Chance:
-    """The chance of using more of a resource than there is.
+    """The chance of exceeding a limit.
 
     Attributes:
         kind: Which budget, or ``reserve``.
@@ -48,14 +48,14 @@ class Chance:
 
     @property
     def exceeded(self) -> bool:
-        """Whether the chance is more than is accepted, beyond what the number of draws can tell."""
+        """Return True if the chance exceeds the accepted one by more than sampling noise."""
         noise = 2.0 * np.sqrt(self.accepted * (1.0 - self.accepted) / self.draws)
         return bool(self.chance > self.accepted + noise)
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class BranchEstimate:
-    """One branch.
+    """The estimate of one branch.
 
     Attributes:
         decisions: What was answered on it.
@@ -85,11 +85,11 @@ class BranchEstimate:
 
     @property
     def short(self) -> float:
-        """The chance of running short of whatever is scarcest."""
+        """Return the highest chance of exceeding any limit."""
         return max((c.chance for c in self.chances), default=0.0)
 
     def as_record(self) -> dict[str, object]:
-        """As JSON."""
+        """Return the estimate as JSON."""
         return {
             "decisions": decisions_record(self.decisions),
             "fault": self.fault,
@@ -103,7 +103,7 @@ class BranchEstimate:
 
 
 def decisions_record(decisions: Iterable[Decision]) -> list[dict[str, object]]:
-    """Decisions in their order, those of one node that follow each other together: a letter each, y or n."""
+    """Return decisions in their order as JSON: per run of one node a letter each, y or n."""
     return [
         {"node": node, "kind": kind, "answers": "".join("y" if d.answer else "n" for d in some)}
         for (node, kind), some in groupby(decisions, key=lambda d: (d.node, d.kind))
@@ -118,7 +118,7 @@ def estimate_branch(
     charge_percent: float,
     fault: Fault | None = None,
 ) -> BranchEstimate:
-    """What missions take that go one way; they were drawn along it (:attr:`Walk.used`)."""
+    """Estimate a branch from the missions sampled along it (:attr:`Walk.used`)."""
     used = walked.used
     assert used is not None  # noqa: S101  estimates draw missions on every walk
     metres, seconds, percent = amounts(used, constraints, robot)
@@ -150,7 +150,7 @@ def estimate_branch(
 
 
 def amounts(used: SampledUse, constraints: Constraints, robot: RobotProfile) -> tuple[Floats, Floats, Floats]:
-    """Metres, seconds and percent of a full battery that each of some missions takes."""
+    """Return metres, seconds and percent of a full battery per sampled mission."""
     metres, seconds = used.metres, used.metres / speed_of(constraints, robot) + used.seconds
     driving, idling = robot.percent(1.0, 0.0), robot.percent(0.0, 1.0)
     return metres, seconds, driving * metres + idling * seconds + robot.percent(0.0, 0.0, 1.0) * used.joules

@@ -1,4 +1,4 @@
-"""Every way that a mission can go: conditions either way, what is tried failing, optional visits made or left out."""
+"""Every branch of a mission: conditions either way, attempts that fail, optional visits made or left out."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class BrokenBranch:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Branches:
-    """What was found.
+    """The branches of a mission that were walked.
 
     Attributes:
         walks: Distinct ones, no two with the same decisions. The first answers every condition with yes, nothing fails.
@@ -84,7 +84,7 @@ class Branches:
 
     @property
     def complete(self) -> bool:
-        """Whether no place, no drive and no extreme can have been missed."""
+        """Return True if no place, drive or extreme can have been missed."""
         return self.coverage != "sampled"
 
 
@@ -210,7 +210,7 @@ class _Exploration:
         self._alike: dict[frozenset[tuple[str, bool]] | None, tuple[Decision, ...]] = {}
 
     def explore(self) -> Coverage:
-        """Look at all there is to look at."""
+        """Walk the branches and return how completely they were covered."""
         local = local_decisions(self._root)
         # The walks that come first: every condition holds and nothing fails, then none, then the other combinations.
         most = 0
@@ -234,7 +234,7 @@ class _Exploration:
         return "sampled"
 
     def _turn(self, told: dict[str, bool], fixed: frozenset[str]) -> bool:
-        """Turn each answer that is not fixed, of every walk that this leads to; whether all were looked at."""
+        """Flip each answer that is not fixed, of every walk found; return True if all were walked."""
         # Each prefix of answers is tried once: a walk proposes to turn each answer that its own prefix did not give.
         pending: deque[tuple[tuple[bool, ...], int | None]] = deque([((), None)])
         while pending:
@@ -251,7 +251,7 @@ class _Exploration:
         return True
 
     def _draw(self) -> None:
-        """Branches by chance, with many and with few conditions that hold; some of them will have been seen."""
+        """Walk random branches, with many and with few conditions that hold."""
         for number in range(self._limit):
             if not self._room(self._limit):
                 return
@@ -261,7 +261,7 @@ class _Exploration:
         return len(self.found) < limit and self._walked < 4 * self._limit and self._steps < MAX_STEPS
 
     def _look(self, script: _Script) -> tuple[Decision, ...]:
-        """Walk a branch; what was decided on it."""
+        """Walk a branch and return its decisions."""
         alike = None if script.turned is not None or script.rng is not None else frozenset(script.told.items())
         if alike in self._alike:
             return self._alike[alike]
@@ -283,7 +283,7 @@ class _Exploration:
 
 
 def _alike(root: plan.Node) -> Iterator[dict[str, bool]]:
-    """Told answers: for the first few conditions every combination, the others hold in all, or in none.
+    """Yield initial answers: every combination for the first few conditions, the others all true or all false.
 
     In the last ones whatever is tried fails, and then whatever is driven to is blocked.
     """
@@ -301,12 +301,12 @@ def _alike(root: plan.Node) -> Iterator[dict[str, bool]]:
 
 
 def _combinations(keys: Sequence[str]) -> Iterator[dict[str, bool]]:
-    """Every combination of answers, as far as they are few; all alike beyond."""
+    """Yield every combination of answers to the first few keys; the others are answered alike."""
     some, others = keys[:_ALIKE], keys[_ALIKE:]
     for answers in product((True, False), repeat=len(some)):
         yield {**dict.fromkeys(others, answers[0] if answers else True), **dict(zip(some, answers, strict=True))}
 
 
 def _key(decision: Decision) -> str:
-    """What a script calls it."""
+    """Return the key of a decision in a script."""
     return f"{decision.node} {decision.kind}" if decision.kind in ("fails", "blocked") else decision.node

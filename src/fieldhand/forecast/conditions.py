@@ -1,4 +1,4 @@
-"""Whether a condition of the plan holds, and why, in words.
+"""Evaluation of a plan's conditions, with the reason in words.
 
 A reading that was never taken (its action failed, or stands on a branch that was not followed) is unknown, and so is
 every condition that hangs on it; what is unknown does not hold, and neither does its opposite (Kleene's three-valued
@@ -36,7 +36,7 @@ _HOW: Mapping[Test, str] = {
 
 @dataclass(frozen=True, kw_only=True)
 class ConditionInputs:
-    """What a condition is tested against.
+    """The inputs of a condition.
 
     Attributes:
         readings: For each reading that was bound, its value by quantity.
@@ -51,14 +51,14 @@ class ConditionInputs:
 
 @dataclass(frozen=True, kw_only=True)
 class ConditionResult:
-    """Whether a condition is true (None: unknown), and why, as a sentence that is true."""
+    """The truth of a condition (None if unknown), and the reason as a true sentence."""
 
     truth: bool | None
     why: str
 
     @property
     def holds(self) -> bool:
-        """Whether the mission goes by it."""
+        """Return True if the condition is true; unknown counts as false."""
         return self.truth is True
 
 
@@ -107,7 +107,7 @@ def _measured(
     say: Callable[[bool, Mapping[str, str]], str],
     bounds: Mapping[str, str],
 ) -> ConditionResult:
-    """Hold a reading against a threshold; ``say`` says what came of it, with ``bounds`` and what was read."""
+    """Compare a reading with a threshold; ``say`` puts the result into words."""
     value = facts.readings.get(condition.reading, {}).get(condition.quantity)
     name = say_name(condition.quantity)
     if value is None:
@@ -153,7 +153,7 @@ def _level(condition: Level, facts: ConditionInputs) -> ConditionResult:
 
 
 def _attribute(condition: TreeHas, facts: ConditionInputs) -> ConditionResult:
-    """What the site file says of the tree in hand, tested exactly as the selector ``Where`` tests it."""
+    """Test an attribute of the current tree exactly as the selector ``Where`` does."""
     tree = facts.site.by_id.get(facts.here.id) if facts.here.kind == "tree" else None
     if tree is None:
         return ConditionResult(truth=None, why=message("the robot is not at a tree", context="log"))
@@ -184,7 +184,7 @@ def _attribute(condition: TreeHas, facts: ConditionInputs) -> ConditionResult:
 
 
 def _is_number(value: Value) -> bool:
-    """Whether a value is a number or text that spells one."""
+    """Return True if a value is a number or text that spells one."""
     try:
         return not isinstance(value, bool) and math.isfinite(float(value))
     except ValueError:
@@ -192,7 +192,7 @@ def _is_number(value: Value) -> bool:
 
 
 def _joined(found: Sequence[ConditionResult], *, decisive: bool) -> ConditionResult:
-    """All of, or any of: one finding that is ``decisive`` settles it, else one that is unknown leaves it open."""
+    """Combine results: a ``decisive`` one settles it, otherwise an unknown one leaves it open."""
     settling = [f for f in found if f.truth is decisive]
     if settling:
         return ConditionResult(truth=decisive, why=_all(settling))
@@ -209,5 +209,5 @@ def _all(found: Sequence[ConditionResult]) -> str:
 
 
 def _amount(value: float, unit: str) -> str:
-    """A value as people read it: "31.2 °C". The log's readings hold every digit."""
+    """Format a value with its unit: "31.2 °C". The log's readings keep every digit."""
     return joined(" ", [part for part in (say_number(value, 4), say_unit(unit)) if part])

@@ -1,4 +1,4 @@
-"""Driving distances between places, asked for once."""
+"""Driving distances between places, each computed once."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Distances:
         self._lengths: Floats = np.zeros((0, 0))
 
     def between(self, places: Sequence[Place]) -> Floats:
-        """Metres, shape (n, n).
+        """Return the distances between places in metres, shape (n, n).
 
         Raises:
             DriveFault: One of them cannot be reached.
@@ -45,7 +45,7 @@ class Distances:
         return self._lengths[np.ix_(rows, rows)]
 
     def _grown(self, new: Sequence[Place]) -> Floats:
-        """The table with rows and columns of new places; nothing that is known is asked for again."""
+        """Return the table extended by new places; known distances are kept."""
         n = len(self._places)
         grown = np.empty((n + len(new), n + len(new)))
         grown[n:, n:] = self._drives.lengths(new)
@@ -56,7 +56,7 @@ class Distances:
         return grown
 
     def connected(self, a: Place, b: Place) -> bool:
-        """Whether there is a way from one to the other."""
+        """Return True if a drive leads from one place to the other."""
         try:
             self._drives.between(a, b)
         except DriveFault:

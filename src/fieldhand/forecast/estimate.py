@@ -1,4 +1,4 @@
-"""What a Task will take on every branch: metres, seconds and charge as distributions, and chances of running short."""
+"""Estimate of a Task on every branch: metres, seconds and charge as distributions, and overrun chances."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ __all__ = ["BranchEstimate", "Estimate", "Figure", "estimate", "explore", "limit
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Estimate:
-    """What a Task will take.
+    """The estimate of a Task.
 
     Attributes:
         branches: Every branch that was looked at; the first is the one on which every condition holds.
@@ -53,11 +53,11 @@ class Estimate:
 
     @property
     def complete(self) -> bool:
-        """Whether no place, no drive and no extreme can have been missed."""
+        """Return True if no place, drive or extreme can have been missed."""
         return self.explored.complete
 
     def as_record(self, *, every: bool = False) -> dict[str, object]:
-        """The figures as JSON: the worst branch, and how many branches there are; ``every``: with all of them."""
+        """Return the estimate as JSON: the worst branch and the number of branches; with ``every``, all of them."""
         worst = self.worst
         record: dict[str, object] = {
             "branches": len(self.branches),
@@ -97,7 +97,7 @@ class _CachedBranches:
 def explore(
     task: Task, site: Site, robot: RobotProfile, seed: int = 0, *, charge_percent: float = 100.0, draws: int = DRAWS
 ) -> Branches:
-    """Every branch of a Task, with missions drawn along each; asked again for the same, it has them."""
+    """Walk every branch of a Task with sampled missions; a repeated call returns the cached result."""
     return _explored(task, site, robot, seed, charge_percent, draws).explored
 
 
@@ -177,7 +177,7 @@ def _estimated(kept: _CachedBranches, task: Task, site: Site, robot: RobotProfil
 def _of_mandatory(
     kept: _CachedBranches, task: Task, site: Site, robot: RobotProfile, charge_percent: float
 ) -> tuple[str, ...]:
-    """The problems of a Task without what is optional."""
+    """Return the problems of a Task without its optional work."""
     part = mandatory_part(task)
     resources = resource_limits(part.constraints, robot, charge_percent)
     found = branches(
@@ -192,7 +192,7 @@ def _worst(estimates: Sequence[BranchEstimate]) -> BranchEstimate:
 
 
 def mandatory_part(task: Task) -> Task:
-    """The Task without its optional visits and steps."""
+    """Return the Task without its optional visits and steps."""
     return replace(task, composition=replace(task.composition, plan=_without_optional(task.composition.plan)))
 
 

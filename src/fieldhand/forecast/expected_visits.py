@@ -1,4 +1,4 @@
-"""Which optional visits a mission will probably make: the robot's own decisions, driven on paper."""
+"""Expected optional visits: the robot's own decisions, simulated for many missions."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ExpectedVisits:
-    """What will probably come of some optional visits.
+    """The expected outcome of some optional visits.
 
     Attributes:
         places: As many as missions make on average, the likeliest, in the order in which they are driven to.
@@ -60,7 +60,7 @@ def expected_visits(
     rng: np.random.Generator,
     before: ExpectedVisits | None = None,
 ) -> ExpectedVisits:
-    """What will come of optional visits where the walk is.
+    """Forecast the optional visits from the handler's current place.
 
     Args:
         walker: Has come to the node.
@@ -128,7 +128,7 @@ def _several(
     rng: np.random.Generator,
     warm: Sequence[int],
 ) -> Preview:
-    """Missions that make some of the visits."""
+    """Simulate missions that choose among several visits."""
     from fieldhand.orienteering.policy import State
     from fieldhand.orienteering.preview import preview
 
@@ -152,7 +152,7 @@ def _several(
 def _one(
     walker: ForecastHandler, visit: Visit, rest: RemainingWork, share: float, used: Floats, rng: np.random.Generator
 ) -> Preview:
-    """Missions that make the only visit that there is, where it adds no more than its share."""
+    """Simulate missions with a single optional visit, made where it adds no more than its share."""
     from fieldhand.orienteering.preview import Preview
 
     here, costs = walker.context.here, cost_model(walker.robot)
@@ -176,7 +176,7 @@ def _one(
 
 
 def _rest(walker: ForecastHandler, node: ForEach | OptionalStep, visits: Sequence[Visit]) -> RemainingWork:
-    """What must follow, from where a step ends, or from where a for-each begins."""
+    """Return the work that must follow, from the end of a step or the beginning of a for-each."""
     here, to_come = walker.context, walker.to_come()
     if node.is_optional_step:
         here = Context(here=visits[0].end, visited=here.visited, bound=here.bound)
@@ -192,7 +192,7 @@ def _rest(walker: ForecastHandler, node: ForEach | OptionalStep, visits: Sequenc
 
 
 def _share(walker: ForecastHandler, rest: RemainingWork) -> tuple[float, float, RiskAllowance]:
-    """The chance of running short without the visits, what they may add to it, and what that leaves for later ones."""
+    """Return the overrun chance without the visits, their share, and the allowance left for later visits."""
     task, robot = walker.task, walker.robot
     resources = resource_limits(task.constraints, robot, walker.charge_percent)
     allowance = walker.allowance

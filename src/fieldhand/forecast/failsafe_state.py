@@ -1,4 +1,4 @@
-"""Data between a robot that drives or works and the failsafe that foresees whether it still comes home."""
+"""State of a mission between two decisions, and the failsafe's forecast for it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Alarm = Literal["none", "turn_home", "out_of_reach"]
 
 @dataclass(frozen=True, kw_only=True)
 class FailsafeState:
-    """A robot between two decisions.
+    """The state of a robot between two decisions.
 
     Attributes:
         spent: Used since the mission began, the goal in hand included.
@@ -38,7 +38,7 @@ class FailsafeState:
 
 @dataclass(frozen=True, kw_only=True)
 class FailsafeForecast:
-    """A foreseen outcome.
+    """The forecast of the failsafe.
 
     Attributes:
         limit: Of which limit, where there is an alarm.

@@ -31,7 +31,7 @@ _FAULTS: tuple[Fault, ...] = ("action_failed", "drive_failed", "low_budget", "ab
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class FaultExits:
-    """What was found.
+    """The ways home after faults.
 
     Attributes:
         steps: A way home each, with the node after which it is driven.
@@ -92,7 +92,7 @@ def fault_exits(
 
 
 def _stops(walks: Sequence[Walk]) -> dict[tuple[int, int], WalkStep]:
-    """Each step at which a robot stands somewhere, by the number of its walk and its own."""
+    """Return each step at which the robot is at a place, by the numbers of its walk and step."""
     return {
         (w, k): step
         for w, walked in enumerate(walks)
@@ -102,7 +102,7 @@ def _stops(walks: Sequence[Walk]) -> dict[tuple[int, int], WalkStep]:
 
 
 def _some(distinct: dict[tuple[float, float], WalkStep], home: Place) -> list[tuple[tuple[float, float], WalkStep]]:
-    """All of some places, or as many as are driven from."""
+    """Return all places, or the sample of them from which ways home are computed."""
     each = list(distinct.items())
     if len(each) <= MAX_PLACES:
         return each
@@ -122,7 +122,7 @@ def _longest(
     robot: RobotProfile,
     leg_costs: LegCostSamples,
 ) -> Walk | None:
-    """The branch that takes longest until a fault and the way home from there."""
+    """Return the branch that takes longest until a fault and the way home from there."""
     speed = speed_of(task.constraints, robot)
     longest, most = None, -1.0
     before = {w: np.cumsum([s.seconds for s in walked.steps]) for w, walked in enumerate(walks)}
@@ -146,7 +146,7 @@ def _longest(
 def _ended(
     fault: Fault, walked: Walk, last: int, way: WalkStep, robot: RobotProfile, leg_costs: LegCostSamples
 ) -> Walk:
-    """A walk that a fault ends at one of its steps."""
+    """Return a walk cut off by a fault at one of its steps."""
     steps, samples = list(walked.steps[: last + 1]), MissionSamples(leg_costs)
     for step in steps:
         if step.drive is not None:
@@ -182,5 +182,5 @@ def _ended(
 
 
 def _again(step: WalkStep, robot: RobotProfile) -> Work:
-    """What it takes to try the last capture of an action again, as often as the robot does."""
+    """Return the work of retrying the last capture of an action as often as the robot does."""
     return Work() if step.node.act is None else retry_work(step.node.act, robot)

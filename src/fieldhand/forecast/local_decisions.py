@@ -1,4 +1,4 @@
-"""Conditions that only decide what is done on the spot: wherever they lead, the mission goes on from the same place."""
+"""Decisions that only affect the work at the current place, not where the mission continues."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from fieldhand.task.plan import Node, acts, walk
 
 
 def local_decisions(root: Node) -> tuple[str, ...]:
-    """What is decided by work alone: no drive, no place, no reading or label that is used later hangs on it.
+    """Return the decisions on which no drive, place, or later reading or label depends.
 
     At each visit of a loop such a decision can be made by itself, and the same answer at all of them takes most, or
     least. So the walks on which each of them is answered alike have every place and drive of a mission, and between
@@ -54,7 +54,7 @@ def _is_straight(body: Node) -> bool:
 
 
 def _used_outside(root: Node, node: Node) -> bool:
-    """Whether a reading that is bound in a node is tested anywhere else."""
+    """Return True if a reading bound in a node is tested elsewhere."""
     inside = {inner.id for inner in walk(node)}
     bound = {inner.reading for inner in walk(node)} - {""}
     for other in walk(root):

@@ -1,4 +1,4 @@
-"""What passes between the robot and the budget guard: where it is, what it has spent, where it could go next."""
+"""Data between the robot and the budget guard: position, resources used, possible visits, decisions."""
 
 from __future__ import annotations
 
@@ -72,18 +72,18 @@ class Visit:
 
     @property
     def work(self) -> Work:
-        """What it takes beside the drive to it."""
+        """Return the work of the visit, without the drive to it."""
         return Work(seconds=self.service_s, joules=self.service_j, metres=self.inside_m)
 
     @property
     def end(self) -> Place:
-        """Where it ends."""
+        """Return the place where the visit ends."""
         return self.place if self.leaves is None else self.leaves
 
 
 @dataclass(frozen=True, kw_only=True)
 class MissionState:
-    """What the guard decides on.
+    """The state of a mission that the guard decides on.
 
     Attributes:
         frames: The nodes in hand, outermost first; the last is about to drive or act.
@@ -99,7 +99,7 @@ class MissionState:
 
     @property
     def node(self) -> str:
-        """Id of the node that is about to drive or act."""
+        """Return the id of the node that is about to drive or act."""
         return self.frames[-1].node.id
 
 

@@ -1,4 +1,4 @@
-"""Optional work as visits, with the drives inside it."""
+"""Optional work as visits, including the drives within it."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _LOOKED_AT = 60
 
 
 class OptionalVisits:
-    """Makes visits of optional nodes.
+    """Builds visits from optional nodes.
 
     Args:
         task, site, robot, drives: The mission.
@@ -38,7 +38,7 @@ class OptionalVisits:
         self._task, self._site, self._robot, self._drives = task, site, robot, drives
 
     def of_places(self, node: ForEach, places: Sequence[Place], context: Context) -> tuple[Visit, ...]:
-        """The visits of an optional for-each.
+        """Return the visits of an optional for-each.
 
         Args:
             node: The for-each.
@@ -63,7 +63,7 @@ class OptionalVisits:
         return tuple(looked_at.get(k, replace(visit, inside_m=longest)) for k, visit in enumerate(visits))
 
     def of_step(self, node: OptionalStep, context: Context) -> Visit:
-        """An optional step: from where its body first drives to, on the branch that takes most.
+        """Return the visit of an optional step, on its most demanding branch.
 
         Args:
             node: The step.
@@ -80,7 +80,7 @@ class OptionalVisits:
         return replace(self._longest(node.body, context), reward=node.reward)
 
     def _inside(self, node: ForEach, visit: Visit, context: Context) -> Visit:
-        """A visit of a for-each with what its body drives; where that cannot be told, without."""
+        """Return a visit with the drives of its body, or without them if they cannot be resolved."""
         there = arrived(context, [visit])
         if node.label:
             there = replace(there, bound={**there.bound, node.label: (visit.place,)})
@@ -94,7 +94,7 @@ class OptionalVisits:
         return replace(visit, inside_m=first + found.inside_m, leaves=found.end)
 
     def _longest(self, body: Node, context: Context) -> Visit:
-        """The visit that a body makes on the branch that takes most."""
+        """Return the visit that a body makes on its most demanding branch."""
         speed, work = speed_of(self._task.constraints, self._robot), work_of(body, self._robot)
         longest, most = Visit(place=context.here), -1.0
         for holds in every_answer((body,)):

@@ -1,4 +1,4 @@
-"""Which optional visits and steps a walk takes: those that missions probably do, or those that its answers name."""
+"""Optional visits and steps that a walk includes: the likely ones, or those that its answers select."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ class ScriptedOptionalWork:
 
 
 def _state(walker: ForecastHandler) -> Iterator[object]:
-    """All that decides which optional visits missions make from here on."""
+    """Yield everything that determines the optional visits of missions from here on."""
     context, spent = walker.context, walker.spent
     yield len(walker.steps), walker.allowance, walker.to_come()
     yield context.here, context.here.stand, tuple(context.visited), tuple(context.bound.items())

@@ -1,4 +1,4 @@
-"""Optional visits as an orienteering problem: the bridge from site and robot to :mod:`fieldhand.orienteering`."""
+"""Optional visits as a problem of :mod:`fieldhand.orienteering`."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def visits_problem(
     accepted: float,
     max_visits: int | None,
 ) -> Problem:
-    """The orienteering problem of a robot that stands before optional visits.
+    """Return the orienteering problem of a robot that chooses among optional visits.
 
     Args:
         legs: Between here, the candidates, and where the rest begins.
@@ -76,7 +76,7 @@ def visits_problem(
 def left_before(
     resources: Sequence[ResourceLimit], robot: RobotProfile, spent: Spent, rest: RemainingWork
 ) -> tuple[float, ...]:
-    """Metres left of each resource for optional visits, once the work of what follows is set aside."""
+    """Return metres left of each resource for optional visits after the following work is subtracted."""
     return tuple(r.metres_left(spent) - r.metres_of(rest.work, robot) for r in resources)
 
 

@@ -1,4 +1,4 @@
-"""Which answers a condition can have on a branch: what was read, what may still be read, what the site knows.
+"""Answers that a condition can have on a branch, given the readings taken and the site's data.
 
 Of a reading only its place among the thresholds of the plan matters, so a few values stand for all that a sensor can
 give. An answer leaves those values that go with it, and a later test of the same reading is held to them: no branch is
@@ -54,7 +54,7 @@ class ConditionOutcomes:
         self._found: dict[object, _Outcome] = {}
 
     def measured(self, action: str) -> dict[str, _Values]:
-        """What an action may read: values that stand for all others, by quantity."""
+        """Return representative values of each quantity that an action measures."""
         known = self._robot.action.get(action)
         return {q: self._values.get(q, (0.0,)) for q in known.measures} if known else {}
 
@@ -66,7 +66,7 @@ class ConditionOutcomes:
         tested: _Tested,
         values: tuple[_Values, ...],
     ) -> _Outcome | None:
-        """What can come of a test, given the values that each of some readings may have; None where that is too much.
+        """Return the possible results of a test, given the values that each reading may have; None if too many.
 
         Args:
             node_id: Whose condition it is.
@@ -99,7 +99,7 @@ class ConditionOutcomes:
 
 
 class BranchReadings:
-    """What was read on one branch.
+    """The readings taken on one branch.
 
     Args:
         outcomes: Shared by the branches.
@@ -112,28 +112,28 @@ class BranchReadings:
         self._takings = 0
 
     def take(self, reading: str, action: str) -> None:
-        """An action has bound a reading anew."""
+        """Record that an action has taken a reading anew."""
         self._takings += 1
         self._bound[reading] = (self._takings, action)
         for quantity, values in self._outcomes.measured(action).items():
             self._left[self._takings, quantity] = values
 
     def lose(self, reading: str) -> None:
-        """The reading is unknown: its action has failed."""
+        """Record that a reading is unknown because its action failed."""
         self._bound.pop(reading, None)
 
     def missing(self, condition: Condition) -> tuple[str, ...]:
-        """The readings that a condition tests and nothing has taken."""
+        """Return the readings that a condition tests and nothing has taken."""
         return tuple(sorted(r for r in c.readings(condition) if r not in self._bound))
 
     def answers(self, node_id: str, condition: Condition, here: Place) -> tuple[bool, ...]:
-        """The answers that a condition can have now, at least one."""
+        """Return the answers that a condition can have now, at least one."""
         tested, values = self._tested(condition)
         found = self._outcomes.outcome(node_id, condition, here, tested, values)
         return (True, False) if found is None else found.answers
 
     def settle(self, node_id: str, condition: Condition, here: Place, answer: bool) -> None:
-        """The condition had that answer: what was read is as that says."""
+        """Restrict the readings to values consistent with an answer."""
         tested, values = self._tested(condition)
         found = self._outcomes.outcome(node_id, condition, here, tested, values)
         if found is None:
@@ -152,7 +152,7 @@ class BranchReadings:
 
 
 def _standing_for(root: plan.Node, robot: RobotProfile) -> Iterator[tuple[str, _Values]]:
-    """For each quantity values within its range: its thresholds in the plan, one between any two, and the ends."""
+    """Yield per quantity representative values: its thresholds, one value between any two, and its range."""
     thresholds: dict[str, set[float]] = {}
     for node in plan.walk(root):
         condition = node.tested

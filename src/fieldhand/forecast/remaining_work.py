@@ -1,4 +1,4 @@
-"""What still has to be done of a plan under way: the mandatory steps that follow, and the way home.
+"""Work that remains of a plan under way: the mandatory steps that follow, and the way home.
 
 The nodes in hand (:class:`fieldhand.task.run.StackFrame`) hold what is left of them. Which visits of the loops in hand
 are still to come is told by who asks. Of a repeat all further rounds are left, as if its condition never ended it.
@@ -35,7 +35,7 @@ _MAX_CONDITIONS = 4
 
 @dataclass(frozen=True, kw_only=True)
 class RemainingWork:
-    """What follows, on the branch that takes most.
+    """The remaining work on the most demanding branch.
 
     Attributes:
         stops: Every place that is driven to, home included; none where nothing more is driven.
@@ -53,12 +53,12 @@ class RemainingWork:
 
     @cached_property
     def way(self) -> RouteCost:
-        """The legs from the first stop on, and the work."""
+        """Return the legs from the first stop on, with the work."""
         return route_cost(self.legs_m, self.work)
 
     @property
     def first(self) -> Place | None:
-        """Where it begins; None where nothing more is driven."""
+        """Return the first place; None if no drive remains."""
         return self.stops[0] if self.stops else None
 
 
@@ -88,14 +88,14 @@ def remaining_work_after(
 
 
 def whole_mission_work(task: Task, site: Site, robot: RobotProfile, drives: Drives, context: Context) -> RemainingWork:
-    """What must be done of a whole Task from where a mission begins, as :func:`remaining_work_after` says of a part."""
+    """Return the mandatory work of a whole Task from where a mission begins."""
     return _most(task, site, robot, drives, (task.composition.plan,), context)
 
 
 def _most(
     task: Task, site: Site, robot: RobotProfile, drives: Drives, nodes: Sequence[Node], context: Context
 ) -> RemainingWork:
-    """The branch of some nodes, and the way home, that takes most."""
+    """Return the most demanding branch of some nodes with the way home."""
     speed = speed_of(task.constraints, robot)
     fixed = not any(_is_relative(node) for node in nodes)
     worst, most = RemainingWork(), -1.0
@@ -127,7 +127,7 @@ def following(frames: Sequence[StackFrame]) -> tuple[Node, ...]:
 
 
 def arrived(context: Context, visits: Sequence[Visit]) -> Context:
-    """Where the mission stands after some visits."""
+    """Return the context of the mission after some visits."""
     if not visits:
         return context
     known = set(context.visited)
@@ -137,7 +137,7 @@ def arrived(context: Context, visits: Sequence[Visit]) -> Context:
 
 
 def _joined(visits: Sequence[Visit], rest: RemainingWork, drives: Drives) -> RemainingWork:
-    """Some visits, and then the rest."""
+    """Return some visits followed by the remaining work."""
     legs = [_length(drives, a.end, b.place) for a, b in itertools.pairwise(visits)]
     if rest.first is not None:
         legs.append(_length(drives, visits[-1].end, rest.first))
@@ -180,13 +180,13 @@ def _walk_rest(walker: ForecastHandler, nodes: Sequence[Node]) -> RemainingWork:
 
 
 def _is_relative(following: Node) -> bool:
-    """Whether places in it hang on where the robot is or has been by then."""
+    """Return True if places in a node depend on where the robot is or has been."""
     selectors = (node.selector for node in plan.walk(following))
     return any(s is not None and s.relative for s in selectors)
 
 
 def every_answer(nodes: Sequence[Node]) -> list[Answer]:
-    """Every way to answer the first few conditions of some nodes; those beyond them hold, or none of them does."""
+    """Return every combination of answers to the first few conditions; the others are answered alike."""
     asked = [n.id for node in nodes for n in plan.walk(node) if n.tested is not None]
     if not asked:
         return [lambda _: False]

@@ -1,4 +1,4 @@
-"""A walk through a Task on paper: the answers to what its nodes ask (:mod:`fieldhand.task.instructions`).
+"""The forecast's handler of plan instructions: it walks a Task along one branch without a robot.
 
 Orders come from :mod:`fieldhand.forecast.visit_order`, as they do on the robot.
 """
@@ -82,7 +82,7 @@ class PlannedVisits:
         self._places, self._work, self._begun = places, work or Work(), 0
 
     def next(self) -> Place | None:
-        """The next place; None after the last."""
+        """Return the next place; None after the last."""
         if self._begun == len(self._places):
             return None
         self._begun += 1
@@ -90,7 +90,7 @@ class PlannedVisits:
 
     @property
     def to_come(self) -> tuple[Visit, ...]:
-        """Those that are not begun."""
+        """Return the visits not begun."""
         seconds, joules = self._work.seconds, self._work.joules
         return tuple(Visit(place=p, service_s=seconds, service_j=joules) for p in self._places[self._begun :])
 
@@ -147,7 +147,7 @@ class ForecastHandler(WalkState):
         )
 
     def along(self, node: Node) -> tuple[WalkStep, ...]:
-        """The steps of one node, with no exit after them, as far as its places can be told from here.
+        """Return the steps of one node without an exit, as far as its places resolve from here.
 
         Raises:
             PlaceError: Its first place cannot be told.
@@ -216,7 +216,7 @@ class ForecastHandler(WalkState):
         return None
 
     def _begin_visits(self, node: ForEach) -> PlannedVisits:
-        """The visits of a for-each, in the order in which they are made."""
+        """Return the visits of a for-each in the order in which they are made."""
         places = visit_order.places_of(node, node.select, self.site, self.context)
         if not node.optional:
             home = visit_order.home_if_last(self.task, self.site, node.id, self.context.here)

@@ -1,4 +1,4 @@
-"""What a mission may use: its budgets and the battery's reserve, all in metres of driving.
+"""Resource limits of a mission: its budgets and the battery's reserve, all in metres of driving.
 
 A leg's random cost counts as that many metres driven; from it follow its time (at the robot's speed) and its energy.
 So every resource is the one random number of metres times a factor of its own, plus what work takes; dividing by the
@@ -27,7 +27,7 @@ _LEAST_PER_METRE = 1e-9
 
 @dataclass(frozen=True, kw_only=True)
 class ResourceLimit:
-    """Something of which a mission may use ``limit``.
+    """A resource of which a mission may use ``limit``.
 
     Attributes:
         kind: Which budget, or ``reserve``: the charge above what must be left at the end.
@@ -42,7 +42,7 @@ class ResourceLimit:
     per_metre: float
 
     def of_work(self, robot: RobotProfile, work: Work) -> float:
-        """What work at a place uses: metres driven within it, its seconds, and the joules of its actions."""
+        """Return what work at a place uses: metres driven within it, its seconds, the joules of its actions."""
         driven = work.metres * self.per_metre
         match self.kind:
             case "distance_m":
@@ -53,11 +53,11 @@ class ResourceLimit:
                 return driven + robot.percent(0.0, work.seconds, work.joules)
 
     def metres_of(self, work: Work, robot: RobotProfile) -> float:
-        """What work uses, as metres of driving."""
+        """Return what work uses, as metres of driving."""
         return self.of_work(robot, work) / self.per_metre
 
     def used(self, spent: Spent) -> float:
-        """What has been used of it."""
+        """Return what has been used of the resource."""
         match self.kind:
             case "distance_m":
                 return spent.metres
@@ -67,24 +67,24 @@ class ResourceLimit:
                 return spent.percent
 
     def metres_left(self, spent: Spent) -> float:
-        """How far the robot could drive on what is left, did it do nothing else; negative if it is overspent."""
+        """Return the metres that could be driven on what is left; negative if overspent."""
         return (self.limit - self.used(spent)) / self.per_metre
 
 
 def speed_of(constraints: Constraints, robot: RobotProfile) -> float:
-    """Metres per second: the robot's own, or the Task's where that is slower."""
+    """Return the speed in m/s: the robot's, or the Task's if slower."""
     return robot.speed_m_s if constraints.speed_m_s is None else min(constraints.speed_m_s, robot.speed_m_s)
 
 
 def reserve_percent(constraints: Constraints, robot: RobotProfile) -> float:
-    """Charge in percent that must be left at the end."""
+    """Return the charge in percent that must be left at the end."""
     return robot.energy.reserve_percent if constraints.reserve_percent is None else constraints.reserve_percent
 
 
 def resource_limits(
     constraints: Constraints, robot: RobotProfile, charge_percent: float = 100.0
 ) -> tuple[ResourceLimit, ...]:
-    """Every limit of a mission: its budgets in their order, then the battery's reserve, which is always one.
+    """Return every limit of a mission: its budgets in their order, then the battery's reserve.
 
     Args:
         constraints: The Task's.
@@ -124,7 +124,7 @@ def orienteering_limits(
     later: Work,
     accepted: float,
 ) -> tuple[Limit, ...]:
-    """The limits of an orienteering problem, in metres.
+    """Return the limits of an orienteering problem, in metres.
 
     Args:
         resources: What may be used.

@@ -1,4 +1,4 @@
-"""One chance of running short for a whole mission, shared between what must be done and what may be left out.
+"""The accepted failure probability of a mission, shared between mandatory work and optional visits.
 
 What must be done comes first: the chance that it alone runs short is taken off what the Task accepts. The rest may be
 spent on optional visits. Each run of them (a for-each, an optional step) may raise the chance of the whole mission, as
@@ -37,7 +37,7 @@ class RiskAllowance:
 
     @staticmethod
     def at_start(accepted: Sequence[float], mandatory: Floats) -> RiskAllowance:
-        """At a mission's beginning.
+        """Return the allowance at the beginning of a mission.
 
         Args:
             accepted: For each limit.
@@ -49,9 +49,9 @@ class RiskAllowance:
         return RiskAllowance(accepted=tuple(bound.tolist()), left=tuple(left.tolist()), mandatory_fits=lasts)
 
     def share(self, runs: int) -> float:
-        """What the next of so many runs of optional visits may add."""
+        """Return what the next of some runs of optional visits may add."""
         return min(self.left) / max(runs, 1)
 
     def reduced_by(self, added: float) -> RiskAllowance:
-        """After a run that is expected to add so much."""
+        """Return the allowance after a run that is expected to add a given probability."""
         return replace(self, left=tuple(max(0.0, x - max(0.0, added)) for x in self.left))

@@ -1,4 +1,4 @@
-"""A way with the work along it, and the chance that it takes more than is left."""
+"""The cost of a route with the work along it, and the chance that it exceeds a limit."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class RouteCost:
-    """Legs, and the work along them.
+    """The cost of a route: power sums of its leg lengths, and the work along it.
 
     Attributes:
         sums: Of the legs' lengths in metres, of their squares, and of their cubes: all that their random cost hangs on.
@@ -35,27 +35,27 @@ class RouteCost:
 
 
 def route_cost(legs_m: Iterable[float], work: Work | None = None) -> RouteCost:
-    """The way over some legs."""
+    """Return the cost of a route over some legs."""
     legs = np.asarray(tuple(legs_m), dtype=np.float64)
     sums = (float(legs.sum()), float((legs**2).sum()), float((legs**3).sum()))
     return RouteCost(sums=sums, work=work or Work())
 
 
 def cost_model(robot: RobotProfile) -> CostModel:
-    """What a metre of a leg costs."""
+    """Return the cost model of a leg."""
     alpha = robot.leg_cost.alpha
     return Deterministic() if alpha >= 1.0 else ShiftedExponential(alpha)
 
 
 def mean_metres(way: RouteCost, resources: Sequence[ResourceLimit], robot: RobotProfile) -> Floats:
-    """What a way takes of each resource on average, in metres of driving."""
+    """Return what a route takes of each resource on average, in metres of driving."""
     return np.array([way.sums[0] + r.metres_of(way.work, robot) for r in resources])
 
 
 def overrun_chances(
     way: RouteCost, resources: Sequence[ResourceLimit], robot: RobotProfile, spent: Spent, used: Floats | None = None
 ) -> Floats:
-    """For each resource the chance that a way takes more of it than is left, shape (resources,).
+    """Return for each resource the chance that a route takes more than is left, shape (resources,).
 
     Args:
         way, resources, robot: What is to be done, and what may be used for it.

@@ -1,4 +1,4 @@
-"""What a mission uses along a walk, as a distribution: many missions at once, each with its own luck."""
+"""Sampled costs of a walk: many missions at once, each with its own leg costs."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _AT_A_TIME = 64
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SampledUse:
-    """What each of some missions uses, shape (missions,) each.
+    """Resources used by each sampled mission, shape (missions,) each.
 
     Attributes:
         metres: What the legs cost.
@@ -39,7 +39,7 @@ class SampledUse:
 
 
 class LegCostSamples:
-    """What legs cost, shared by the walks of a mission: the same legs cost the same on every branch.
+    """Sampled leg costs shared by all walks of a mission: equal legs cost the same on every branch.
 
     So two branches differ by what they do and not by their luck, and where they drive the same legs those are drawn
     once.
@@ -55,7 +55,7 @@ class LegCostSamples:
         self._known: dict[tuple[int, tuple[float, ...]], Floats] = {}
 
     def cost(self, first: int, legs: tuple[float, ...]) -> Floats:
-        """What some legs in a row cost each mission, shape (missions,).
+        """Return what consecutive legs cost each mission, shape (missions,).
 
         Args:
             first: How many legs a mission drives before them.
@@ -73,7 +73,7 @@ class LegCostSamples:
 
 
 class MissionSamples:
-    """Missions along one walk.
+    """Missions sampled along one walk.
 
     Args:
         leg_costs: What legs cost.
@@ -90,12 +90,12 @@ class MissionSamples:
 
     @property
     def seed(self) -> int:
-        """Of what is random."""
+        """Return the seed."""
         return self._leg_costs.seed
 
     @property
     def metres(self) -> Floats:
-        """What the legs so far cost each mission, shape (missions,)."""
+        """Return what the legs so far cost each mission, shape (missions,)."""
         if self._pending:
             self._metres = self._metres + self._leg_costs.cost(self._legs, tuple(self._pending))
             self._legs, self._pending = self._legs + len(self._pending), []
@@ -103,7 +103,7 @@ class MissionSamples:
 
     @property
     def used(self) -> SampledUse:
-        """So far."""
+        """Return the resources used so far."""
         none = np.zeros(self._leg_costs.draws)
         return SampledUse(
             metres=self.metres,
@@ -112,7 +112,7 @@ class MissionSamples:
         )
 
     def drive(self, metres: float) -> None:
-        """All of them drive a leg; the one after optional visits begins where each mission made its last."""
+        """Add a leg for all missions; after optional visits it begins at each mission's last visit."""
         if self._leaving is not None:
             self._metres = self.metres + self._leaving
             self._leaving = None
@@ -120,11 +120,11 @@ class MissionSamples:
             self._pending.append(metres)
 
     def work(self, work: Work) -> None:
-        """All of them do some work."""
+        """Add work for all missions."""
         self._work = self._work + work
 
     def visit(self, preview: Preview, works: Sequence[Work]) -> None:
-        """Each makes its optional visits, with the work at each of them; the preview's vertices count from 1."""
+        """Add each mission's optional visits with their work; the preview's vertices count from 1."""
         each = [works[vertex - 1] for vertex in preview.vertices.tolist()]
         self._metres = self.metres + preview.legs + preview.visited @ np.array([w.metres for w in each])
         self._seconds = self._seconds + preview.visited @ np.array([w.seconds for w in each])

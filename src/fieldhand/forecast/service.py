@@ -1,4 +1,4 @@
-"""What the work at one place takes, drives not included, and what a visit is worth."""
+"""Time and energy of the work at one place, without drives, and the reward of a visit."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from fieldhand.task.plan import Act, Node
 
 
 def service_of(node: Node, robot: RobotProfile) -> tuple[float, float]:
-    """Seconds and joules of a node's actions on its longest branch.
+    """Return seconds and joules of a node's actions on its longest branch.
 
     An ``If`` counts the longer of its two sides, a ``Try`` its body and then its otherwise, a ``Repeat`` all of its
     rounds. A ``ForEach`` inside counts its ``at_most`` visits, or one where the site decides how many there are. Drives
@@ -34,7 +34,7 @@ def service_of(node: Node, robot: RobotProfile) -> tuple[float, float]:
 
 
 def retry_work(node: Act, robot: RobotProfile) -> Work:
-    """What it takes to try a capture again as often as the robot does, with the waits between, until it has failed."""
+    """Return the work of retrying a capture until it has failed for good, with the waits between."""
     action = robot.action[node.action]
     retries = robot.retries if action.retries is None else action.retries
     wait_s = robot.patience.retry_wait_s if action.retry_wait_s is None else action.retry_wait_s
@@ -42,13 +42,13 @@ def retry_work(node: Act, robot: RobotProfile) -> Work:
 
 
 def work_of(node: Node, robot: RobotProfile) -> Work:
-    """:func:`service_of` as work."""
+    """Return :func:`service_of` as work."""
     seconds, joules = service_of(node, robot)
     return Work(seconds=seconds, joules=joules)
 
 
 def reward_of(node: Node, place: Place, site: Site) -> float:
-    """What a visit is worth: the tree's attribute that the for-each names (0 where it has none), else 1."""
+    """Return the reward of a visit: the tree's attribute that the for-each names (0 if it has none), else 1."""
     if not node.rewarded_by:
         return 1.0
     tree = site.by_id.get(place.id) if place.kind == "tree" else None

@@ -26,7 +26,7 @@ MAX_DOUBLE = 2000
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class VisitDistances:
-    """Metres between vertices, in one of the forms that a problem takes; the others are empty."""
+    """Metres between vertices in one of the forms that a problem takes; the others are empty."""
 
     distances: Floats = field(default_factory=lambda: np.zeros((0, 0)))
     coordinates: Floats | None = None
@@ -41,7 +41,7 @@ def visit_distances(
     between: Callable[[Sequence[Place]], Floats] | None = None,
     table: int = MAX_DOUBLE,
 ) -> VisitDistances:
-    """Between here, optional visits, and where the rest begins.
+    """Return distances between the robot, the optional visits, and the first place of the remaining work.
 
     Args:
         here: Where the robot is: the first vertex.
@@ -79,7 +79,7 @@ def visit_distances(
 
 @dataclass(kw_only=True)
 class _CachedDistances:
-    """The distances that were last asked for over some drives: forecast and guard ask for the same."""
+    """The distances last computed for some drives; forecast and guard use the same."""
 
     stands: tuple[tuple[float, float], ...]
     legs: VisitDistances | None = None

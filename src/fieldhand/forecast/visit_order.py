@@ -1,4 +1,4 @@
-"""In which order places are visited. The preview and the robot both ask here, so the path drawn is the path driven."""
+"""The order in which places are visited; preview and robot share it, so the drawn path is the driven one."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _ORDERS = 64
 
 
 def drives_for(site: Site, robot: RobotProfile) -> Drives:
-    """How this robot drives on this site: half its width stays clear of tree lines and of what it must keep out of.
+    """Return the drives of a robot on a site, clear of tree lines and keep-outs by half its width.
 
     The same object for the same site and robot: it remembers the drives that it found.
     """
@@ -42,18 +42,18 @@ def drives_for(site: Site, robot: RobotProfile) -> Drives:
 
 
 def start_place(drives: Drives) -> Place:
-    """Where a mission starts, with where the robot stands there."""
+    """Return the place where a mission starts, with the robot's stand there."""
     return drives.stands((drives.site.start,))[0]
 
 
 def with_stands(drives: Drives, here: Place, places: Sequence[Place]) -> tuple[Place, ...]:
-    """Places of a visit list, each with where the robot will stand; it stays where it is for the place in hand."""
+    """Return the places with the robot's stand at each; it stays put for the current place."""
     at = {p.xy: here for p in (here,) if here.stand is not None and p.kind != "point"}
     return drives.stands([at.get(p.xy, p) for p in places], here)
 
 
 def reachable(drives: Drives, places: Sequence[Place]) -> tuple[tuple[Place, ...], tuple[Place, ...]]:
-    """The places that can be driven to, and those that never can."""
+    """Return the reachable places and the others."""
     closed = drives.problems(places)
     return (
         tuple(p for p, reason in zip(places, closed, strict=True) if not reason),
@@ -62,7 +62,7 @@ def reachable(drives: Drives, places: Sequence[Place]) -> tuple[tuple[Place, ...
 
 
 def order_visits(drives: Drives, here: Place, places: Sequence[Place], home: Place | None) -> tuple[int, ...]:
-    """The order of ``places`` that drives least from ``here``, and then to ``home`` where that is given.
+    """Return the order of ``places`` with the least driving from ``here``, and on to ``home`` if given.
 
     Args:
         drives: The ways of the site.
@@ -98,7 +98,7 @@ def order_visits(drives: Drives, here: Place, places: Sequence[Place], home: Pla
 def visits_in_order(
     node: ForEach, drives: Drives, here: Place, places: Sequence[Place], home: Place | None
 ) -> tuple[Place, ...]:
-    """The places that a for-each will drive to, in their order, each with its stand.
+    """Return the places that a for-each drives to, in order, each with its stand.
 
     ``at_most`` keeps the first of a given order; where the order is free, the nearest and from there the nearest again.
     """
@@ -115,7 +115,7 @@ def visits_in_order(
 
 
 def steps_in_order(node: AnyOrder, site: Site, drives: Drives, context: Context, home: Place | None) -> tuple[int, ...]:
-    """The order of an any-order set's steps that drives least between the places where they begin.
+    """Return the order of an any-order set's steps with the least driving between where they begin.
 
     Where a step ends does not count; a step with several places begins at the nearest of them; steps without a place of
     their own come last, as they stand, and so do optional ones that cannot be driven to.
@@ -137,7 +137,7 @@ def steps_in_order(node: AnyOrder, site: Site, drives: Drives, context: Context,
 
 
 def first_places(node: Node, site: Site, context: Context) -> tuple[Place, ...]:
-    """The places that a node begins with: those of its first selector; none where it stays at the place in hand."""
+    """Return the places of a node's first selector; none if it stays at the current place."""
     from fieldhand.places.resolution import resolve
 
     for inner in plan.walk(node):
@@ -152,7 +152,7 @@ def first_places(node: Node, site: Site, context: Context) -> tuple[Place, ...]:
 
 
 def place_of(node: Node, selector: Selector, site: Site, context: Context) -> Place:
-    """The place of a selector that must give one.
+    """Return the place of a selector that must give exactly one.
 
     Raises:
         PlaceError: It gives none, or several; ``where`` names the node.
@@ -166,7 +166,7 @@ def place_of(node: Node, selector: Selector, site: Site, context: Context) -> Pl
 
 
 def places_of(node: Node, selector: Selector, site: Site, context: Context) -> tuple[Place, ...]:
-    """The places of a selector, at least one.
+    """Return the places of a selector, at least one.
 
     Raises:
         PlaceError: It gives none; ``where`` names the node.
@@ -187,7 +187,7 @@ def places_of(node: Node, selector: Selector, site: Site, context: Context) -> t
 
 
 def at_node(error: PlaceError, node: Node) -> PlaceError:
-    """The error with the plan node in which the place is named."""
+    """Return the error with the plan node that names the place."""
     if error.where == node.id or error.where.startswith(f"{node.id}, "):
         return error
     where = joined(", ", (node.id, error.where)) if error.where else node.id
@@ -195,13 +195,13 @@ def at_node(error: PlaceError, node: Node) -> PlaceError:
 
 
 def ends_plan(root: Node, node_id: str) -> bool:
-    """Whether nothing follows a node: no later step of a sequence around it, no next round of a loop around it."""
+    """Return True if nothing follows a node in the plan."""
     way = way_to(root, node_id)
     return bool(way) and not any(outer.goes_on_after(inner) for outer, inner in itertools.pairwise(way))
 
 
 def way_to(root: Node, node_id: str) -> tuple[Node, ...]:
-    """The nodes from the root of a plan to the one with this id, both included; empty if there is none."""
+    """Return the nodes from the root of a plan to a node, both included; empty if there is none."""
     if root.id == node_id:
         return (root,)
     for child in root.children:
@@ -212,7 +212,7 @@ def way_to(root: Node, node_id: str) -> tuple[Node, ...]:
 
 
 def home_if_last(task: Task, site: Site, node_id: str, here: Place) -> Place | None:
-    """Where the robot goes right after a node: home if the node ends the plan and the mission does not end on the spot.
+    """Return home if a node ends the plan and the mission ends there, else None.
 
     The rule for :func:`order_visits`: home is given to it only when the node ends the plan.
     """
@@ -222,7 +222,7 @@ def home_if_last(task: Task, site: Site, node_id: str, here: Place) -> Place | N
 
 
 def _nearest_neighbours(lengths: np.ndarray[tuple[int, ...], np.dtype[np.float64]], count: int) -> list[int]:
-    """Positions (counted without the first row) of the nearest from the first row, then the nearest from there."""
+    """Return positions by nearest neighbour, starting from the first row."""
     far = lengths.copy()
     far[:, 0] = np.inf
     at, chain = 0, []

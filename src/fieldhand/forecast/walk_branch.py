@@ -1,4 +1,4 @@
-"""A Task walked through without a robot: where it drives, in which order, what it does there, along one branch."""
+"""Walk a Task along one branch without a robot: drives, order and work."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def walk_branch(
     charge_percent: float = 100.0,
     optional: OptionalWorkPolicy | None = None,
 ) -> Walk:
-    """Walk a Task from the start of the site to its exit, whatever the answers: also a branch that cannot be.
+    """Walk a Task from the start of the site to its exit for any answers, even on an impossible branch.
 
     Args:
         task: What to walk.

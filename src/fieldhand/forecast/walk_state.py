@@ -1,4 +1,4 @@
-"""What a walk leaves behind: its steps and answers, where it is, what it has used."""
+"""The state of a walk: its steps and answers, its place, the resources used."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def _always(node_id: str) -> bool:  # noqa: ARG001
 
 @dataclass(frozen=True, kw_only=True)
 class Answers:
-    """Who answers what a walk cannot know.
+    """Sources of the answers that a walk cannot know.
 
     Attributes:
         holds: Asked for the id of each ``If`` that is reached, and of a loop with ``until`` after each of its rounds.
@@ -46,7 +46,7 @@ class Answers:
     taken: Answer = never
 
     def of(self, kind: DecisionKind) -> Answer:
-        """Who answers that."""
+        """Return the source of answers of a kind."""
         by_kind: dict[DecisionKind, Callable[[str], bool]] = {
             "holds": self.holds,
             "fails": self.fails,
@@ -57,7 +57,7 @@ class Answers:
 
 
 class WalkState:
-    """Where a walk is and has been.
+    """The state of a walk.
 
     Args:
         task, site, robot, drives: The mission.

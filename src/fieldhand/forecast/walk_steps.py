@@ -1,4 +1,4 @@
-"""What a walk through a Task consists of."""
+"""The steps and decisions of a walk through a Task."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class Decision:
 
 @dataclass(frozen=True, kw_only=True)
 class VisitForecast:
-    """What will probably come of optional visits.
+    """The forecast of optional visits.
 
     Attributes:
         visits: How many missions make on average.
@@ -118,11 +118,11 @@ class Walk:
 
     @property
     def legs_m(self) -> tuple[float, ...]:
-        """Length of each leg in metres, the way home included."""
+        """Return the length of each leg in metres, including the way home."""
         return tuple(s.drive.length_m for s in self.steps if s.drive is not None)
 
     @property
     def work(self) -> tuple[float, float]:
-        """Seconds and joules of all actions."""
+        """Return seconds and joules of all actions."""
         acts = [s for s in self.steps if s.kind == "act"]
         return (sum(s.seconds for s in acts), sum(s.joules for s in acts))

@@ -1,4 +1,4 @@
-"""Whether a way home that nobody asked for is worth its share of a budget."""
+"""Check whether an assumed way home takes too large a share of a budget for optional visits."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ MAX_SHARE = 1 / 3
 
 
 def excessive_way_home(task: Task, site: Site, robot: RobotProfile, then: Then) -> float | None:
-    """Metres of the way home from the start, where that alone takes much of a budget for optional visits.
+    """Return the metres of the way home from the start if it takes much of a budget for optional visits.
 
     A mission that visits as many trees as a budget allows would spend the budget on the way home in place of trees.
 

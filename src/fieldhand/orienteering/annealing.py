@@ -1,4 +1,4 @@
-"""A fixed route that is improved piece by piece, as long as its caller wants."""
+"""Simulated annealing of a fixed route."""
 
 from __future__ import annotations
 
@@ -71,18 +71,18 @@ class Annealing:
 
     @property
     def best(self) -> Ints:
-        """Stops of the best route so far; of the one it began with where none keeps to the limits."""
+        """Return the stops of the best route so far, or of the initial route if none keeps to the limits."""
         if self._record[0] < 0.0:
             return self._route()
         return self._best[: int(self._record[2])].copy()
 
     @property
     def reward(self) -> float:
-        """Of the best route so far; below 0 where none keeps to the limits."""
+        """Return the reward of the best route so far; negative if none keeps to the limits."""
         return float(self._record[0])
 
     def improve(self, rounds: int, heat: float = HOT, done: float = 0.0, then: float = 1.0) -> None:
-        """So many rounds.
+        """Run a number of rounds of annealing.
 
         Args:
             rounds: How many.
@@ -110,6 +110,6 @@ class Annealing:
 
 
 def stops_of(stops: Sequence[int], free: Ints) -> Ints:
-    """Those of ``stops`` that are free, in their order."""
+    """Return the stops that are free, in their order."""
     inside = set(free.tolist())
     return np.array([v for v in stops if v in inside], dtype=np.int64)

@@ -1,4 +1,4 @@
-"""What a leg costs: its length times a random factor with mean 1, drawn anew for every leg."""
+"""Distributions of the cost of a leg: its length times an independent random factor with mean 1."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ class CostModel(Protocol):
     """The distribution of the factor, which has mean 1."""
 
     def cumulants(self) -> tuple[float, float]:
-        """Its variance and its third central moment."""
+        """Return the variance and the third central moment of the factor."""
         ...
 
     def quantile(self, probability: Floats) -> Floats:
-        """The inverse of its distribution function, elementwise."""
+        """Return the quantiles of the factor, elementwise."""
         ...
 
     def draw(self, rng: np.random.Generator, size: int) -> Floats:
-        """So many independent factors."""
+        """Draw independent factors."""
         ...
 
 
@@ -119,7 +119,7 @@ class Lognormal:
 
 @dataclass(frozen=True, eq=False)
 class Empirical:
-    """What was measured: cost by length of legs that were driven, at least two.
+    """Factors that were measured: cost divided by length of at least two legs.
 
     The samples are divided by their mean; lengths are to be scaled by it where it is not 1.
     """
@@ -145,7 +145,7 @@ class Empirical:
 
 
 def slices(model: CostModel) -> tuple[Floats, Floats]:
-    """The factor for the compiled loops: points and weights; for an exponential one its two parameters, no weights."""
+    """Return the factor as points and weights for the compiled loops; if exponential, its parameters and no weights."""
     if isinstance(model, ShiftedExponential):
         return np.array([model.alpha, 1.0 - model.alpha]), np.zeros(0)
     if model.cumulants()[0] <= 0.0:

@@ -1,4 +1,4 @@
-"""One decision of a mission that may skip stops as it goes: candidate orders, and what each is worth.
+"""One decision of a mission that may skip stops: candidate visiting orders and the value of each.
 
 What a mission is to make much of is ``E[(reward + bonus) * keeps to the limits]``: reward counts where the mission
 succeeds, and success itself counts ``bonus``, the price on a failure. A bonus below 0 gives up safety for reward.
@@ -71,14 +71,14 @@ class SuccessAfterLeg:
     success: Floats
 
     def at(self, left: Floats) -> Floats:
-        """The chance where so much is left after the leg; 0 below nothing."""
+        """Return the probability of success for an amount left after the leg; 0 if it is negative."""
         grid = self.step * np.arange(len(self.success))
         return np.asarray(np.interp(left, grid, self.success, left=0.0))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class VisitOrder:
-    """Stops in their order, some of which may be skipped on the way.
+    """Stops in visiting order; the robot may skip some of them.
 
     Attributes:
         stops: Without the ends.
@@ -93,12 +93,12 @@ class VisitOrder:
     success: float
 
     def value(self, bonus: float) -> float:
-        """What this counts where success counts ``bonus``."""
+        """Return the value of the order if success is worth ``bonus``."""
         return self.worth + bonus * self.success
 
 
 class DecisionSearch:
-    """What is to be done from one vertex, with what is left and what is free.
+    """A search for the best visiting order from one vertex, with the amounts left and the free vertices.
 
     Args:
         prepared: The problem.
@@ -132,7 +132,7 @@ class DecisionSearch:
         self._ends: Floats | None = None
 
     def route(self, level: float, warm: Sequence[int], rounds: int) -> Ints:
-        """Stops of a fixed route that exceeds no limit more often than ``level``, found from ``warm``."""
+        """Return the stops of a fixed route that exceeds no limit with more than probability ``level``."""
         tables = np.tile(cached_quantiles(level), (len(self._budgets), 1))
         stops = stops_of(warm, self.free)
         found = Annealing(
@@ -155,7 +155,7 @@ class DecisionSearch:
         )
 
     def order(self, stops: Ints, bonus: float, insertions: int) -> VisitOrder:
-        """An order after it has gained up to ``insertions`` stops."""
+        """Insert up to ``insertions`` stops into an order and return it with its value."""
         prepared, effort = self._prepared, self._effort
         longest = min(max(len(stops), LONG), self._max_visits)
         grown, figures = np.empty(longest + 2, np.int64), np.empty(3)
@@ -169,7 +169,7 @@ class DecisionSearch:
         )
 
     def chances(self, stops: Ints, bonus: float) -> Floats:
-        """For each stop of an order, how likely a mission that only skips some of them comes to it."""
+        """Return the probability of each stop of an order to be visited, if the mission only skips stops."""
         prepared, step = self._prepared, self._step
         route, choice, _ = self._programme(stops, bonus)
         mass = np.empty(choice.shape)
@@ -181,7 +181,7 @@ class DecisionSearch:
 
     @property
     def binding(self) -> int:
-        """The limit that the programme runs over."""
+        """Return the index of the limit that the dynamic programme runs over."""
         return self._binding
 
     def choices(self, stops: Ints, bonus: float, most_left: float) -> tuple[Ints, float]:
@@ -199,19 +199,19 @@ class DecisionSearch:
         return self._programme(stops, bonus, min(size, _WIDEST * self._effort.points))[1], self._step
 
     def success_after_leg(self, order: VisitOrder, bonus: float) -> SuccessAfterLeg:
-        """What the programme of an order says of the leg that is driven now."""
+        """Return the probability of success after the current leg, by amount left, from the programme."""
         success = self._programme(order.stops, bonus)[2]
         return SuccessAfterLeg(limit=self._binding, step=self._step, success=success[order.first + 1])
 
     def planned(self, bonus: float, warm: Sequence[int], rounds: int) -> VisitOrder:
-        """The order that a mission begins with: of several levels, each taken apart and grown again."""
+        """Return the initial order of a mission: the best of several routes, each improved by :meth:`remade`."""
         orders = [self.order(self.route(level, warm, rounds), bonus, self._effort.insertions) for level in _FIRST]
         if warm:
             orders.append(self.order(stops_of(warm, self.free)[: self._max_visits], bonus, self._effort.insertions))
         return max((self.remade(order, bonus) for order in orders), key=lambda order: order.value(bonus))
 
     def remade(self, order: VisitOrder, bonus: float) -> VisitOrder:
-        """The order, or a better one: a few stops are taken out, and those that gain most put in."""
+        """Remove and reinsert stops several times; return the best order found."""
         # Programmes of long orders take long; they are made anew under way.
         for _ in range(self._effort.remakes * _SHORT // max(_SHORT, len(order.stops))):
             kept = self._thinned(order.stops)
@@ -221,7 +221,7 @@ class DecisionSearch:
         return order
 
     def best(self, bonus: float, warm: Sequence[int]) -> VisitOrder:
-        """The order worth most of those that are made of ``warm`` and of fixed routes of several levels."""
+        """Return the most valuable order grown from ``warm`` and from fixed routes of several levels."""
         options = [stops_of(warm, self.free)[: self._max_visits]]
         for level in self._effort.levels:
             stops = self.route(level, options[0].tolist(), self._effort.rounds)
@@ -231,14 +231,14 @@ class DecisionSearch:
         return max(orders, key=lambda order: order.value(bonus))
 
     def bettered(self, order: VisitOrder, bonus: float) -> VisitOrder:
-        """The order, or a better one after a longer search from it at a level of chance."""
+        """Search once more from an order at a random level; return the better of the two."""
         level = 0.05 + 0.6 * uniform(self._state)
         stops = self.route(level, order.stops.tolist(), 16 * self._effort.rounds)
         other = self.order(stops, bonus, 2 * self._effort.insertions)
         return other if other.value(bonus) > order.value(bonus) else order
 
     def ends(self) -> Floats:
-        """By what is left at the end, the chance that the legs after it are within the limit."""
+        """Return the probability, by amount left at the end, that the legs after it keep to the limit."""
         if self._ends is None:
             self._ends = self._ends_up_to(self._effort.points + 1)
         return self._ends
@@ -252,7 +252,7 @@ class DecisionSearch:
         return now
 
     def _programme(self, stops: Ints, bonus: float, size: int | None = None) -> tuple[Ints, Ints, Floats]:
-        """The route over stops; for each position on it and each amount left, what is driven to, and the success."""
+        """Return the route, and per position and amount left the next position and the probability of success."""
         prepared, effort = self._prepared, self._effort
         ends = self.ends() if size is None else self._ends_up_to(size)
         size = len(ends)
@@ -268,7 +268,7 @@ class DecisionSearch:
         return route, choice, success
 
     def _thinned(self, stops: Ints) -> Ints:
-        """Stops without one to three of them that follow each other or lie near some free vertex."""
+        """Return the stops without one to three of them, consecutive or near a random free vertex."""
         gone = 1 + int(3.0 * uniform(self._state))
         if uniform(self._state) < 0.5:
             first = int(uniform(self._state) * len(stops))
@@ -293,7 +293,7 @@ _TABLES: dict[float, Floats] = {}
 
 
 def cached_quantiles(level: float) -> Floats:
-    """The quantiles of one chance; made once."""
+    """Return the quantile table of a probability, computed once."""
     if level not in _TABLES:
         _TABLES[level] = quantile_table(level)
     return _TABLES[level]

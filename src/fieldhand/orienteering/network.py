@@ -76,7 +76,7 @@ class Network:
 
     @cached_property
     def _graph(self) -> csr_array:
-        """The lengths of the edges, in both directions, as a sparse array."""
+        """Return the edge lengths in both directions as a sparse array."""
         from scipy.sparse import csr_array
 
         tails, heads = (np.concatenate([self.edges[:, i], self.edges[:, 1 - i]]) for i in range(2))

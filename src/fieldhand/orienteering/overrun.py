@@ -1,4 +1,4 @@
-"""The chance that the legs of a route cost more than is left.
+"""The probability that the legs of a route cost more than is left.
 
 Cumulants of independent legs add up; the sum is taken as the Pearson III distribution (a shifted gamma) through its
 first three. docs/orienteering.md says how far that is from sampling.
@@ -16,7 +16,7 @@ _SYMMETRIC = 1e-3
 
 
 def overrun_probability(mean: ArrayLike, variance: ArrayLike, third: ArrayLike, left: ArrayLike) -> Floats:
-    """P(cost > ``left``) of a sum whose first three cumulants are known, elementwise: the Pearson III through them.
+    """Return P(cost > ``left``) of a sum with three known cumulants, elementwise (Pearson III).
 
     Exact for equal exponential or gamma legs, and for certain ones. docs/orienteering.md has its error for others.
 
@@ -40,7 +40,7 @@ def overrun_probability(mean: ArrayLike, variance: ArrayLike, third: ArrayLike, 
 
 
 def quantile_table(chance: float) -> Floats:
-    """What a Pearson III variable with mean 0 and variance 1 exceeds with this chance, by skewness from -4 to 8."""
+    """Return standardised Pearson III quantiles at an exceedance probability, by skewness from -4 to 8."""
     skewness = np.arange(-4.0, 8.0 + 1e-9, 1.0 / 16.0)
     skewed = np.abs(skewness) > _SYMMETRIC
     safe = np.where(skewed, skewness, 1.0)

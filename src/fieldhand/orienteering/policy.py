@@ -1,4 +1,4 @@
-"""Which vertex comes next: after every leg, the order of stops that is worth most to a robot that may skip some.
+"""The adaptive policy: it plans again after every leg, for a robot that may skip stops.
 
 A failure has a price, the same in the whole mission, at which the chance of one over the whole mission is the one that
 is accepted. docs/orienteering.md derives it.
@@ -33,7 +33,7 @@ _BISECTIONS = 24
 
 @dataclass(frozen=True, kw_only=True)
 class State:
-    """Where a mission stands.
+    """The state of a mission.
 
     Attributes:
         vertex: Where the robot is.
@@ -111,40 +111,40 @@ class Policy:
 
     @property
     def expectation(self) -> Expectation:
-        """What was expected at the last decision."""
+        """Return the expectation of the last decision."""
         return self._expectation
 
     @property
     def price(self) -> float | None:
-        """What keeping to the limits counts beside the reward; None until a decision needed it."""
+        """Return the price of a failure in reward; None before a decision needed it."""
         return self._price
 
     @property
     def prepared(self) -> PreparedProblem:
-        """The problem as arrays."""
+        """Return the prepared problem."""
         return self._prepared
 
     @property
     def plan(self) -> tuple[DecisionSearch, VisitOrder, float] | None:
-        """What the last decision was made by: from where, which order, what keeping to the limits counts.
+        """Return the search, order and bonus of the last decision.
 
         None where there is nothing to decide, and where the order is long and driven as planned.
         """
         return self._last
 
     def lengths(self, vertex: int) -> NDArray[np.float64]:
-        """Of the legs from a vertex to every vertex, shape (n,)."""
+        """Return the lengths of the legs from a vertex to every vertex, shape (n,)."""
         return self._prepared.row(vertex)
 
     @property
     def least_price(self) -> float:
-        """The least that the risk tolerance allows."""
+        """Return the lowest price that the risk tolerance allows."""
         return self._least_price
 
     def again(
         self, seed: int, price: float | None = None, warm: Sequence[int] = (), effort: SearchEffort | None = None
     ) -> Policy:
-        """The policy for another mission through the same problem, at a price of a failure."""
+        """Return a policy for another mission through the same problem at a given price of a failure."""
         return Policy(
             self._problem,
             seed,
@@ -156,7 +156,7 @@ class Policy:
         )
 
     def next(self, state: State, seconds: float | None = None) -> int:
-        """The vertex to go to next; the problem's end when nothing more is worth it.
+        """Return the next vertex to visit; the problem's end if no visit is worth its risk.
 
         Args:
             state: Where the mission stands.
@@ -225,7 +225,7 @@ class Policy:
         return self._settle(state, order)
 
     def chances(self) -> dict[int, float]:
-        """How likely each vertex of the outlook's order is visited by a mission that only skips some of them.
+        """Return the probability of each vertex of the expected order to be visited, if the mission only skips some.
 
         Those that a policy plans anew for are not in it; where the order is long and driven as planned, all are 1.
         """
@@ -237,7 +237,7 @@ class Policy:
         return {vertex: min(1.0, float(chance)) for vertex, chance in zip(ahead, found, strict=True)}
 
     def success_after_leg(self) -> SuccessAfterLeg | None:
-        """What was foreseen of the leg to the vertex given last; None where no programme chose it."""
+        """Return the success probabilities computed for the chosen leg; None if no programme chose it."""
         if self._last is None:
             return None
         search, order, bonus = self._last
@@ -254,7 +254,7 @@ class Policy:
             )
 
     def _priced(self, search: DecisionSearch, collected: float, safe: Sequence[int]) -> float:
-        """The least price at which the best order fails no more often than the limit that binds accepts.
+        """Return the least price at which the best order keeps to the binding failure probability.
 
         Args:
             search, collected: Where the mission stands; reward that is safe already.
@@ -278,7 +278,7 @@ class Policy:
     def _at_least_price(
         self, search: DecisionSearch, order: VisitOrder, collected: float, accepted: float
     ) -> tuple[float, VisitOrder]:
-        """The least price at which an order succeeds as often as is accepted, and what the order becomes at it."""
+        """Return the least price at which an order is safe enough, and the order improved at that price."""
         price = 0.0
         for _ in range(_PRICINGS):
             expected = order.worth / max(order.success, 1e-9) + collected
@@ -330,7 +330,7 @@ class Policy:
         return ahead[0] if ahead else end
 
     def _rounds(self, search: DecisionSearch) -> int:
-        """More for the first plan of a mission: all others begin with what is left of the one before."""
+        """Return the number of annealing rounds; the first plan of a mission takes more."""
         return self._effort.rounds if self._warm or self._begun else 100 * self._effort.rounds + 20 * len(search.free)
 
     def _reward(self, vertices: Sequence[int]) -> float:

@@ -1,4 +1,4 @@
-"""A problem as the arrays that the compiled loops read. The end is a node of its own, numbered after the vertices."""
+"""A problem as the arrays that the compiled loops read. The end is a node of its own after the vertices."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ NO_LENGTHS = LegLengths(
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PreparedProblem:
-    """Data of a problem that never change in a mission.
+    """Arrays of a problem that do not change during a mission.
 
     Attributes:
         lengths: Lengths of the legs between nodes: the vertices and the end.
@@ -54,11 +54,11 @@ class PreparedProblem:
 
     @property
     def size(self) -> int:
-        """Number of vertices, and the number of the end's node."""
+        """Return the number of vertices, which is also the number of the end's node."""
         return len(self.rewards) - 1
 
     def row(self, u: int) -> Floats:
-        """Lengths from a node to every vertex."""
+        """Return the lengths from a node to every vertex."""
         lengths = self.lengths
         if len(lengths.matrix):
             return np.asarray(lengths.matrix[u, :-1])

@@ -33,7 +33,7 @@ _SPREAD, _SMALLEST = 0.05, 1 / 8
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Preview:
-    """Missions, one a row.
+    """Simulated missions, one per row.
 
     Attributes:
         vertices: Those that some mission visits, shape (k,): of the group in the middle in its order, then the others.
@@ -53,7 +53,7 @@ class Preview:
 
     @property
     def visits(self) -> Floats:
-        """How many each mission makes, shape (missions,)."""
+        """Return the number of visits per mission, shape (missions,)."""
         return np.asarray(self.visited.sum(axis=1), dtype=np.float64)
 
     def stops(self, mission: int) -> tuple[int, ...]:
@@ -211,7 +211,7 @@ class _Missions:
         ]
 
     def end(self, members: Ints, stops: tuple[int, ...]) -> None:
-        """Let missions that have come along ``stops`` make no more visits."""
+        """Make no more visits in some missions that followed ``stops``."""
         if len(members):
             self._ended.append((members, stops))
 

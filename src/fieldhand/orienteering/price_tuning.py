@@ -26,7 +26,7 @@ Floats = NDArray[np.float64]
 
 
 def tune_price(policy: Policy, problem: Problem, seed: int, missions: int) -> Policy:
-    """The policy with the price of a failure that missions of its own teach.
+    """Return the policy with a price of failure tuned by simulated missions.
 
     The price a policy begins with is right for a mission that only shortens its order; this one makes it anew after
     every leg. So missions are driven at one price after another, each where a line through what the ones before told
@@ -89,7 +89,7 @@ def _error(known: list[_Trial]) -> Floats:
 
 
 def _nearer(known: list[_Trial], accepted: float, care: float) -> float:
-    """Where a straight line through the logits of the chances comes down to the accepted one.
+    """Return the abscissa where a line through the logits of the probabilities reaches the accepted one.
 
     Args:
         known: What was tried.

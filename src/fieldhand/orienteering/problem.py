@@ -1,4 +1,4 @@
-"""What an orienteering problem is: vertices with rewards, random leg costs, limits that may rarely be exceeded."""
+"""Orienteering problems: vertices with rewards, random leg costs, and limits with failure probabilities."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Limit:
-    """A resource in units of leg cost: legs and service together may exceed ``budget`` with a small chance only.
+    """A resource limit in units of leg cost, to be exceeded only with a small probability.
 
     A resource that is not distance (seconds, percent of a battery) is brought to these units by dividing it by what
     one unit of leg cost takes of it; so any number of resources share the legs' one random cost.
@@ -79,18 +79,18 @@ class Problem:
 
     @property
     def size(self) -> int:
-        """Number of vertices."""
+        """Return the number of vertices."""
         return len(self.rewards)
 
     @property
     def model(self) -> CostModel:
-        """The cost model."""
+        """Return the cost model."""
         if self.costs is not None:
             return self.costs
         return Deterministic() if self.alpha >= 1.0 else ShiftedExponential(self.alpha)
 
     def length(self, u: int, v: int) -> float:
-        """Of the leg between two vertices."""
+        """Return the length of the leg between two vertices."""
         if self.table is not None:
             return float(self.table.distances[u, v])
         if self.coordinates is not None:
@@ -112,7 +112,7 @@ def unchecked_problem(
     table: Table | None = None,
     max_visits: int | None = None,
 ) -> Problem:
-    """A problem whose mission has begun: nothing is checked, since what is left may be too small for the way home."""
+    """Return a problem under way without checks, since the rest may be too small for the way home."""
     problem = object.__new__(Problem)
     for name, value in {
         "distances": distances,
@@ -132,14 +132,14 @@ def unchecked_problem(
 
 
 def count_visits(problem: Problem, vertices: Iterable[int]) -> int:
-    """How many of these vertices count against :attr:`Problem.max_visits`."""
+    """Return how many of these vertices count against :attr:`Problem.max_visits`."""
     return sum(problem.rewards[v] > 0.0 for v in set(vertices) - {problem.start, problem.end})
 
 
 def remaining_problem(
     problem: Problem, vertex: int, left: tuple[float, ...], collected: tuple[int, ...] = ()
 ) -> Problem:
-    """The problem that is left at ``vertex`` with these budgets; what was collected is worth nothing any more."""
+    """Return the problem that remains at ``vertex``; collected vertices have no reward."""
     rewards = problem.rewards.copy()
     max_visits = None if problem.max_visits is None else max(0, problem.max_visits - count_visits(problem, collected))
     rewards[list(collected)] = 0.0

@@ -1,4 +1,4 @@
-"""The best fixed route: which stops in which order, within the chance of exceeding a limit that each accepts."""
+"""The best fixed route within the failure probability of each limit."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Route:
 
 @dataclass(frozen=True, kw_only=True)
 class StoppingCriterion:
-    """When a search ends: what comes first.
+    """When to end a search: at the first of a number of rounds and a time.
 
     Attributes:
         rounds: Rounds of the search; counted alone, the same seed gives the same route on any machine.
@@ -55,7 +55,7 @@ class StoppingCriterion:
 
 
 def solve(problem: Problem, seed: int, stop: StoppingCriterion | None = None) -> Route:
-    """The best fixed route found.
+    """Search for the best fixed route.
 
     Args:
         problem: What to solve.
@@ -91,7 +91,7 @@ def solve(problem: Problem, seed: int, stop: StoppingCriterion | None = None) ->
 
 
 def route_over(problem: Problem, stops: Sequence[int]) -> Route:
-    """The route over ``stops`` with its figures."""
+    """Return the route over ``stops`` with its reward, length and overrun probabilities."""
     vertices = (problem.start, *(int(v) for v in stops), problem.end)
     legs = np.array([*(problem.length(a, b) for a, b in itertools.pairwise(vertices)), *problem.legs_after])
     second, third = problem.model.cumulants()

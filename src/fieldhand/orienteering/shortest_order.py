@@ -37,7 +37,7 @@ _MAX_PASSES = 60
 
 
 def shortest_order(distances: Lengths, start: int, end: int | None = None) -> tuple[int, ...]:
-    """An order of all vertices that begins at ``start`` and drives little; the least possible for up to 12 vertices.
+    """Return a short order of all vertices from ``start``; the shortest for up to 12 vertices.
 
     Args:
         distances: Symmetric, shape (n, n), none of them negative or infinite; or the form that compiled loops read.
@@ -65,7 +65,7 @@ def shortest_order(distances: Lengths, start: int, end: int | None = None) -> tu
 
 
 def _vertices(distances: Lengths) -> int:
-    """How many there are."""
+    """Return the number of vertices, after checking the distances."""
     if not isinstance(distances, np.ndarray):
         return max(len(distances.matrix), len(distances.xy))
     n = len(distances)
@@ -76,7 +76,7 @@ def _vertices(distances: Lengths) -> int:
 
 
 def _table(distances: Lengths, n: int) -> Floats:
-    """All distances, with a last row and column for an end that may be anywhere."""
+    """Return all distances with an added row and column for an open end."""
     table = np.zeros((n + 1, n + 1))
     if isinstance(distances, np.ndarray):
         table[:n, :n] = distances
@@ -88,7 +88,7 @@ def _table(distances: Lengths, n: int) -> Floats:
 
 
 def _searched(table: Floats, n: int, path: list[int]) -> list[int]:
-    """The path after local search in plain Python."""
+    """Return the path after local search in plain Python."""
     size = min(_NEAREST, n - 1)
     held = local_search.SearchState(
         path=path,
@@ -109,7 +109,7 @@ def _searched(table: Floats, n: int, path: list[int]) -> list[int]:
 
 
 def _searched_compiled(distances: Lengths, n: int, path: list[int]) -> list[int]:
-    """The path after local search in compiled code."""
+    """Return the path after local search in compiled code."""
     from fieldhand.orienteering.prepared_problem import NO_LENGTHS
 
     ways = distances

@@ -42,7 +42,7 @@ class SimulatedMission:
 
     @property
     def kept(self) -> bool:
-        """Whether no limit was exceeded."""
+        """Return True if no limit was exceeded."""
         return min(self.left) >= 0.0
 
 

@@ -37,7 +37,7 @@ class Table:
 
     @property
     def size(self) -> int:
-        """Number of vertices."""
+        """Return the number of vertices."""
         return len(self.distances)
 
 

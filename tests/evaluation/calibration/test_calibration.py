@@ -26,8 +26,8 @@ NOW = datetime(2026, 5, 1, tzinfo=UTC)
 def test_a_robot_with_known_figures_gives_them_back():
     found = calibrate(PROFILE, [measure_mission(mission(seed, speeds=(0.8, 0.4))) for seed in range(6)])
     fit = found.fit
-    assert fit.legs.alpha.says(0.7)
-    assert fit.legs.scale.says(1.0)
+    assert fit.legs.alpha.contains(0.7)
+    assert fit.legs.scale.contains(1.0)
     assert fit.legs.alpha.high - fit.legs.alpha.low < 0.15
     assert fit.drive.value == pytest.approx(130.0, rel=1e-6)
     assert fit.idle.value == pytest.approx(75.0, rel=1e-6)

@@ -19,7 +19,7 @@ def legs(alpha, scale, count, seed):
 def test_alpha_and_scale_lie_in_their_intervals_as_often_as_stated(alpha, scale):
     fits = [fit_legs(legs(alpha, scale, 30, seed), np.random.default_rng(seed)) for seed in range(120)]
     for name, true in (("alpha", alpha), ("scale", scale)):
-        inside = sum(getattr(fit, name).says(true) for fit in fits)
+        inside = sum(getattr(fit, name).contains(true) for fit in fits)
         # 95 % of 120 are 114; fewer than 107 come once in a thousand times.
         assert inside >= 107, name
         mean = np.mean([getattr(fit, name).value for fit in fits])
@@ -57,7 +57,7 @@ def test_shares_lie_in_their_intervals_as_often_as_stated():
         columns = np.column_stack([metres, made, metres / rng.uniform(0.4, 1.0, 150) + 8 * made])
         read = rng.normal(0.0, 40.0, 151)  # the charge is read with an error, which stands on both sides of each step
         found = fit_shares(columns, columns @ true + np.diff(read))
-        inside += [f.says(t) for f, t in zip(found, true, strict=True)]
+        inside += [f.contains(t) for f, t in zip(found, true, strict=True)]
     assert (inside >= 105).all(), inside
 
 

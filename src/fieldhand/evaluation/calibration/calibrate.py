@@ -1,4 +1,4 @@
-"""The cost model of a robot, fitted to what its missions cost: steps in, figures with intervals out."""
+"""Calibration of a robot's cost model from its missions."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _FOLDS = 5
 
 @dataclass(frozen=True, kw_only=True)
 class CostModelFit:
-    """What was fitted; what the data do not tell is None or missing, and stays as the profile has it.
+    """A fitted cost model; what the data do not determine is None or missing and stays as in the profile.
 
     Attributes:
         legs: Alpha and scale; metres driven are ``scale`` times those planned, on average.
@@ -51,11 +51,11 @@ class CostModelFit:
 
     @property
     def stretch(self) -> float:
-        """Metres driven for one planned, as the profile has to count it: 1 unless the legs say otherwise."""
+        """Return metres driven per metre planned; 1 if the legs do not show otherwise."""
         return 1.0 if self.legs.scale.contains(1.0) else self.legs.scale.value
 
     def profile(self, robot: RobotProfile) -> RobotProfile:
-        """The profile with what was fitted; it counts metres as planned: speed and energy are those of such a metre."""
+        """Return the profile with the fitted values, for metres as planned."""
         energy = robot.energy
         drive = self.drive.value * self.stretch if self.drive else energy.drive_j_per_m
         idle = self.idle.value if self.idle else energy.idle_w
@@ -78,7 +78,7 @@ class CostModelFit:
 
 @dataclass(frozen=True, kw_only=True)
 class PredictionError:
-    """Predicted against actual.
+    """Predicted against actual cost.
 
     Attributes:
         seconds, percent: Sum of what is predicted; ``actual`` has the same of what was used.
@@ -94,7 +94,7 @@ class PredictionError:
 
 @dataclass(frozen=True, kw_only=True)
 class Calibration:
-    """A fit with what it rests on and how good it is.
+    """A fit, its data, and its accuracy.
 
     Attributes:
         missions, legs, captures: That it rests on.
@@ -185,7 +185,7 @@ def _legs(steps: Sequence[MeasuredStep]) -> list[MeasuredStep]:
 
 
 def _speed(robot: RobotProfile, legs: Sequence[MeasuredStep]) -> FittedValue | None:
-    """Of the legs that were not driven slower because the Task wanted it."""
+    """Fit the speed on legs driven at the robot's own speed."""
     free = [s for s in legs if s.seconds > 0 and not s.speed_m_s < robot.speed_m_s * (1 - 1e-9)]
     if len(free) < LEAST_LEGS:
         return None
@@ -208,7 +208,7 @@ def _durations(robot: RobotProfile, steps: Sequence[MeasuredStep]) -> dict[str, 
 
 
 def _with_energy(fit: CostModelFit, robot: RobotProfile, steps: Sequence[MeasuredStep]) -> CostModelFit:
-    """Energy by metres, time and captures. What cannot be told apart from the rest is taken as the profile says."""
+    """Fit energy by metres, time and captures; what cannot be distinguished stays as in the profile."""
     rows = [s for s in steps if s.sure and s.whole_s > 0]
     counts = {a.name: np.array([float(s.name == a.name and s.kind == "capture") for s in rows]) for a in robot.actions}
     asked = [name for name, made in counts.items() if made.sum() >= LEAST_CAPTURES]
@@ -251,6 +251,6 @@ def _quality(pairs: Sequence[tuple[MeasuredStep, RobotProfile]]) -> PredictionEr
 
 
 def _nine_in_ten(robot: RobotProfile) -> float:
-    """Metres for one planned that nine legs in ten stay within."""
+    """Return metres driven per metre planned that nine legs in ten stay within."""
     alpha = robot.leg_cost.alpha
     return alpha + (1.0 - alpha) * math.log(10.0)

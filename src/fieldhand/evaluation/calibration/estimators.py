@@ -1,4 +1,4 @@
-"""Statistics of legs, durations and energy: each figure with the interval in which it lies with 95 % confidence."""
+"""Estimators of legs, durations and energy, each with a 95 % confidence interval."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class FittedValue:
     count: int
 
     def contains(self, value: float) -> bool:
-        """Whether a value lies in the interval."""
+        """Return True if a value lies in the interval."""
         return self.low <= value <= self.high
 
 
@@ -48,7 +48,7 @@ class LegFit:
 
 
 def fit_legs(ratios: Floats, rng: np.random.Generator) -> LegFit:
-    """Alpha and scale by maximum likelihood, corrected for its bias.
+    """Fit alpha and scale by maximum likelihood, corrected for bias.
 
     Args:
         ratios: Driven to planned metres of each leg; at least two.
@@ -77,12 +77,12 @@ def fit_legs(ratios: Floats, rng: np.random.Generator) -> LegFit:
 
 
 def fit_mean(values: Floats) -> FittedValue:
-    """The mean with its interval; at least two values."""
+    """Return the mean with its interval, from at least two values."""
     return fit_ratio(values, np.ones_like(values))
 
 
 def fit_ratio(amounts: Floats, sizes: Floats) -> FittedValue:
-    """What comes to one of ``sizes``: the sum of amounts over that of sizes, whose errors grow with the size."""
+    """Return the ratio of the sum of amounts to that of sizes; errors grow with the size."""
     from scipy import stats
 
     rate = float(amounts.sum() / sizes.sum())
@@ -92,7 +92,7 @@ def fit_ratio(amounts: Floats, sizes: Floats) -> FittedValue:
 
 
 def apart(columns: Floats) -> bool:
-    """Whether the causes in the columns of a table can be told apart by its rows."""
+    """Return True if the causes in the columns of a table can be distinguished by its rows."""
     norms = np.linalg.norm(columns, axis=0)
     if not len(norms) or (norms <= 0).any():
         return False
@@ -101,7 +101,7 @@ def apart(columns: Floats) -> bool:
 
 
 def fit_shares(columns: Floats, amounts: Floats) -> tuple[FittedValue, ...]:
-    """How much of some amounts each cause takes, none of them negative, by least squares.
+    """Fit the amount per cause by non-negative least squares.
 
     Args:
         columns: How much of each cause is in each row, shape (rows, causes); more rows than causes.
@@ -132,7 +132,7 @@ def fit_shares(columns: Floats, amounts: Floats) -> tuple[FittedValue, ...]:
 
 
 def plausible(values: Sequence[float], most: float = 3.0) -> NDArray[np.bool_]:
-    """Which of some durations are no more than so many times the median: the others were waits. As booleans."""
+    """Return True per duration if it is at most ``most`` times the median; longer ones were waits."""
     array = np.asarray(values, dtype=np.float64)
     return np.asarray(array <= most * np.median(array))
 

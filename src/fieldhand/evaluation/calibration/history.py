@@ -1,4 +1,4 @@
-"""What missions cost, kept for each robot in the user's state folder: one SQLite file by the profile's name."""
+"""Measured missions of each robot, kept in the user's state folder: one SQLite file per profile."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ create index if not exists step_of on step(mission);
 
 
 def history_file(folder: Path, robot: str) -> Path:
-    """Where a robot's missions are kept; ``robot`` is the name of its profile."""
+    """Return the file of a robot's missions; ``robot`` is the name of its profile."""
     return folder / f"{robot}.sqlite"
 
 
 def save_mission(folder: Path, robot: RobotProfile, driven: MeasuredMission, at: datetime) -> bool:
-    """Keep a mission, unless it is kept already; returns whether it was added.
+    """Save a mission unless it is saved already; return True if it was added.
 
     Each leg and each capture is kept with what the profile expected of it: metres, seconds and percent of the battery.
 
@@ -69,7 +69,7 @@ def save_mission(folder: Path, robot: RobotProfile, driven: MeasuredMission, at:
 
 
 def load_missions(folder: Path, robot: str) -> tuple[MeasuredMission, ...]:
-    """The missions that are kept of a robot, the oldest first; none where there is no file.
+    """Return the saved missions of a robot, oldest first; none if there is no file.
 
     Raises:
         InputError: The file is damaged.
@@ -106,7 +106,7 @@ def _open(path: Path) -> Iterator[sqlite3.Connection]:
 
 
 def _make_room(base: sqlite3.Connection) -> None:
-    """Let the oldest missions go until what is kept is within its bounds; the latest always stays."""
+    """Delete the oldest missions beyond the bounds; the latest always stays."""
     base.execute(
         "delete from mission where id not in (select id from mission order by id desc limit ?)", (MOST_MISSIONS,)
     )

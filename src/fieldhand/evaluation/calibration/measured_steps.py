@@ -1,4 +1,4 @@
-"""Legs and captures of a mission with what they cost, from its event log."""
+"""Measured steps of a mission: its legs and captures with their cost, from its event log."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _NOISE_PERCENT = 0.5
 
 @dataclass(frozen=True, kw_only=True)
 class MeasuredStep:
-    """What lies between two readings of the charge: a leg, a capture, or the rest.
+    """The time between two readings of the charge: a leg, a capture, or the rest.
 
     Attributes:
         kind: What it is.
@@ -62,7 +62,7 @@ class MeasuredStep:
 
 @dataclass(frozen=True, kw_only=True)
 class MeasuredMission:
-    """A mission as it is kept: who drove it, and its steps.
+    """A measured mission: its robot and steps.
 
     Attributes:
         key: SHA-256 of its events: the same mission is kept once.
@@ -79,7 +79,7 @@ class MeasuredMission:
 
 
 def measure_mission(events: Sequence[Event], *, where: str = "the log") -> MeasuredMission:
-    """The steps of a mission.
+    """Return the measured steps of a mission.
 
     Raises:
         InputError: The log has no beginning, so that nobody knows which robot it is of.
@@ -101,7 +101,7 @@ def measure_mission(events: Sequence[Event], *, where: str = "the log") -> Measu
 
 
 def predicted(step: MeasuredStep, robot: RobotProfile) -> tuple[float, float]:
-    """Seconds and percent of a full battery that a profile expects of a leg or a capture."""
+    """Return seconds and percent of a full battery that a profile predicts for a leg or a capture."""
     if step.kind == "leg":
         speed = robot.speed_m_s if math.isnan(step.speed_m_s) else min(robot.speed_m_s, step.speed_m_s)
         seconds = step.planned_m / speed
@@ -118,7 +118,7 @@ def _finite(step: MeasuredStep) -> bool:
 
 
 class _LogReader:
-    """Goes along the log and remembers when the charge was read last."""
+    """Reads a log and remembers when the charge was last read."""
 
     def __init__(self, started: Started) -> None:
         self._charge, self._at_s, self._travelled = started.charge_percent, started.t, 0.0

@@ -34,7 +34,7 @@ _FEW = 400
 
 @inner
 def excess(sums: Floats, used: Floats, budgets: Floats, cumulants: Floats, quantiles: Floats) -> float:
-    """By how much the limit that binds most is exceeded; not above 0 where all are kept."""
+    """Return the excess over the limit that binds most; zero or negative if all are kept."""
     worst = -np.inf
     for limit in range(len(budgets)):
         over = cost_quantile(sums[0], sums[1], sums[2], cumulants, quantiles[limit]) + used[limit] - budgets[limit]
@@ -133,7 +133,7 @@ def _best_place(
     v: int, here: int, end: int, after: Ints, before: Ints, near: Ints, lengths: LegLengths, blink: float,
     state: Seeds,
 ) -> int:  # fmt: skip
-    """The node after which v lengthens the route least, among those beside v's neighbours and the route's ends."""
+    """Return the node after which v lengthens the route least, among those near v and the route's ends."""
     best, place = np.inf, -1
     for i in range(-2, near.shape[1]):
         u = here if i == -2 else (before[end] if i == -1 else near[v, i])

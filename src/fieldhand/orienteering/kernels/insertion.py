@@ -1,4 +1,4 @@
-"""Lengthen an order of stops by those that a robot which may skip stops would gain by."""
+"""Insert stops into a visiting order where a robot that may skip stops gains most."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _MANY = 400
 
 @inner
 def floors_of(route: Ints, service: Floats, budgets: Floats, floors: Floats) -> None:
-    """What the other limits ask to be left of the first at the end, when the robot goes home from each position."""
+    """Compute, per position, what the other limits require to be left of the first limit at the end."""
     end = route[len(route) - 1]
     for i in range(len(floors)):
         floors[i] = 0.0
@@ -47,7 +47,7 @@ def _promising(
     rewards: Floats,
     service: Floats,
 ) -> Ints:
-    """The free vertices outside the route with most reward for the way that they add."""
+    """Return the free vertices outside the route with the highest reward per detour."""
     count = 0
     outside, score = np.empty(len(free), np.int64), np.empty(len(free))
     # Where very many are free, only places beside the nearest vertices of each are looked at, and the route's ends.
@@ -88,7 +88,7 @@ def grow(
     rewards: Floats, service: Floats, budgets: Floats, ends: Floats, bonus: float, skip: int, points: Floats,
     weights: Floats, order: Ints, figures: Floats,
 ) -> int:  # fmt: skip
-    """Insert the stops that gain most into an order, and say what it is worth then.
+    """Insert the most valuable stops into an order and compute its value.
 
     Args:
         stops: The order to begin with, without its ends.

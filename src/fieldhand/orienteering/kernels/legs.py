@@ -1,4 +1,4 @@
-"""What every inner loop needs: a length, a random number, what a route needs so that it is rarely too long."""
+"""Basic functions of all compiled loops: leg length, random number, cost quantile, sorting."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ TABLE_PER_UNIT = 16.0
 
 @inner
 def uniform(state: Seeds) -> float:
-    """The next number in [0, 1) of a generator (splitmix64, Steele et al. 2014) with this one word of state."""
+    """Return the next random number in [0, 1) (splitmix64, Steele et al. 2014); ``state`` is one word."""
     z = state[0] + np.uint64(0x9E3779B97F4A7C15)
     state[0] = z
     z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
@@ -61,7 +61,7 @@ def length(lengths: LegLengths, u: int, v: int) -> float:
 
 @inner
 def cost_quantile(first: float, second: float, third: float, cumulants: Floats, quantiles: Floats) -> float:
-    """What legs exceed with one certain chance: Pearson III through their first three cumulants.
+    """Return the cost that legs exceed with a given probability (Pearson III through three cumulants).
 
     Args:
         first, second, third: Sums of the legs' lengths, of their squares and of their cubes.

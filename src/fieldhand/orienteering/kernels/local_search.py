@@ -53,7 +53,7 @@ class SearchState(NamedTuple):
 
 
 def leg(lengths: Lengths, u: int, v: int) -> float:
-    """Length of the leg between two vertices; the last row and column of a table are those of an open end."""
+    """Return the length of a leg; the last row and column of a table belong to an open end."""
     return lengths[u][v]  # type: ignore[no-any-return]
 
 
@@ -93,7 +93,7 @@ def neighbours(lengths: Lengths, state: SearchState, vertices: int) -> None:
 
 
 def begin(lengths: Lengths, state: SearchState) -> None:
-    """Lay the path from its first vertex to the nearest, from there to the nearest again; its ends are given."""
+    """Build the initial path by nearest neighbour between its fixed ends."""
     path, place = state.path, state.place
     # What is left stands in the path behind the vertex that is being looked from.
     for i in range(len(path)):
@@ -156,7 +156,7 @@ def shorten(lengths: Lengths, state: SearchState, kicks: int, patience: int, rea
 
 
 def _look(state: SearchState, v: int) -> None:
-    """Have a vertex looked at, after those that wait already."""
+    """Add a vertex to the queue unless it is in it."""
     if v >= 0 and state.waiting[v] == 0:
         state.waiting[v] = 1
         state.queue[(state.count[0] + state.count[1]) % len(state.queue)] = v
@@ -164,7 +164,7 @@ def _look(state: SearchState, v: int) -> None:
 
 
 def _next(state: SearchState) -> int:
-    """Whose turn it is to be looked at; it waits no more."""
+    """Remove the first vertex from the queue and return it."""
     v = state.queue[state.count[0]]
     state.count[0] = (state.count[0] + 1) % len(state.queue)
     state.count[1] -= 1
@@ -173,7 +173,7 @@ def _next(state: SearchState) -> int:
 
 
 def _settle_all(lengths: Lengths, state: SearchState, least: float) -> None:
-    """Change the path until no change of any vertex shortens it."""
+    """Apply improving moves until no vertex has one."""
     for v in state.path:
         _look(state, v)
     while state.count[1] > 0:
@@ -182,7 +182,7 @@ def _settle_all(lengths: Lengths, state: SearchState, least: float) -> None:
 
 
 def _settle(lengths: Lengths, state: SearchState, least: float, every: bool) -> float:
-    """Change the path while a change shortens it and can be noted; by how much it did."""
+    """Apply improving moves while the queue and the flip log last; return the total gain."""
     total = 0.0
     while state.count[1] > 0 and 2 * state.count[2] + 6 <= len(state.flips):
         v = _next(state)
@@ -194,7 +194,7 @@ def _settle(lengths: Lengths, state: SearchState, least: float, every: bool) -> 
 
 
 def _turn(lengths: Lengths, state: SearchState, a: int, least: float, every: bool) -> float:
-    """The first 2-opt move found that puts a vertex beside a near one: what it gains, 0 where there is none."""
+    """Apply the first improving 2-opt move of a vertex; return its gain, or 0 if there is none."""
     path, place, near, away, size = state.path, state.place, state.near, state.away, state.size
     # Where all that are near have been tried and a leg is longer still, every vertex may be.
     many = size + (len(near) // size if every else 0)
@@ -230,7 +230,7 @@ def _turn(lengths: Lengths, state: SearchState, a: int, least: float, every: boo
 
 
 def _shift(lengths: Lengths, state: SearchState, a: int, least: float, every: bool) -> float:
-    """The first or-opt move found that takes a short segment, of which ``a`` is an end, to a vertex near ``a``."""
+    """Apply the first improving or-opt move of a segment that ends at ``a``; return its gain, or 0 if none."""
     path, place, near, away, size = state.path, state.place, state.near, state.away, state.size
     many = size + (len(near) // size if every else 0)
     i = place[a]
@@ -284,7 +284,7 @@ def _move(state: SearchState, low: int, high: int, behind: int, turned: bool) ->
 
 
 def _kick(lengths: Lengths, state: SearchState, before: int, one: int, two: int) -> float:
-    """Swap two segments of so many vertices that stand one behind the other; what that gains, mostly less than 0."""
+    """Swap two adjacent segments of given sizes; return the gain, which is mostly negative."""
     path = state.path
     last = before + one
     a, b, c, d = path[before], path[before + 1], path[last], path[last + 1]
@@ -297,7 +297,7 @@ def _kick(lengths: Lengths, state: SearchState, before: int, one: int, two: int)
 
 
 def _flip(state: SearchState, i: int, j: int) -> None:
-    """Turn what stands from i to j round, and note it."""
+    """Reverse the path from i to j, and log it for :func:`_take_back`."""
     k = state.count[2]
     state.flips[2 * k], state.flips[2 * k + 1] = i, j
     state.count[2] = k + 1
@@ -322,7 +322,7 @@ def _take_back(state: SearchState) -> None:
 
 @cache
 def for_long_paths() -> tuple[Callable[..., None], Callable[..., None], Callable[..., None]]:
-    """:func:`neighbours`, :func:`begin` and :func:`shorten` compiled, for arrays and for :class:`legs.LegLengths`."""
+    """Return :func:`neighbours`, :func:`begin` and :func:`shorten` compiled for arrays."""
     from fieldhand.orienteering.kernels import legs
     from fieldhand.orienteering.kernels.compiled import inner
 

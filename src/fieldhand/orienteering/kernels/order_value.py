@@ -1,4 +1,4 @@
-"""What an order of stops is worth to a robot that may skip stops as it goes: a dynamic programme over what is left.
+"""The value of a visiting order to a robot that may skip stops: a dynamic programme over the amount left.
 
 At every stop and for every amount left (a grid) the robot drives on to one of the next few stops or straight to the
 end, whichever is worth most. ``worth`` is the reward still to come of missions that keep to the limits, ``success``
@@ -34,7 +34,7 @@ def drive(
     points: Floats,
     weights: Floats,
 ) -> None:
-    """Expectations before a leg and the work at its end, from those after them.
+    """Compute expectations before a leg and the service at its end from those after them.
 
     Args:
         worth, success: After them, by what is left.
@@ -82,7 +82,7 @@ def drive(
 
 @inner
 def cell(width: float, mean: float) -> tuple[float, float, float]:
-    """The expectation over an exponential cost at ``width`` above a grid point, both in cells of the grid.
+    """Return the expectation over an exponential cost at ``width`` above a grid point, in cells of the grid.
 
     Returns:
         Factors of the expectation at that point, of the function there, and of the function at the point after it.
@@ -116,7 +116,7 @@ def gather(
     mass: Floats, choice: Ints, chosen: int, into: Floats, leg: float, service: float, step: float, points: Floats,
     weights: Floats, work: Floats,
 ) -> None:  # fmt: skip
-    """The transpose of :func:`drive`: where the missions are that choose to drive this leg, once they have."""
+    """Propagate probability mass over a leg: the transpose of :func:`drive`."""
     size = len(mass)
     if len(weights) > 0:
         for i in range(len(points)):
@@ -163,7 +163,7 @@ def gather(
 
 @inner
 def home(success: Floats, to_success: Floats, floor: float, step: float) -> None:
-    """Chances to keep to every limit, by what is left of the first; another asks that ``floor`` of it be left."""
+    """Compute success by amount left at the end where the other limits require ``floor`` of it."""
     size = len(success)
     at = floor / step
     whole = int(at)
@@ -282,7 +282,7 @@ def gains(
     worth: Floats, success: Floats, ahead: Floats, mass: Floats, candidates: Ints, gain: Floats, place: Ints,
     work: Floats, detours: Floats,
 ) -> None:  # fmt: skip
-    """For each candidate, what the order gains when it may be visited after the one position where it gains most.
+    """Compute for each candidate the gain of inserting it at its best position.
 
     From there the robot drives on to the next position or to the end. Those positions are tried where the way over
     the candidate is the least detour. ``work`` is overwritten, shape (:data:`WORK`, points of the grid), and so is
