@@ -32,7 +32,7 @@ class BudgetFailsafe:
 
     Args:
         task, robot: The mission.
-        drain: How fast the battery empties; learns at each call.
+        drain: Battery drain; learned at each call.
     """
 
     def __init__(self, task: Task, robot: RobotProfile, drain: BatteryDrain) -> None:

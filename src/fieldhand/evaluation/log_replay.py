@@ -51,9 +51,9 @@ class _ReplayedVisits:
 
     Attributes:
         listed: The places.
-        most: How many of them may be visited.
-        begun: How many visits were begun, without those that were given up half-way.
-        shed: How many of the places were given up.
+        most: Number of them that may be visited.
+        begun: Visits begun, without those given up half-way.
+        shed: Number of places given up.
         before: The counts when the visit in hand began.
     """
 

@@ -40,7 +40,7 @@ class MissionBudget:
     Attributes:
         accepted: For each limit the chance of running short that the Task accepts.
         distances: Between places, asked for once.
-        drain: How fast the battery empties.
+        drain: The battery's drain.
     """
 
     def __init__(self, task: Task, site: Site, robot: RobotProfile, drives: Drives, charge_percent: float) -> None:

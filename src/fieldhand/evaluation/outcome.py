@@ -30,7 +30,7 @@ def judge(task: Task, events: Sequence[Event], *, under_way: bool = False) -> tu
     """Return the outcome of each goal of a Task, in the order of its goals.
 
     Args:
-        task: What was carried out.
+        task: The Task that was carried out.
         events: The event log, from its beginning; it may stop anywhere.
         under_way: More is to come: nothing is said of what the log does not tell yet.
     """
@@ -48,7 +48,7 @@ def judge_end(
     """Return how a mission ended, why, and the limits that it exceeded; None and no reason where the log was cut off.
 
     Args:
-        task: What was carried out.
+        task: The Task that was carried out.
         events: The event log, from its beginning; it may stop anywhere.
         reserve_percent: Charge that must be left where neither Task nor log says it.
     """

@@ -39,15 +39,15 @@ class MissionProgress:
     """The progress of a mission.
 
     Attributes:
-        doing: What it does, or did last, in words.
+        doing: Current or last activity in words.
         place: The place that it is at or drives to; empty before the first.
         near: The same in words: "at tree 12", "on the way to the end".
-        lat, lon: Where it was when that was written; None before it began.
-        captures: That succeeded.
+        lat, lon: Last logged position; None before the beginning.
+        captures: Successful captures.
         in_doubt: Captures that a power cut left in doubt.
         goals: Each goal, as far as it is known.
-        limits: By kind of budget, what the Task allows.
-        status, reason: How it ended.
+        limits: Limits of the Task by kind of budget.
+        status, reason: Final status and its reason.
         exceeded: Limits that it exceeded so far.
     """
 
@@ -75,9 +75,9 @@ def mission_progress(task: Task, robot: RobotProfile, events: Sequence[Event], *
     """Return the progress of a mission.
 
     Args:
-        task, robot: Of the mission.
-        events: Those that are safe.
-        running: Whether a process carries it out.
+        task, robot: The mission's Task and robot.
+        events: Events on the disk.
+        running: True if a process carries it out.
     """
     last = events[-1] if events else None
     state, ended = state_of(events, running=running)
@@ -113,7 +113,7 @@ def state_of(events: Sequence[Event], *, running: bool) -> tuple[State, Ended | 
 
     Args:
         events: Those that are safe; of them are needed ends, exits, and the beginnings and ends of pauses.
-        running: Whether a process carries it out.
+        running: True if a process carries it out.
     """
     last = events[-1] if events else None
     if isinstance(last, Ended):

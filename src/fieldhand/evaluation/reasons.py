@@ -30,8 +30,8 @@ class RoundTrip:
 
     Attributes:
         way: With its work.
-        to: Where it leads first.
-        more: Whether there is something to be done between that place and home.
+        to: First place of the route.
+        more: True if other work follows before the way home.
     """
 
     way: RouteCost

@@ -38,11 +38,11 @@ class _Run:
     Attributes:
         problem: Where the run began is vertex 0, then come its candidates, then where the rest begins.
         vertex: Number of each candidate's place in it.
-        start: Where it began.
-        rest: What follows.
+        start: Key of its first place.
+        rest: Work that follows.
         accepted: Chance of running short of the whole mission that the run was planned with.
         beyond: Places of candidates that it is not chosen from, because they are too many.
-        new: Whether nothing has been decided in it.
+        new: True before the first decision of the run.
         done: Vertices that were visited.
     """
 
@@ -89,7 +89,7 @@ class VisitChooser:
     """Chooses optional visits, one run after another.
 
     Args:
-        budget: Of the mission.
+        budget: Budget of the mission.
     """
 
     def __init__(self, budget: MissionBudget) -> None:

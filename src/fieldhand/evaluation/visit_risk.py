@@ -35,13 +35,13 @@ class VisitRisk:
     """The situation in which the accepted probability of a visit is computed.
 
     Attributes:
-        here: Where the robot is.
-        stops: What must be visited, in its order.
+        here: The robot's place.
+        stops: Mandatory visits in their order.
         length: Metres between two places.
-        home: Where the robot would go home to from a place.
+        home: Function that returns the home place for a place.
         service: Metres that the work at each stop counts for, shape (stops, limits).
         left: Metres left of each limit.
-        costs: What a leg of length 1 costs.
+        costs: Cost model of a leg of length 1.
     """
 
     here: Place

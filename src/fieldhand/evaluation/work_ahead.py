@@ -47,7 +47,7 @@ class WorkAheadFinder:
     """Computes the work ahead; caches that of a loop for its later visits.
 
     Args:
-        budget: Of the mission.
+        budget: Budget of the mission.
     """
 
     def __init__(self, budget: MissionBudget) -> None:
@@ -62,8 +62,8 @@ class WorkAheadFinder:
         """Return the work that follows on the most demanding branch; None if no way leads there.
 
         Args:
-            state: Of the mission.
-            visit: That is asked for.
+            state: State of the mission.
+            visit: The visit in question.
             later: Visits of the loops around it that come after it.
         """
         loop = self._loop

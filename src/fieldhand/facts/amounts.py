@@ -30,13 +30,13 @@ class StatedAmount:
     """A number of the request.
 
     Attributes:
-        values: What it may be in the unit that plans use (metres, seconds, degC, percent, a plain number).
+        values: Possible values in the unit that plans use (metres, seconds, degC, percent, a plain number).
         said: The words, for messages.
-        actions: Of captures: the actions that the noun may mean.
-        unit: Of a ``unit``: which.
-        index: Which token it is.
+        actions: For captures, the actions that the noun may mean.
+        unit: The unit of a ``unit``.
+        index: Index of its token.
         compared: ``below`` or ``above`` where it is a threshold, ``between`` for the end of a range, else empty.
-        through: Of an ``id`` or ``row``: the last number of the range that it begins, else 0.
+        through: Last number of the range that an ``id`` or ``row`` begins, else 0.
     """
 
     kind: AmountKind
@@ -71,8 +71,8 @@ def amounts(said: Sequence[Token], nouns: dict[int, Noun], units: frozenset[str]
 
     Args:
         said: The request.
-        nouns: By token, the words of the robot that begin there.
-        units: Of the quantities that the robot measures, in lower case.
+        nouns: The robot's nouns by their first token.
+        units: Units of the quantities that the robot measures, in lower case.
     """
     found: list[StatedAmount] = []
     for number in _numbers(said):

@@ -16,7 +16,7 @@ class PlanMismatch:
     """One contradiction.
 
     Attributes:
-        kind: What it is about.
+        kind: Kind of contradiction.
         message: A sentence without a full stop: what the request says and what the plan does.
         node: The node of the plan; empty where something is missing from it.
     """

@@ -32,7 +32,7 @@ class PlannedCaptures:
         each: At one place.
         places: Distinct places that its for-eaches lead to.
         total: In the whole mission, if it is reached.
-        bound: It stands under a condition, in a try, or may be left out.
+        bound: True if it is conditional, in a try, or optional.
         around: Numbers that stand in the selectors and nodes around it.
     """
 

@@ -29,7 +29,7 @@ class RequestFacts:
     """What a request says, with this robot's and this site's names.
 
     Attributes:
-        nouns: By token, the robot's words that begin there.
+        nouns: The robot's nouns by their first token.
         zones: Names of zones and blocks of the site that are said.
         attributes: Words that the site records of its trees, each with the token where it is said.
         levels: Words such as "low" that are said in a condition, each with its sentence.

@@ -34,7 +34,7 @@ class Chance:
     """The chance of exceeding a limit.
 
     Attributes:
-        kind: Which budget, or ``reserve``.
+        kind: Kind of budget, or ``reserve``.
         limit: Metres, seconds, or percent of a full battery.
         accepted: The failure probability that the Task accepts.
         draws: From how many missions it was found.
@@ -58,8 +58,8 @@ class BranchEstimate:
     """The estimate of one branch.
 
     Attributes:
-        decisions: What was answered on it.
-        metres, seconds, percent: What it takes; percent of a full battery.
+        decisions: Decisions on the branch.
+        metres, seconds, percent: Resources used; percent of a full battery.
         left: Percent of a full battery that is left at the end: its median, and the least nine times out of ten.
         chances: For each budget, and then for the battery's reserve.
         captures: Number of captures on it.

@@ -49,10 +49,10 @@ class BrokenBranch:
     """A branch that cannot be carried out.
 
     Attributes:
-        decisions: That lead there.
-        error: What is wrong then.
+        decisions: Decisions that lead to it.
+        error: The error on this branch.
         node: Id of the node that drove last.
-        steps: By then.
+        steps: Steps up to it.
     """
 
     decisions: tuple[Decision, ...]
@@ -105,9 +105,9 @@ def branches(
         task, site, robot: The mission.
         drives: The ways of the site, if the caller has them.
         charge_percent: Charge at the beginning.
-        limit: So many walks at most.
-        leg_costs: Of missions that are drawn along each walk; None for none.
-        seed: Of the branches that are drawn where there are too many.
+        limit: Maximum number of walks.
+        leg_costs: Sampled leg costs of the missions along each walk; None for no missions.
+        seed: Seed of the branches sampled where there are too many.
 
     Raises:
         TaskError: A walk comes to more nodes than any mission.
@@ -157,7 +157,7 @@ class _Script:
 
     Attributes:
         prefix: The first answers: those of another walk, the last of them turned.
-        told: By kind of decision and node.
+        told: Preset answers by kind of decision and node.
         fixed: What is answered as told throughout, and not counted among the first.
         rng: Answers what is beyond the prefix by chance, ``chance`` of it with yes.
     """

@@ -37,7 +37,7 @@ class Estimate:
         faulted: For each fault that brings the robot home, the branch that takes longest until then.
         explored: The branches themselves, with those that make or leave out optional visits one by one.
         exits: Ways home after faults.
-        problems: What stands in the way of carrying it out within its limits, as sentences.
+        problems: Obstacles to carrying it out within its limits, as sentences.
         charge_percent: At the beginning.
     """
 
@@ -132,7 +132,7 @@ def estimate(
         task, site, robot: The mission.
         seed: The same seed gives the same estimate.
         charge_percent: Charge at the beginning.
-        draws: How many missions are drawn along each branch.
+        draws: Number of missions sampled along each branch.
 
     Raises:
         PlaceError: A selector gives nothing on one of the branches.

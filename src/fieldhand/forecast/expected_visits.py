@@ -37,7 +37,7 @@ class ExpectedVisits:
     Attributes:
         places: As many as missions make on average, the likeliest, in the order in which they are driven to.
         shed: All others, the likeliest first; last those that are not chosen from, because they are too many.
-        visit_forecast: How likely each is.
+        visit_forecast: Probability of each visit.
         preview: Missions that make them.
         ids: Of the places that are chosen from, by the numbers of the preview less one.
         works: What is done at each of these places.
@@ -65,9 +65,9 @@ def expected_visits(
     Args:
         walker: Has come to the node.
         node: A for-each, or a step.
-        visits: That can be made, each with its stand; one of a step.
-        rng: For what legs cost.
-        before: What another walk found for the node; its order is begun with.
+        visits: Possible visits, each with its stand; a single one for a step.
+        rng: Random generator of the leg costs.
+        before: Result of another walk for the node; the search begins with its order.
     """
 
     rest = _rest(walker, node, visits)

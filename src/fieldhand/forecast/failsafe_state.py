@@ -21,10 +21,10 @@ class FailsafeState:
         spent: Used since the mission began, the goal in hand included.
         charge_percent: Battery left.
         on_m: Metres left of the drive in hand; 0 without one.
-        work: Left of the capture in hand.
+        work: Remaining work of the current capture.
         after_m: Metres home from where the drive in hand ends.
         home_m: Metres home from here, at most.
-        returning: It is on its way home already.
+        returning: True if it is already on its way home.
     """
 
     spent: Spent
@@ -41,12 +41,13 @@ class FailsafeForecast:
     """The forecast of the failsafe.
 
     Attributes:
-        limit: Of which limit, where there is an alarm.
-        left: Of it, in its unit; of ``reserve`` the charge above it (``out_of_reach``: above the stop level).
-        needed: Of it, on average, for the way home.
-        chance_short: Of exceeding it by going on.
+        limit: The limit that caused the alarm.
+        left: Amount left of it in its unit; charge above the reserve for ``reserve``, above the stop level for
+            ``out_of_reach``.
+        needed: Amount of it needed for the way home, on average.
+        chance_short: Probability of exceeding it by going on.
         reach_m: Metres that the charge above the stop level lasts for.
-        drain: How many times as fast as its model the battery empties.
+        drain: Battery drain relative to its model.
     """
 
     alarm: Alarm = "none"

@@ -17,7 +17,7 @@ class Spent:
     """Resources used so far, or by a part of a mission.
 
     Attributes:
-        joules: Of actions, by the profile (without idle power).
+        joules: Energy of actions by the profile, without idle power.
     """
 
     metres: float = 0.0
@@ -55,12 +55,12 @@ class Visit:
     """A place that the robot could drive to next, and what doing the work there takes (the drive not included).
 
     Attributes:
-        reward: What the visit is worth, where it is optional.
+        reward: Reward of an optional visit.
         service_s: Seconds of work there, on the longest branch.
         service_j: Energy of the actions there in joules, idle power not included.
         inside_m: Metres driven from there on within the visit, on the longest branch; their time and energy are not in
             ``service_s`` and ``service_j``.
-        leaves: Where the visit ends; None where that is ``place``.
+        leaves: Place where the visit ends; None if it is ``place``.
     """
 
     place: Place

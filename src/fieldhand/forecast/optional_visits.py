@@ -43,7 +43,7 @@ class OptionalVisits:
         Args:
             node: The for-each.
             places: Where, each with its stand.
-            context: Where the robot is and has been when it comes to the for-each.
+            context: The robot's current place and visited trees at the for-each.
         """
         work = work_of(node.body, self._robot)
         visits = [
@@ -67,7 +67,7 @@ class OptionalVisits:
 
         Args:
             node: The step.
-            context: Where the robot is and has been.
+            context: The robot's current place and visited trees.
 
         Returns:
             The visit; at the place in hand where nothing is driven. Of places that cannot be told before the robot is

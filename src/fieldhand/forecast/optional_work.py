@@ -25,7 +25,7 @@ class LikelyOptionalWork:
     """As many visits as missions make on average, the likeliest.
 
     Args:
-        kept: What was found of optional visits on walks that had the same answers by then.
+        kept: Cache of expected visits of walks with the same answers so far.
     """
 
     def __init__(self, kept: dict[object, ExpectedVisits]) -> None:
@@ -76,7 +76,7 @@ class ScriptedOptionalWork:
     """The steps that the answers take; of visits those of the luckiest mission, or of the least lucky one.
 
     Args:
-        kept: What walks with likely visits have found.
+        kept: Expected visits found by walks with likely visits.
     """
 
     def __init__(self, kept: Mapping[object, ExpectedVisits]) -> None:

@@ -45,13 +45,13 @@ def visits_problem(
 
     Args:
         legs: Between here, the candidates, and where the rest begins.
-        rewards: Of the candidates.
+        rewards: Rewards of the candidates.
         service: Work at each candidate.
-        rest: What follows.
-        resources: What may be used.
+        rest: Work that follows.
+        resources: The resource limits.
         robot: Its cost of legs, and the energy of work.
-        spent: What has been used.
-        accepted: Chance of running short of any of it.
+        spent: Resources used so far.
+        accepted: Accepted probability of running short of any of it.
         max_visits: Visits that may be made; None for as many as fit.
 
     Returns:
@@ -86,8 +86,8 @@ def policy_for(problem: Problem, *, price: float | None = None, warm: Sequence[i
     Both search with the same seed: the order that was forecast is the one that the robot sets out with.
 
     Args:
-        problem: Of :func:`visits_problem`.
-        price: Of a failure, where an earlier decision of the same run found it.
+        problem: A problem from :func:`visits_problem`.
+        price: Price of a failure, if an earlier decision of the run computed it.
         warm: Vertices that were planned.
     """
     from fieldhand.orienteering.decision import SearchEffort

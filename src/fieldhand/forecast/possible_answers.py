@@ -45,7 +45,7 @@ class ConditionOutcomes:
 
     Args:
         root: The plan, for its thresholds.
-        site, robot: Where and with what.
+        site, robot: The site and the robot.
     """
 
     def __init__(self, root: plan.Node, site: Site, robot: RobotProfile) -> None:
@@ -69,11 +69,11 @@ class ConditionOutcomes:
         """Return the possible results of a test, given the values that each reading may have; None if too many.
 
         Args:
-            node_id: Whose condition it is.
+            node_id: Id of the condition's node.
             condition: The condition.
             here: The place in hand.
             tested: Reading and quantity of each that was taken.
-            values: What each may be.
+            values: Possible values of each.
         """
         at = here.id if any(isinstance(part, TreeHas) for part in c.walk(condition)) else ""
         key = (node_id, at, tested, values)

@@ -41,8 +41,8 @@ class RemainingWork:
         stops: Every place that is driven to, home included; none where nothing more is driven.
         legs_m: Legs between them; the leg to the first is not there.
         work: All actions.
-        mandatory: Whether there is more in it than the way home.
-        fixed: Whether it is the same wherever the robot goes before, apart from the order of free visits.
+        mandatory: True if it holds more than the way home.
+        fixed: True if it does not depend on the robot's earlier places, apart from the order of free visits.
     """
 
     stops: tuple[Place, ...] = ()
@@ -77,7 +77,7 @@ def remaining_work_after(
     Args:
         task, site, robot, drives: The mission.
         frames: The nodes in hand, outermost first.
-        context: Where the robot is and has been.
+        context: The robot's current place and visited trees.
         to_come: Visits of the for-each loops in hand that are not begun, in their order; they come first.
 
     Raises:

@@ -45,8 +45,8 @@ class OptionalWorkPolicy(Protocol):
         Args:
             walker: Has come to the for-each.
             node: The for-each.
-            places: That can be reached, each with its stand.
-            closed: Those that never can.
+            places: Reachable places, each with its stand.
+            closed: Places that can never be reached.
         """
 
     def takes(self, walker: ForecastHandler, node: OptionalStep) -> bool:
@@ -75,7 +75,7 @@ class PlannedVisits:
 
     Args:
         places: In the order in which they are visited, each with its stand.
-        work: What each takes, drives not included.
+        work: Work of each visit, drives not included.
     """
 
     def __init__(self, places: tuple[Place, ...], work: Work | None = None) -> None:

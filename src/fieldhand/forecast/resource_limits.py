@@ -30,10 +30,10 @@ class ResourceLimit:
     """A resource of which a mission may use ``limit``.
 
     Attributes:
-        kind: Which budget, or ``reserve``: the charge above what must be left at the end.
+        kind: Kind of budget, or ``reserve``: the charge above what must be left at the end.
         limit: Metres, seconds, or percent of a full battery, for the whole mission.
         failure_probability: Accepted chance of using more.
-        per_metre: What a metre of driving uses.
+        per_metre: Amount used per metre of driving.
     """
 
     kind: ResourceKind
@@ -127,12 +127,12 @@ def orienteering_limits(
     """Return the limits of an orienteering problem, in metres.
 
     Args:
-        resources: What may be used.
+        resources: The resource limits.
         robot: For the energy of work.
-        spent: What has been used.
+        spent: Resources used so far.
         service: Work at each vertex.
         later: Work that follows whatever the route is.
-        accepted: Chance of exceeding any of them.
+        accepted: Accepted probability of exceeding any of them.
     """
     return tuple(
         Limit(

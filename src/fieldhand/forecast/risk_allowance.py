@@ -28,7 +28,7 @@ class RiskAllowance:
     Attributes:
         accepted: For each limit the chance that the Task accepts.
         left: For each limit what may still be added.
-        mandatory_fits: Whether what must be done is within what is accepted, as it was first asked for.
+        mandatory_fits: True if the mandatory work kept to the accepted probability when first checked.
     """
 
     accepted: tuple[float, ...]

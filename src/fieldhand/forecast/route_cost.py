@@ -22,7 +22,7 @@ class RouteCost:
     """The cost of a route: power sums of its leg lengths, and the work along it.
 
     Attributes:
-        sums: Of the legs' lengths in metres, of their squares, and of their cubes: all that their random cost hangs on.
+        sums: Sums of the leg lengths in metres, of their squares and cubes, which determine the cost distribution.
         work: Done on the way.
     """
 
@@ -58,8 +58,8 @@ def overrun_chances(
     """Return for each resource the chance that a route takes more than is left, shape (resources,).
 
     Args:
-        way, resources, robot: What is to be done, and what may be used for it.
-        spent: What has been used.
+        way, resources, robot: The route, the resource limits and the robot.
+        spent: Resources used so far.
         used: Metres that each of some missions has driven beyond that, shape (missions,); then for each resource and
             mission, shape (resources, missions).
     """

@@ -29,8 +29,8 @@ class SampledUse:
     """Resources used by each sampled mission, shape (missions,) each.
 
     Attributes:
-        metres: What the legs cost.
-        seconds, joules: Of actions.
+        metres: Cost of the legs.
+        seconds, joules: Time and energy of actions.
     """
 
     metres: Floats
@@ -45,9 +45,9 @@ class LegCostSamples:
     once.
 
     Args:
-        costs: What a leg of length 1 costs.
-        seed: Of what the legs cost.
-        draws: How many missions.
+        costs: Cost model of a leg of length 1.
+        seed: Seed of the leg costs.
+        draws: Number of missions.
     """
 
     def __init__(self, costs: CostModel, seed: int, draws: int = DRAWS) -> None:
@@ -58,7 +58,7 @@ class LegCostSamples:
         """Return what consecutive legs cost each mission, shape (missions,).
 
         Args:
-            first: How many legs a mission drives before them.
+            first: Number of legs driven before them.
             legs: Their lengths in metres.
         """
         known = self._known.get((first, legs))
@@ -76,7 +76,7 @@ class MissionSamples:
     """Missions sampled along one walk.
 
     Args:
-        leg_costs: What legs cost.
+        leg_costs: Sampled costs of the legs.
     """
 
     def __init__(self, leg_costs: LegCostSamples) -> None:

@@ -44,7 +44,7 @@ def visit_distances(
     """Return distances between the robot, the optional visits, and the first place of the remaining work.
 
     Args:
-        here: Where the robot is: the first vertex.
+        here: The robot's place, which is the first vertex.
         visits: The next ones; the way on from a visit begins where it ends.
         rest: What follows. Where it drives nowhere the robot may end anywhere: the last vertex is 0 away from all.
         drives: The ways of the site.

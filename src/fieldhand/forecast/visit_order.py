@@ -66,9 +66,9 @@ def order_visits(drives: Drives, here: Place, places: Sequence[Place], home: Pla
 
     Args:
         drives: The ways of the site.
-        here: Where the robot is.
-        places: Where it has to go, in any order, each with its stand (:func:`with_stands`).
-        home: Where it goes afterwards; None where that is not known or something else comes first.
+        here: The robot's place.
+        places: Places to visit in any order, each with its stand (:func:`with_stands`).
+        home: Place visited afterwards; None if not known or if something else comes first.
 
     Returns:
         Positions in ``places``, each once.

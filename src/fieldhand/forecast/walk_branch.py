@@ -31,8 +31,8 @@ def walk_branch(
     """Walk a Task from the start of the site to its exit for any answers, even on an impossible branch.
 
     Args:
-        task: What to walk.
-        site, robot: Where and with what.
+        task: The Task.
+        site, robot: The site and the robot.
         holds: Asked for the id of each ``If`` that is reached, and of a loop with ``until`` after each of its rounds.
         fails: Asked for the id of each action inside a ``Try``; what is outside one does not fail in a forecast.
         drives: The ways of the site, if the caller has them; they remember what they found.

@@ -62,7 +62,7 @@ class WalkState:
     Args:
         task, site, robot, drives: The mission.
         answers: To what it cannot know.
-        context: Where it begins; at the start of the site by default.
+        context: Initial context; the start of the site by default.
         samples: Missions that use what the walk takes, each with its own luck; None for none.
         readings: What was read on the way; None where a walk begins somewhere on a mission and cannot know.
     """

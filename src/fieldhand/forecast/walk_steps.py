@@ -52,8 +52,8 @@ class VisitForecast:
     """The forecast of optional visits.
 
     Attributes:
-        visits: How many missions make on average.
-        chances: How likely each place that can be reached is visited, by its id.
+        visits: Mean number of visits per mission.
+        chances: Probability of a visit to each reachable place, by its id.
     """
 
     visits: float
@@ -68,14 +68,14 @@ class WalkStep:
         node: The plan node that it belongs to; for the exit, the ``Stop`` that takes it or the root of the plan.
         kind: ``visit-list`` where a for-each has found its places, or where an optional step is decided on (a list of
             one place, where it begins); ``exit`` for the way home, else what it says.
-        context: Where the robot is and has been before it.
+        context: The robot's place and visited trees before the step.
         places: Of a drive or an exit, where to; of an act, where; of a visit list, the places in their order.
         shed: Of a visit list, places for which the budget will hardly last.
-        visit_forecast: Of a visit list of optional visits.
+        visit_forecast: Forecast of a list of optional visits.
         drive: The way, of a drive, and of an exit that goes anywhere.
-        captures: Of an act.
-        seconds, joules: What it takes as legs cost on average; idle power is not counted in the joules.
-        answer: Of a decision.
+        captures: Number of captures of an act.
+        seconds, joules: Mean time and energy of the step; energy without idle power.
+        answer: Answer of a decision.
         reached: False of a drive that is blocked just before its end.
     """
 
@@ -100,8 +100,8 @@ class Walk:
     """A Task along one branch.
 
     Attributes:
-        end: Where the robot is at last.
-        exit: Which exit was taken.
+        end: Final place of the robot.
+        exit: Exit that was taken.
         decisions: In the order in which they came up; they tell one walk from another.
         unread: Conditions that test what nothing has read on this branch: id of the node, and the reading.
         used: What missions use that go this way, each with its own optional visits; None where none were drawn.

@@ -26,9 +26,9 @@ class Annealing:
 
     Args:
         prepared: The problem.
-        here: Where the route begins.
+        here: First vertex of the route.
         free: Vertices that may be visited.
-        budgets: What may be used of each limit.
+        budgets: Amount that may be used of each limit.
         tables: For each limit the quantiles of the cost that may not exceed its budget (:func:`quantile_table`).
         stops: The route to begin with; where it takes too much, those of its stops worth least are left out.
         state: One word, the state of the random numbers.
@@ -85,9 +85,9 @@ class Annealing:
         """Run a number of rounds of annealing.
 
         Args:
-            rounds: How many.
+            rounds: Number of rounds.
             heat: Temperature at the beginning of all rounds, in rewards of a typical vertex.
-            done, then: What part of all rounds is done before these and after them.
+            done, then: Share of all rounds done before these and after them.
         """
         if not len(self._free) or rounds < 0:
             return

@@ -41,11 +41,11 @@ class SearchEffort:
 
     Attributes:
         levels: Chances of exceeding the budget at which fixed routes are searched to begin with.
-        rounds: Of annealing for each of them.
+        rounds: Annealing rounds for each of them.
         insertions: Stops that the order made of each may gain.
         skip: Stops ahead that may be driven to.
-        points: Of the grid of what is left.
-        remakes: How often the first order of a mission is partly taken apart and grown again.
+        points: Grid points of the amount left.
+        remakes: Times the initial order of a mission is partly removed and grown again.
     """
 
     levels: tuple[float, ...] = (0.4,)
@@ -81,7 +81,7 @@ class VisitOrder:
     """Stops in visiting order; the robot may skip some of them.
 
     Attributes:
-        stops: Without the ends.
+        stops: The stops, without the ends.
         first: Position of the one that is driven to now; ``len(stops)`` for the end.
         worth: Reward still to come, of missions that keep to the limits (0 for others), on average.
         success: Chance that they do.
@@ -103,10 +103,10 @@ class DecisionSearch:
     Args:
         prepared: The problem.
         here: The vertex.
-        left: Of each limit.
-        free: Whether each vertex may still be visited, shape (n,).
-        effort: How much to search.
-        state: Of the random numbers.
+        left: Amount left of each limit.
+        free: True for each vertex that may still be visited, shape (n,).
+        effort: Search effort.
+        state: State of the random generator.
         max_visits: Stops that may still be visited; None for any number.
     """
 
@@ -189,7 +189,7 @@ class DecisionSearch:
 
         Args:
             stops, bonus: The order; what keeping to the limits counts.
-            most_left: What the mission with most left has of the binding limit.
+            most_left: Largest amount left of the binding limit over all missions.
 
         Returns:
             For each position (0 for here) and amount left the position that it drives to, ``len(stops) + 1`` for the

@@ -29,9 +29,9 @@ class Network:
     """Ways that can be driven in both directions.
 
     Attributes:
-        nodes: How many there are; numbered from 0.
+        nodes: Number of nodes, numbered from 0.
         edges: Pairs of nodes, shape (m, 2).
-        lengths: Of the edges, shape (m,).
+        lengths: Lengths of the edges, shape (m,).
 
     Raises:
         ProblemError: A node that does not exist; a length that is negative or not a number.
@@ -105,11 +105,11 @@ class Network:
         """Return the problem over the nodes that are worth a visit, with the node of each of its vertices.
 
         Args:
-            rewards: Of every node, 0 for a mere junction.
+            rewards: Reward of every node, 0 for a mere junction.
             start, end: Nodes.
             limits: With service for every node, where there is any.
-            costs: How legs cost.
-            precision: Of the distances; None for double up to ``DOUBLE`` vertices, and single beyond.
+            costs: Cost model of the legs.
+            precision: Precision of the distances; None for double up to ``DOUBLE`` vertices, single beyond.
 
         Raises:
             ProblemError: As :class:`Problem`.

@@ -22,7 +22,7 @@ def overrun_probability(mean: ArrayLike, variance: ArrayLike, third: ArrayLike, 
 
     Args:
         mean, variance, third: Cumulants of the sum: mean, variance, third central moment.
-        left: What it may be; below 0 the answer is 1.
+        left: Amount left; below 0 the probability is 1.
     """
     m, v, t, x = np.broadcast_arrays(*(np.asarray(a, dtype=np.float64) for a in (mean, variance, third, left)))
     certain = (x - m < -1e-9 * (1.0 + np.abs(x))).astype(np.float64)

@@ -36,8 +36,8 @@ class State:
     """The state of a mission.
 
     Attributes:
-        vertex: Where the robot is.
-        left: What is left of each limit, in their order; may be negative.
+        vertex: The robot's vertex.
+        left: Amount left of each limit, in their order; may be negative.
         visited: Vertices that have been collected.
         given_up: Vertices that may not be visited any more, though nothing was collected there.
     """
@@ -69,14 +69,14 @@ class Policy:
     Args:
         problem: As it stands before the mission.
         seed: The same seed and the same leg costs give the same mission.
-        effort: How much to search at a decision.
+        effort: Search effort per decision.
         risk_tolerance: Weight of reward against safety, 0 to 1: the price of a failure may fall to minus this share of
             the expected reward. At 0 the policy collects the most over all missions, near 1 the most over successful
             missions, for which it uses up the whole failure probability.
-        price: What a failure costs beside the reward; None to find it at the first decision.
+        price: Cost of a failure besides the lost reward; None to compute it at the first decision.
         collected: Reward that is safe already, where the problem is what is left of a mission.
         warm: Vertices that were planned, in their order, to begin the search with.
-        prepared: Of the problem, where it is known.
+        prepared: The prepared problem, if the caller has it.
 
     Raises:
         ProblemError: ``risk_tolerance`` is not a number from 0 to 1.
@@ -159,8 +159,8 @@ class Policy:
         """Return the next vertex to visit; the problem's end if no visit is worth its risk.
 
         Args:
-            state: Where the mission stands.
-            seconds: How long to think; None for the counted effort, which alone gives the same answer on any machine.
+            state: State of the mission.
+            seconds: Time to search; None for the counted effort, which alone is reproducible on any machine.
 
         Raises:
             ProblemError: The state is none of this problem: a vertex that does not exist, an amount that is missing or
@@ -257,7 +257,7 @@ class Policy:
         """Return the least price at which the best order keeps to the binding failure probability.
 
         Args:
-            search, collected: Where the mission stands; reward that is safe already.
+            search, collected: The search from the current state; reward already collected.
             safe: Stops of a fixed route planned at the accepted chance, where there is one. It can be safer than any
                 part of the order worth most at no price: many short legs are less uncertain than one long leg home.
         """
@@ -302,7 +302,7 @@ class Policy:
         price between staying and risking too much may be found; it is, once the first leg is driven.
 
         Args:
-            search, accepted: Where the mission stands; the chance of failing.
+            search, accepted: The search from the current state; the accepted failure probability.
             safe: Stops of a route that was found already, if any; it is searched for where they are not safe enough.
         """
         from fieldhand.orienteering.decision import VisitOrder

@@ -33,7 +33,7 @@ class PreparedProblem:
     Attributes:
         lengths: Lengths of the legs between nodes: the vertices and the end.
         near: Nearest vertices of each node, nearest first, shape (n + 1, k).
-        rewards: Of vertices and end, shape (n + 1,); 0 for the end.
+        rewards: Rewards of vertices and end, shape (n + 1,); 0 for the end.
         service: For each limit what work takes at each node, shape (limits, n + 1).
         afterwards: First three sums of the legs after the end.
         cumulants: Second and third of the cost of a leg of length 1.

@@ -37,11 +37,11 @@ class Preview:
 
     Attributes:
         vertices: Those that some mission visits, shape (k,): of the group in the middle in its order, then the others.
-        visited: Whether each is visited, shape (missions, k).
-        legs: What the legs to them cost in all, shape (missions,).
-        last: What the leg from the last of them to the end costs, shape (missions,).
-        groups: Which of ``orders`` each mission drives, shape (missions,).
-        orders: Of each group the stops in the order in which they are driven to.
+        visited: True where a mission visits a vertex, shape (missions, k).
+        legs: Total cost of the legs to them, shape (missions,).
+        last: Cost of the leg from the last of them to the end, shape (missions,).
+        groups: Index into ``orders`` per mission, shape (missions,).
+        orders: Stops of each group in visiting order.
     """
 
     vertices: Ints
@@ -66,9 +66,9 @@ def preview(policy: Policy, state: State, rng: np.random.Generator, used: Floats
     """Drive what a policy plans from a state on.
 
     Args:
-        policy: It has not decided anything there yet.
-        state: Where the missions stand on the whole.
-        rng: For what the legs cost.
+        policy: The policy, before its first decision from that state.
+        state: Common initial state of the missions.
+        rng: Random generator of the leg costs.
         used: By how much more than that each mission has used already, shape (missions,); negative where it is less.
     """
     missions = _Missions(policy, state, used)
@@ -111,8 +111,8 @@ class _Group:
 
     Attributes:
         policy: Plans for all of them.
-        vertex: Where they are.
-        stops: That they have visited.
+        vertex: Their current vertex.
+        stops: Stops they have visited.
         members: Their numbers.
         warm: Stops that they mean to visit; empty before their first plan.
     """

@@ -34,9 +34,9 @@ def tune_price(policy: Policy, problem: Problem, seed: int, missions: int) -> Po
 
     Args:
         policy: As it is.
-        problem: What it is a policy for.
-        seed: Of the missions.
-        missions: At most so many; a few hundred bring the chance within some hundredths of itself.
+        problem: The problem of the policy.
+        seed: Seed of the missions.
+        missions: Maximum number of missions; a few hundred bring the probability within a few percent of its value.
     """
     accepted = _AIM * min(limit.failure_probability for limit in problem.limits)
     policy.next(State(vertex=problem.start, left=tuple(limit.budget for limit in problem.limits)))
@@ -92,9 +92,9 @@ def _nearer(known: list[_Trial], accepted: float, care: float) -> float:
     """Return the abscissa where a line through the logits of the probabilities reaches the accepted one.
 
     Args:
-        known: What was tried.
+        known: Trials so far.
         accepted: The chance.
-        care: How many standard errors of the line to stay on the safe side.
+        care: Safety margin in standard errors of the line.
     """
     at, chance = np.array([trial.at for trial in known]), np.array([trial.chances.mean() for trial in known])
     error = _error(known)

@@ -23,9 +23,9 @@ class Limit:
     one unit of leg cost takes of it; so any number of resources share the legs' one random cost.
 
     Attributes:
-        budget: What may be used.
+        budget: Amount that may be used.
         failure_probability: Accepted chance of using more (Pf), above 0 and below 1.
-        service: What a visit to each vertex uses, shape (n,); the start's is not counted. None: nothing.
+        service: Amount used by a visit to each vertex, shape (n,), the start's not counted; None for nothing.
     """
 
     budget: float
@@ -43,13 +43,13 @@ class Problem:
     Attributes:
         distances: Lengths of the legs, symmetric, shape (n, n), in any unit; ``inf`` where there is no leg. Empty if
             coordinates or a table give them.
-        rewards: What visiting each vertex is worth, shape (n,); the start's and the end's do not count.
+        rewards: Reward of each vertex, shape (n,); the start's and the end's do not count.
         limits: At least one.
         alpha: The certain part of a leg's cost, 0 to 1; 1 is a deterministic problem.
         costs: Another cost model; ``alpha`` is not used then.
         coordinates: Coordinates of the vertices, shape (n, 2), in place of distances: legs are straight, and thousands
             of vertices need no table of distances.
-        table: Of a sparse network, in place of distances (:meth:`fieldhand.orienteering.network.Network.problem`).
+        table: Distances of a sparse network (:meth:`fieldhand.orienteering.network.Network.problem`).
         max_visits: Largest number of vertices with a reward that may be visited, start and end not counted; None for
             as many as fit.
         legs_after: Lengths of the legs driven after the end, whatever the route; they count for every limit.

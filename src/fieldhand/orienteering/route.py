@@ -26,7 +26,7 @@ class Route:
 
     Attributes:
         vertices: In their order, start and end included.
-        reward: Of the vertices between them.
+        reward: Total reward of the vertices between them.
         length: Expected cost of the legs, those after the end included.
         chances: For each limit the chance of exceeding it.
     """
@@ -58,7 +58,7 @@ def solve(problem: Problem, seed: int, stop: StoppingCriterion | None = None) ->
     """Search for the best fixed route.
 
     Args:
-        problem: What to solve.
+        problem: The problem.
         seed: The same seed and the same rounds give the same route.
         stop: When to end the search; without it, after :class:`StoppingCriterion`'s rounds.
 

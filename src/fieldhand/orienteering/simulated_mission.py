@@ -28,8 +28,8 @@ class SimulatedMission:
 
     Attributes:
         path: Vertices in their order, start and end included.
-        reward: Of every vertex arrived at, the end's included, as long as no limit was exceeded.
-        left: Of each limit at the end; negative where it was exceeded.
+        reward: Total reward of the vertices reached before any limit was exceeded, the end's included.
+        left: Amount left of each limit at the end; negative if exceeded.
         chance: Of exceeding a limit, as it stood before the last leg; without the luck of the legs before, as far as
             it was foreseen what that would mean. Its mean over missions is the chance of failing; of a single one it
             may lie outside 0 to 1.
@@ -56,9 +56,9 @@ def simulate_mission(
 
     Args:
         problem: As it stands before the mission.
-        following: The vertex to go to next.
-        rng: For what the legs cost.
-        success_after_leg: What was foreseen of the leg to that vertex; asked after ``following``.
+        following: Function that returns the next vertex.
+        rng: Random generator of the leg costs.
+        success_after_leg: Success probabilities after the leg to that vertex; called after ``following``.
     """
     path, visited, reward, over, chance, luck = [problem.start], frozenset[int](), 0.0, False, 1.0, 0.0
     left = np.array([limit.budget for limit in problem.limits])

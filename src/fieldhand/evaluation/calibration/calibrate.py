@@ -38,7 +38,7 @@ class CostModelFit:
         speed: Metres driven a second.
         drive, idle: Joules a metre driven, and watts all the time.
         durations, energies: Seconds and joules of one capture, by action.
-        kept: What the data could not tell, in words.
+        kept: What the data could not determine, in words.
     """
 
     legs: LegFit
@@ -97,11 +97,11 @@ class Calibration:
     """A fit, its data, and its accuracy.
 
     Attributes:
-        missions, legs, captures: That it rests on.
+        missions, legs, captures: Number of missions, legs and captures used.
         left_out: Steps that could not be used, by why.
         actual: Seconds and percent of the battery that the steps compared took.
-        before: By the profile as it was.
-        after: By fits each of which had not seen the steps that it predicts.
+        before: Prediction error of the profile before calibration.
+        after: Prediction error by cross-validation.
     """
 
     fit: CostModelFit
@@ -119,8 +119,8 @@ def calibrate(robot: RobotProfile, missions: Sequence[MeasuredMission], *, seed:
 
     Args:
         robot: The profile as it is.
-        missions: Of this robot.
-        seed: Of the draws for the intervals.
+        missions: Missions of this robot.
+        seed: Seed of the draws for the intervals.
 
     Raises:
         InputError: There are too few legs.

@@ -39,7 +39,7 @@ class LegFit:
 
     Attributes:
         alpha, scale: Fitted.
-        likely: How likely legs are to spread at least so far from the model (Kolmogorov-Smirnov), 0 to 1.
+        likely: p-value of the Kolmogorov-Smirnov test of the model, 0 to 1.
     """
 
     alpha: FittedValue
@@ -52,7 +52,7 @@ def fit_legs(ratios: Floats, rng: np.random.Generator) -> LegFit:
 
     Args:
         ratios: Driven to planned metres of each leg; at least two.
-        rng: Of the draws from which the intervals are taken.
+        rng: Random generator of the draws for the intervals.
 
     A ratio is ``a + Exp(b)``. With n of them, ``2 n (mean - least) / b`` is chi-square with 2n - 2 degrees of freedom
     and ``n (least - a) / b`` is exponential, each independent of the other; so draws of both give the intervals of
@@ -104,8 +104,8 @@ def fit_shares(columns: Floats, amounts: Floats) -> tuple[FittedValue, ...]:
     """Fit the amount per cause by non-negative least squares.
 
     Args:
-        columns: How much of each cause is in each row, shape (rows, causes); more rows than causes.
-        amounts: What the rows took, in the order in which they were measured.
+        columns: Amount of each cause per row, shape (rows, causes); more rows than causes.
+        amounts: Amount used per row, in the order of measurement.
 
     Errors may differ from row to row and hang together over two rows, so the intervals are those of Newey and West
     (1987).

@@ -36,15 +36,15 @@ class MeasuredStep:
     """The time between two readings of the charge: a leg, a capture, or the rest.
 
     Attributes:
-        kind: What it is.
+        kind: Kind of step.
         name: The action of a capture; else empty.
         planned_m: Length of the leg as planned.
         metres: Driven, by odometry; of a leg the leg's own.
-        seconds: Of the leg or the capture itself; nan where the log does not tell.
+        seconds: Duration of the leg or capture; nan if not logged.
         moved_m, whole_s, percent: Driven, passed and used of a full battery since the charge was read before.
-        sure: Whether those three are known.
-        speed_m_s: That the robot was told to drive; nan where the log does not say.
-        done: Whether the leg arrived or the capture succeeded.
+        sure: True if those three are known.
+        speed_m_s: Commanded speed; nan if not logged.
+        done: True if the leg arrived or the capture succeeded.
     """
 
     kind: StepKind
@@ -66,7 +66,7 @@ class MeasuredMission:
 
     Attributes:
         key: SHA-256 of its events: the same mission is kept once.
-        simulated: Whether it took place in the simulation.
+        simulated: True if it was simulated.
         left_out: Steps whose figures are no numbers.
     """
 

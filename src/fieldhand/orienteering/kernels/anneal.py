@@ -250,16 +250,16 @@ def anneal(
     """Better the route in ``after`` and ``before`` by ``rounds`` rounds.
 
     Args:
-        here: Where the route begins.
+        here: First vertex of the route.
         free: Vertices that may be visited; each of them not in the route has -1 in ``after``.
         after, before, sums, used: The route and its figures, changed in place.
         lengths, near: Lengths, and the nearest vertices of each, nearest first.
         rewards, service, budgets: ``service`` has limits along its first axis.
         cumulants, quantiles: For :func:`cost_quantile`; ``quantiles`` has limits along its first axis.
         max_visits: Stops that the route may have.
-        worth: What part of the best reward a unit of length counts for.
+        worth: Penalty of a unit of length, as a part of the best reward.
         hot, cold: Temperature of the first and of the last round, in reward.
-        state: Of the random numbers.
+        state: State of the random generator.
         best, record: The best route's stops; its reward and its length, both of them from earlier calls as well.
 
     Returns:

@@ -92,10 +92,10 @@ def grow(
 
     Args:
         stops: The order to begin with, without its ends.
-        here: Where the robot is.
+        here: The robot's vertex.
         free: Vertices that may be inserted.
         longest: Stops that the order may have.
-        insertions: How many may be inserted.
+        insertions: Maximum number of insertions.
         near: Nearest vertices of each.
         lengths, rewards, service, budgets, ends, bonus, skip, points, weights: As for :func:`backward`; ``service``
             and ``budgets`` of every limit, the one with the least budget first.

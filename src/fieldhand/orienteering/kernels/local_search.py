@@ -31,14 +31,14 @@ class SearchState(NamedTuple):
 
     Attributes:
         path: Vertices from end to end, shape (n,).
-        place: Where each vertex stands in the path.
+        place: Position of each vertex in the path.
         near: The nearest vertices of each, nearest first, those of one vertex behind those of the one before.
-        away: How far they are.
-        size: How many of each.
+        away: Their distances.
+        size: Number of neighbours per vertex.
         queue: Vertices to look at, in a ring, shape (n,).
         waiting: 1 for each of them, else 0.
         flips: First and last place of each part that was turned round, one pair behind the other.
-        count: Where the queue begins, how many vertices stand in it, and how many pairs in ``flips``.
+        count: First index and length of the queue, and number of pairs in ``flips``.
     """
 
     path: Numbers
@@ -120,8 +120,8 @@ def shorten(lengths: Lengths, state: SearchState, kicks: int, patience: int, rea
     Args:
         lengths: Lengths of legs.
         state: The path; its queue is empty.
-        kicks: How many at most.
-        patience: How many without gain before it is left at that.
+        kicks: Maximum number of kicks.
+        patience: Kicks without gain after which the search ends.
         reach: Most vertices of each of the two segments that a kick swaps.
     """
     path = state.path

@@ -40,7 +40,7 @@ def drive(
         worth, success: After them, by what is left.
         to_worth, to_success: Overwritten.
         leg, service: The leg's length; what the work takes.
-        step: Of the grid.
+        step: Distance between grid points.
         points, weights: What a leg of length 1 may cost and how likely; where ``weights`` is empty, ``points[0]`` and
             an exponential part with mean ``points[1]`` on top.
     """
@@ -186,14 +186,14 @@ def backward(
     Args:
         route: From here to the end, both included.
         lengths: For :func:`length`.
-        rewards: Of each vertex.
-        service: What the work at each vertex takes of the first limit.
-        ends: By what is left at the end, the chance that what must follow there is within the limit.
+        rewards: Reward of each vertex.
+        service: Service cost of each vertex in the first limit.
+        ends: Probability, by amount left at the end, that the legs after it keep to the limit.
         floors: For each position what must be left of the first limit on going home from there, so that the others
             keep; 0 where there is but one limit.
-        bonus: What a mission counts that keeps to the limits, beside the rewards from here on.
-        step: Of the grid; its last point is what is left here.
-        skip: How many stops ahead may be driven to.
+        bonus: Value of keeping to the limits, besides the rewards from here on.
+        step: Distance between grid points; the last point is the amount left here.
+        skip: Number of stops ahead among which the next is chosen.
         points, weights: For :func:`drive`.
         worth, success: Overwritten, shape (positions, points of the grid).
         ahead: Overwritten: ``worth`` with the reward of the position itself.
