@@ -26,7 +26,7 @@ _ACROSS: tuple[tuple[Side, Side], ...] = (("north", "south"), ("east", "west"))
 
 @dataclass(frozen=True, kw_only=True)
 class PlannedCaptures:
-    """What one act of the plan takes.
+    """Captures of one act of the plan.
 
     Attributes:
         each: At one place.
@@ -80,7 +80,7 @@ class PlannedNumber:
 
 @dataclass(frozen=True, kw_only=True)
 class PlanFacts:
-    """What a Task holds. ``nodes`` are its plan nodes in their order, ``selectors`` every part of theirs."""
+    """Facts of a Task: ``nodes`` are its plan nodes in their order, ``selectors`` every part of theirs."""
 
     task: Task
     nodes: tuple[p.Node, ...]
@@ -170,7 +170,7 @@ def plan_facts(task: Task, size: Callable[[str], int | None]) -> PlanFacts:
 
 @dataclass(frozen=True, kw_only=True)
 class _Surroundings:
-    """What stands around a node: distinct places, rounds, numbers, and whether it depends on anything."""
+    """Surroundings of a node: distinct places, rounds, numbers, and whether it is conditional."""
 
     places: CountRange = ONE
     rounds: CountRange = ONE

@@ -26,7 +26,7 @@ _TO = r"(?: again)? (?:to|at) (?:the |its |your )?"
 
 @dataclass(frozen=True, kw_only=True)
 class RequestFacts:
-    """What a request says, with this robot's and this site's names.
+    """Facts of a request, with the names of this robot and this site.
 
     Attributes:
         nouns: The robot's nouns by their first token.

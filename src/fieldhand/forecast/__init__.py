@@ -1,1 +1,1 @@
-"""What a Task will take: drives, time and energy, as a distribution."""
+"""Forecast of a Task: drives, time and energy as distributions, on every branch."""

@@ -85,7 +85,7 @@ class Estimate:
 
 @dataclass(frozen=True, kw_only=True)
 class _CachedBranches:
-    """What a site was last asked for: approval asks again for what the plan was shown with."""
+    """The branches last explored on a site; approval asks again for those that the plan was shown with."""
 
     robot: RobotProfile
     asked: tuple[Task, int, float, int]

@@ -36,7 +36,7 @@ class Spent:
 
 @dataclass(frozen=True, kw_only=True)
 class Work:
-    """What is done at places, on the longest branch: seconds, joules of actions (without idle power), metres driven."""
+    """Work at places on the longest branch: seconds, joules of actions (without idle power), metres driven."""
 
     seconds: float = 0.0
     joules: float = 0.0
@@ -105,7 +105,7 @@ class MissionState:
 
 @dataclass(frozen=True, kw_only=True)
 class Verdict:
-    """Whether a mandatory visit may go ahead, why, and the chance of running short if it does."""
+    """The guard's decision about a mandatory visit, with its reason and the chance of running short."""
 
     go: bool
     reason: str = ""
@@ -114,7 +114,7 @@ class Verdict:
 
 @dataclass(frozen=True, kw_only=True)
 class VisitChoice:
-    """Which of the candidates comes next (None: none fits any more), which are given up for good, and why.
+    """The guard's choice of the next candidate (None if none fits), those given up for good, and the reason.
 
     Attributes:
         chance_short: Of running short with what is given up, where anything is; else with what comes next.

@@ -31,7 +31,7 @@ _Values = tuple[float, ...]
 
 @dataclass(frozen=True, kw_only=True)
 class _Outcome:
-    """What can come of a test: the answers, and with each of them the values that go with it."""
+    """Possible results of a test: the answers, and the values consistent with each."""
 
     values: Mapping[bool, tuple[_Values, ...]]
 
@@ -41,7 +41,7 @@ class _Outcome:
 
 
 class ConditionOutcomes:
-    """What does not change from branch to branch; kept for all walks of a mission.
+    """Possible results of conditions, cached for all walks of a mission.
 
     Args:
         root: The plan, for its thresholds.

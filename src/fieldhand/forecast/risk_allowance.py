@@ -23,7 +23,7 @@ OPTIONAL_SHARE = 0.1
 
 @dataclass(frozen=True, kw_only=True)
 class RiskAllowance:
-    """What optional visits may still add to a mission's chance of running short.
+    """The probability of running short that optional visits may still add to a mission.
 
     Attributes:
         accepted: For each limit the chance that the Task accepts.

@@ -37,7 +37,7 @@ _LUCK = 1.15
 
 @dataclass(frozen=True, kw_only=True)
 class SearchEffort:
-    """How much to search at a decision, counted, so that the same problem gives the same mission on any machine.
+    """Search effort per decision, counted, so that the same problem gives the same mission on any machine.
 
     Attributes:
         levels: Chances of exceeding the budget at which fixed routes are searched to begin with.

@@ -50,7 +50,7 @@ class State:
 
 @dataclass(frozen=True, kw_only=True)
 class Expectation:
-    """What a policy expects from a state on.
+    """The expected outcome of a mission from a state on.
 
     Attributes:
         vertices: The order it means to drive, from here to the end; luck decides which of them it skips.

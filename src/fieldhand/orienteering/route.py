@@ -39,7 +39,7 @@ class Route:
 
 @dataclass(frozen=True, kw_only=True)
 class StoppingCriterion:
-    """When to end a search: at the first of a number of rounds and a time.
+    """A stopping criterion of a search: a number of rounds or a time, whichever comes first.
 
     Attributes:
         rounds: Rounds of the search; counted alone, the same seed gives the same route on any machine.

@@ -1,1 +1,1 @@
-"""What driving, waiting and capturing really cost a robot: kept from its missions, and fitted to its profile."""
+"""Measured costs of driving, waiting and capturing: kept from missions, and fitted to the robot's profile."""

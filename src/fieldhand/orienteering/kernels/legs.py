@@ -16,7 +16,7 @@ Seeds = NDArray[np.uint64]
 
 
 class LegLengths(NamedTuple):
-    """How long the leg between any two nodes is.
+    """Lengths of the legs between any two nodes.
 
     Attributes:
         matrix: Lengths, shape (nodes, nodes); empty where something else gives them.
