@@ -1,4 +1,4 @@
-"""What a robot found blocked on its way, and the ways that are left without it."""
+"""Blocked areas found by a robot on its way, and the drives that avoid them."""
 
 from __future__ import annotations
 
@@ -36,15 +36,15 @@ _BESIDE_M = 1e-3
 
 
 class Blockages:
-    """The stretches that are blocked, and the drives that avoid them.
+    """The blocked areas, and the drives around them.
 
     Args:
-        drives: The ways of the site as it was approved.
+        drives: Drives of the site as it was approved.
 
     Attributes:
-        drives: The ways that are left. What they avoid counts as a keep-out.
-        stretches: In metres east and north.
-        version: Changes whenever the ways do.
+        drives: The remaining drives, which treat blocked areas as keep-outs.
+        stretches: Blocked areas in metres east and north.
+        version: Changes whenever the drives do.
     """
 
     def __init__(self, drives: Drives) -> None:
@@ -70,7 +70,7 @@ class Blockages:
         return stretch
 
     def are(self, stretches: Sequence[Polygon]) -> None:
-        """Let these be what is blocked, and nothing else."""
+        """Replace all blocked areas."""
         self.stretches, self.version = tuple(stretches), self.version + 1
         self.drives = _without(self._all, self.stretches) if stretches else self._all
 

@@ -1,4 +1,4 @@
-"""What a site holds as one number: the same for the same orchard, however its file is written."""
+"""Hash of the contents of a site: equal for the same orchard, whatever its file format."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How a grower counts: the rows of a block from one side, the trees of a row from one end."""
+"""Count rows and trees as growers do: the rows of a block from one side, the trees of a row from one end."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _NUMBERED = re.compile(r"(\D*?) ?0*(\d{1,9})")
 
 
 def need_rows(site: Site) -> Planting:
-    """How the site is planted.
+    """Return the planting of a site.
 
     Raises:
         PlaceError: The site has no rows.
@@ -48,7 +48,7 @@ def need_rows(site: Site) -> Planting:
 
 
 def along(block: Block) -> NDArray[np.float64]:
-    """The unit vector along the block's rows, away from their usual end."""
+    """Return the unit vector along a block's rows, away from their usual end."""
     turn = np.radians(block.bearing_deg)
     axis = np.array([np.sin(turn), np.cos(turn)])
     away = axis[0] > 0 if block.runs_east_west else axis[1] < 0
@@ -56,24 +56,24 @@ def along(block: Block) -> NDArray[np.float64]:
 
 
 def across(block: Block) -> NDArray[np.float64]:
-    """The unit vector across the block's rows, towards higher numbers."""
+    """Return the unit vector across a block's rows, towards higher numbers."""
     x, y = along(block)
     return np.array([y, -x]) if block.runs_east_west else np.array([-y, x])
 
 
 def wind(vector: NDArray[np.float64]) -> str:
-    """The direction of a vector by the compass of eight: "south-east"."""
+    """Return the direction of a vector by the eight-point compass: "south-east"."""
     return _WINDS[round(float(np.degrees(np.arctan2(vector[0], vector[1]))) / 45.0) % 8]
 
 
 def leads(vector: NDArray[np.float64], side: Side) -> int:
-    """1 if the vector leads towards that side, -1 if away from it, 0 if it passes it by."""
+    """Return 1 if the vector leads towards a side, -1 if away from it, 0 if neither."""
     cosine = float(vector @ np.array(OUTWARD[side]))
     return 0 if abs(cosine) < _TOWARDS_COS else int(np.sign(cosine))
 
 
 def way_of(block: Block) -> str:
-    """How the rows of a block run: "north to south"."""
+    """Return the direction of a block's rows: "north to south"."""
     axis = along(block)
     return message("{one} to {other}", one=COMPASS[wind(-axis)], other=COMPASS[wind(axis)])
 
@@ -125,7 +125,7 @@ def trees_from(site: Site, block: Block, side: CountedFrom) -> tuple[int, str]:
 
 
 def find_block(site: Site, said: str) -> Block | None:
-    """The block of that name, else of that number from 1; None where there is none."""
+    """Return the block of a name, else of a number from 1; None if there is none."""
     blocks = site.planting.blocks
     exact = [b for b in blocks if b.name == said]
     alike = exact or [b for b in blocks if bare_name(b.name) == bare_name(said)]
@@ -163,7 +163,7 @@ def find_row(rows: Sequence[Row], said: str, *, by_number: bool = False) -> int 
 
 @lru_cache(maxsize=4096)
 def bare_name(name: str) -> str:
-    """A row's or block's name for comparing: lower case, without the word "row" or "block" in front."""
+    """Return a row's or block's name for comparison: lower case, without a leading "row" or "block"."""
     words = phrase(name)
     for lead in ("row ", "block "):
         words = words.removeprefix(lead)
@@ -171,7 +171,7 @@ def bare_name(name: str) -> str:
 
 
 def row_words(site: Site, row: Row) -> str:
-    """A row as people say it: "row 3", and of which block where there are several."""
+    """Return a row in words: "row 3", with its block if there are several."""
     name = bare_name(row.name) if phrase(row.name).startswith("row ") else row.name
     blocks = site.planting.blocks
     said = message("row {name}", name=name)
@@ -179,7 +179,7 @@ def row_words(site: Site, row: Row) -> str:
 
 
 def block_words(block: Block) -> str:
-    """A block as people say it: "block B"."""
+    """Return a block in words: "block B"."""
     return say_block(block.name)
 
 
@@ -192,7 +192,7 @@ def _not_counted(what: str, site: Site, block: Block) -> str:
 
 @lru_cache(maxsize=1024)
 def _own_numbers(names: tuple[str, ...]) -> tuple[int, ...]:
-    """The numbers in the names, where all have one behind the same letters, each its own; else nothing."""
+    """Return the numbers in names that share the same letters and differ in the number; else nothing."""
     found = [_NUMBERED.fullmatch(bare_name(name)) for name in names]
     if not found or len({m.group(1) if m else None for m in found}) > 1 or found[0] is None:
         return ()
@@ -201,7 +201,7 @@ def _own_numbers(names: tuple[str, ...]) -> tuple[int, ...]:
 
 
 def _falls(names: Sequence[str]) -> bool:
-    """Whether numbers or single letters fall from name to name."""
+    """Return True if numbers or single letters decrease from name to name."""
     numbers = _own_numbers(tuple(names))
     letters = [name.lower() for name in names if len(name) == 1 and name.isalpha()]
     order: Sequence[int | str] = numbers if numbers else letters if len(letters) == len(names) else ()
@@ -209,7 +209,7 @@ def _falls(names: Sequence[str]) -> bool:
 
 
 def numbered_by_file(site: Site, row: Row) -> bool:
-    """Whether the row's planting positions are numbers that its trees have in the file."""
+    """Return True if the row's planting positions are numbers that the file gives to its trees."""
     first, last = (site.trees[k].properties for k in (row.trees[0], row.trees[-1]))
     names = [n for n, value in first.items() if _same(value, row.slots[0]) and _same(last.get(n), row.slots[-1])]
     return any(

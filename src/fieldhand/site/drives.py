@@ -234,7 +234,7 @@ class Drives:
     # --- what cannot be driven --------------------------------------------------------------------------------
 
     def problem(self, place: Place) -> str:
-        """Why a place can never be driven to, in words that follow "tree 17 is"; empty if it can.
+        """Return why a place can never be reached, in words that follow "tree 17 is"; empty if it can be.
 
         "inside the keep-out 'pond'", "outside the boundary", "out of reach: the aisles beside it are 0.5 m wide, the
         robot is 0.67 m", "out of reach: no way out of its aisle: keep-out 'pond' closes one end and the boundary the
@@ -243,7 +243,7 @@ class Drives:
         return self.problems((place,))[0]
 
     def problems(self, places: Sequence[Place]) -> tuple[str, ...]:
-        """:meth:`problem` of each of the places; much faster than one by one."""
+        """Return :meth:`problem` for each of the places; much faster than one by one."""
         new = list({_key(p): p for p in places if _key(p) not in self._problems}.values())
         if new:
             reasons = self._impossible(new)
@@ -253,7 +253,7 @@ class Drives:
         return tuple(self._problems[_key(p)] for p in places)
 
     def linked(self, places: Sequence[Place], here: Place) -> tuple[bool, ...]:
-        """Which of the places can be driven to from here, wherever the robot will stand there."""
+        """Return for each place whether it can be reached from here, wherever the robot will stand there."""
         able = [[] if bad else c for bad, c in zip(self._impossible(places), self._able_of(places), strict=True)]
         spots = self.layout.spots([c.xy for some in able for c in some])
         linked = iter(self.layout.linked(spots, self._origin(here)))

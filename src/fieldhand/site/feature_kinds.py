@@ -1,7 +1,7 @@
-"""What a feature of a site file is, from its properties: a tree, a marker, a landmark, a kind of area.
+"""Classify the features of a site file by their properties: trees, markers, landmarks, kinds of areas.
 
-Programs name the property in their own way (``marker-symbol``, ``kind``, ``type``), so names are compared without
-regard to case, hyphens, underscores and spaces. A point is a tree unless its kind says that it is something else.
+Programs name the property differently (``marker-symbol``, ``kind``, ``type``), so names are compared without regard to
+case, hyphens, underscores and spaces. A point is a tree unless its kind says otherwise.
 """
 
 from __future__ import annotations
@@ -96,7 +96,7 @@ _SEPARATORS = re.compile(r"[\W_]+")
 
 @lru_cache(maxsize=8192)
 def phrase(text: str) -> str:
-    """Lower case words with one space between: ``Keep-Out_Zone`` becomes ``keep out zone``."""
+    """Return text as lower-case words with single spaces: ``Keep-Out_Zone`` becomes ``keep out zone``."""
     return _SEPARATORS.sub(" ", text).strip().lower()
 
 
@@ -122,12 +122,12 @@ def _spelt(names: tuple[str, ...], keys: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def number_text(value: float) -> str:
-    """A number as people write it: 3.0 is ``3``."""
+    """Return a number as people write it: 3.0 is ``3``."""
     return str(int(value)) if math.isfinite(value) and value == int(value) else repr(value)
 
 
 def point_kind(properties: Mapping[str, Value]) -> tuple[PointKind, str]:
-    """What a point is, and the word of the file that says so (empty where nothing does).
+    """Return the kind of a point, and the word of the file that gives it (empty if none does).
 
     A point without a kind is a marker if its *name* is exactly a marker's word ("Start"), else a tree.
     """
@@ -148,7 +148,7 @@ def point_kind(properties: Mapping[str, Value]) -> tuple[PointKind, str]:
 
 
 def area_kind(properties: Mapping[str, Value]) -> tuple[ZoneKind, str]:
-    """What an area is, and its name (its kind's word where it has no name; empty where it has neither)."""
+    """Return the kind of an area, and its name (the word of its kind if it has no name; empty if it has neither)."""
     said, name = text_of(properties, KIND_KEYS), text_of(properties, NAME_KEYS)
     flagged = any(value is True and _says_keep_out(phrase(key)) for key, value in properties.items())
     if flagged or _says_keep_out(phrase(said)):
@@ -166,7 +166,7 @@ def area_kind(properties: Mapping[str, Value]) -> tuple[ZoneKind, str]:
 
 
 def barrier_name(properties: Mapping[str, Value]) -> str:
-    """What a line is called that no robot drives across (a fence, a ditch); empty for any other line."""
+    """Return the name of a line that no robot may cross (a fence, a ditch); empty for any other line."""
     said, name = text_of(properties, KIND_KEYS), text_of(properties, NAME_KEYS)
     words = phrase(said or name)
     if words.split()[-1:] and (words.split()[-1] in _BARRIERS or _says_keep_out(words)):
@@ -179,12 +179,12 @@ DERIVED_LINES = frozenset({"row", "aisle", "headland", "gate", "link"})
 
 
 def is_derived(properties: Mapping[str, Value]) -> bool:
-    """Whether a line only says what is known from the trees."""
+    """Return True if a line only repeats what follows from the trees."""
     return phrase(text_of(properties, KIND_KEYS)) in DERIVED_LINES
 
 
 def row_of(properties: Mapping[str, Value]) -> str:
-    """The row that a tree says it stands in, else empty."""
+    """Return the row that a tree names, else empty."""
     return text_of(properties, ROW_KEYS)
 
 

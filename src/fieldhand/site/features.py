@@ -1,4 +1,4 @@
-"""The features of a site file, read with care: every fault is told with its feature and what to do."""
+"""Validate and sort the features of a site file; every fault names its feature and gives advice."""
 
 from __future__ import annotations
 
@@ -76,12 +76,12 @@ class BarrierFeature:
 
 @dataclass(kw_only=True)
 class FeatureSet:
-    """What the features of a file hold, in their order.
+    """The features of a file in their order.
 
     Attributes:
-        lines: Lines of no meaning to a robot.
-        heights: Features with heights, which are read over.
-        closed: Features with a ring that was closed for them.
+        lines: Number of lines without meaning for a robot.
+        heights: Number of features with heights, which are ignored.
+        closed: Numbers of features with a ring that had to be closed.
     """
 
     points: list[PointFeature] = field(default_factory=list)
@@ -141,7 +141,7 @@ def gate_width_m(properties: Mapping[str, Value]) -> float:
 
 
 def _keeps_out(feature: Any) -> bool:
-    """Whether a feature that cannot be read says that it keeps a robot out of somewhere, or inside."""
+    """Return True if an unreadable feature claims to keep a robot out of, or inside, an area."""
     known = isinstance(feature, dict)
     properties = feature.get("properties") if known else getattr(feature, "properties", None)
     if not isinstance(properties, Mapping):

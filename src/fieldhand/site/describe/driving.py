@@ -1,4 +1,4 @@
-"""Where a robot of a width can drive on a site: aisles, headlands, and which trees it cannot reach, with the reason."""
+"""Determine where a robot can drive on a site: aisles, headlands, and the trees out of its reach, with the reason."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is known of a site, in figures whose number does not grow with the site."""
+"""Summarize a site in figures whose number does not grow with the site."""
 
 from __future__ import annotations
 

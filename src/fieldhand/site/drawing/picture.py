@@ -1,4 +1,4 @@
-"""The picture of a site: what was understood of it, to be looked at by the one who knows the orchard."""
+"""Draw the picture of a site as it was understood, for the grower to check."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Why a robot cannot get to a place, in words that follow "tree 17 is"."""
+"""Explain why a robot cannot reach a place, in words that follow "tree 17 is"."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _TOUCH_M = 0.01
 
 
 def no_stand(candidates: Sequence[Candidate], robot_m: float) -> str:
-    """Why a robot of this width can stand at none of the candidates."""
+    """Return the reason why a robot of this width can stand at none of the candidates."""
     widths = [c.aisle_m for c in candidates]
     if all(width is not None for width in widths):
         return message("out of reach: {reason}", reason=_narrow(widths, robot_m))
@@ -28,7 +28,7 @@ def no_stand(candidates: Sequence[Candidate], robot_m: float) -> str:
 
 
 def cut_off(layout: Layout, spots: Sequence[Spot], start: Spot) -> str:
-    """Why no way leads from the start to any of the spots at which the robot could be at a place."""
+    """Return the reason why no way leads from the start to any of the spots."""
     for spot in spots:
         aisle = layout.aisle(spot.xy)
         if aisle is not None and (spot.part < 0 or aisle.polygon.buffer(_TOUCH_M).covers(layout.part(spot.part))):

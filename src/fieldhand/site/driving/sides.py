@@ -1,4 +1,4 @@
-"""From which side the trees of a visit list are worked on, so that the robot drives through few aisles."""
+"""Choose the side from which each row's trees are worked on, so that the robot drives through few aisles."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Cost = tuple[int, float]
 
 @dataclass(frozen=True)
 class RowVisits:
-    """The visits of one row: for each the candidates that can be driven to, by lane, with the metres to them."""
+    """The visits of one row: for each its reachable stands by lane, with the metres to them."""
 
     below: Lane
     above: Lane

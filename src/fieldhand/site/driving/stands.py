@@ -1,4 +1,4 @@
-"""Where a robot stands to be at a tree: in the aisle beside it."""
+"""Find where a robot stands to work on a tree: in the aisle beside it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What cannot be used in a site file, collected: all of it told at once, or left out where that was asked for."""
+"""Collect the unusable features of a site file, to report them together or, if requested, to skip them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A look into a file before GDAL gets it: no entities, no references to elsewhere, no queries in place of tables."""
+"""Check a file before GDAL opens it: no entities, no references to other files, no queries in place of tables."""
 
 from __future__ import annotations
 

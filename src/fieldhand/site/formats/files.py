@@ -1,4 +1,4 @@
-"""Which format a file has, by its ending and by how it begins, and its records."""
+"""Determine the format of a file from its ending and first bytes, and read its records."""
 
 from __future__ import annotations
 

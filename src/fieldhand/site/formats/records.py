@@ -1,4 +1,4 @@
-"""What every reader of a file gives: features as GeoJSON has them, and where in the file each one stands."""
+"""The result of every reader: features in GeoJSON form, and the position of each in the file."""
 
 from __future__ import annotations
 

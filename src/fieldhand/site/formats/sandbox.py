@@ -28,12 +28,12 @@ _PASSED = ("PATH", "PYTHONPATH", "LD_LIBRARY_PATH", "LANG", "LC_ALL", "SYSTEMROO
 
 @dataclass(frozen=True, kw_only=True)
 class ReadLimits:
-    """Bounds on reading files of so many bytes.
+    """Limits for reading files of a given size.
 
     Attributes:
         memory: Bytes of address space.
         result: Bytes of the records as JSON.
-        cpu_s, wall_s: Seconds of the processor, and of the clock: other programs may be busy.
+        cpu_s, wall_s: Seconds of processor time and of wall-clock time.
     """
 
     memory: int
@@ -43,7 +43,7 @@ class ReadLimits:
 
 
 def read_limits(size: int) -> ReadLimits:
-    """Return what files of so many bytes may take: a measured site of 100,000 trees needs a third of it."""
+    """Return the limits for files of a given size; a measured site of 100,000 trees needs a third of them."""
     return ReadLimits(
         memory=min(1_000_000_000 + 20 * size, 3_000_000_000),
         result=min(16_000_000 + 20 * size, 300_000_000),
@@ -55,14 +55,14 @@ def read_limits(size: int) -> ReadLimits:
 def read_sandboxed(
     form: str, held: Mapping[str, bytes], at: str, *, lenient: bool, allowed: ReadLimits | None = None
 ) -> Records:
-    """Return the records of files, read in a process of its own.
+    """Read files in a process with limited resources and return their records.
 
     Args:
-        form, held, at, lenient: As :func:`fieldhand.site.formats.gis.gis_records`.
-        allowed: What it may take; by default by the size of the files.
+        form, held, at, lenient: As for :func:`fieldhand.site.formats.gis.gis_records`.
+        allowed: Limits; by default those for the size of the files.
 
     Raises:
-        SiteError: The files cannot be read, or not with what it may take.
+        SiteError: The files cannot be read, or not within the limits.
     """
     allowed = allowed or read_limits(sum(map(len, held.values())))
     with tempfile.TemporaryDirectory(prefix="fieldhand-") as made:

@@ -1,4 +1,4 @@
-"""How the trees of a site are planted: the rows that its file names, else those that can be seen in the bare points.
+"""Find the rows of a site: those that its file names, else those inferred from the positions of the trees.
 
 - ``named``: what the file says about rows, blocks and positions, and whether that makes sense on the ground.
 - ``infer``: rows from bare points. ``patches`` finds which way rows run in small patches of trees, ``regions`` puts

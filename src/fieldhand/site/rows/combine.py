@@ -1,4 +1,4 @@
-"""Rows and blocks drawn together from what the file says and what can be seen."""
+"""Combine the rows and blocks of the file with those inferred from the positions of the trees."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ _OTHER_WAY = 8.0
 
 
 def combine(xy: Floats, named: NamedRows, seen: Sequence[SeenBlock]) -> FoundRows:
-    """The file's rows, with the trees that it names no row for added to them, or in rows that were seen.
+    """Return the rows of the file, extended by unnamed trees, and the inferred rows of the other trees.
 
     Args:
         xy: Trees in metres.
-        named: What the file says; it wins.
-        seen: Blocks of trees, of all or of some.
+        named: Rows of the file; they take precedence.
+        seen: Inferred blocks.
     """
     seen_row, seen_block, sure = _flat(len(xy), seen)
     row_of, names, known, confidence = _rows(named, seen_row, sure)

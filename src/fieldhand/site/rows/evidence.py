@@ -1,4 +1,4 @@
-"""How much speaks for rows, against trees that stand anyhow; and how sure a row is."""
+"""Statistical evidence for rows against scattered trees, and confidence in rows and their direction."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ _OFTEN_MISSING, _MISSING = 0.3, 0.8
 
 
 def log_likelihood_ratio(xy: Floats, rows: Sequence[Indices], way: Floats, spacing: float) -> float:
-    """The logarithm of how much likelier trees stand like this in rows than anyhow.
+    """Return the log-likelihood ratio of trees planted in these rows against scattered trees.
 
-    Four things speak for rows: trees stand close to the row's line, a whole number of tree spacings from each other,
-    with few missing, and with a free lane beside them.
+    Four things are evidence of rows: trees close to the row's line, whole numbers of tree spacings between them, few
+    gaps, and a free lane beside them.
 
     Args:
         xy: All trees of the site.
-        rows: Trees of each row, in their order.
-        way: The unit vector along the rows.
-        spacing: From tree to tree.
+        rows: Trees of each row, in order.
+        way: Unit vector along the rows.
+        spacing: Tree spacing.
     """
     across = np.array([way[1], -way[0]])
     off = along = 0.0
@@ -58,7 +58,7 @@ def log_likelihood_ratio(xy: Floats, rows: Sequence[Indices], way: Floats, spaci
 
 
 def required_evidence(trees: int) -> float:
-    """How much must speak for rows among so many trees: more trees line up by chance in more ways."""
+    """Return the evidence required for rows among a number of trees: more trees line up by chance in more ways."""
     return 6.0 + 0.9 * math.log(max(trees, 1))
 
 
@@ -92,14 +92,15 @@ def _in_the_lanes(xy: Floats, rows: Sequence[Indices], way: Floats, spacing: flo
 
 
 def bearing_confidence(evidence: float, enough: float, wider: float, walked: float) -> float:
-    """That rows run this way, 0 to 1: that they are rows at all, and that the lines across them are not the rows.
+    """Return the confidence, 0 to 1, that rows run this way: that they are rows, and that the lines across them are
+    not.
 
     Args:
-        evidence: :func:`log_likelihood_ratio`.
-        enough: :func:`required_evidence`.
-        wider: How many times as far apart the rows are as the lines of trees across them; inf where there are none.
-        walked: Part of the steps from tree to tree, in the order of the file, that go along the rows, of those that go
-            along or across; 0.5 where that says nothing.
+        evidence: Result of :func:`log_likelihood_ratio`.
+        enough: Result of :func:`required_evidence`.
+        wider: Ratio of the row spacing to that of the lines of trees across; inf without such lines.
+        walked: Fraction of the steps from tree to tree in the order of the file that go along the rows, among those
+            along or across; 0.5 if unknown.
     """
     rows_at_all = 1.0 / (1.0 + math.exp(-min((evidence - enough) / 2.0 + 0.5, 50.0)))
     square = math.exp(-(((max(wider, 1.0) - 1.0) / 0.05) ** 2)) if math.isfinite(wider) else 0.0

@@ -1,4 +1,4 @@
-"""Which rows belong together."""
+"""Group rows that lie side by side into blocks."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _BESIDE = 1.5
 
 @dataclass(frozen=True, eq=False)
 class TracedRow:
-    """A row while it is being found: its trees from one end, with their places along and across."""
+    """A row under construction: its trees from one end, with their coordinates along and across."""
 
     trees: Indices
     along: Floats

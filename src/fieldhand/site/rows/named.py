@@ -1,4 +1,4 @@
-"""What the file itself says about rows, blocks and positions, and whether it makes sense on the ground."""
+"""Read rows, blocks and positions from the properties of the trees, and check them against the ground."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ _MOST = 0.8
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class NamedRows:
-    """What the file says.
+    """Rows and blocks that the file names.
 
     Attributes:
-        row_of: Of each tree the row that the file names, counted from 0; -1 where it names none. Shape (n,).
-        names: Of these rows.
-        block_names: The block of each tree, empty where the file has none.
-        positions: Of each tree in its row; nan where the file has none. Shape (n,).
+        row_of: Row of each tree, from 0; -1 without a name. Shape (n,).
+        names: Names of the rows.
+        block_names: Block of each tree, empty without a name.
+        positions: Position of each tree in its row; nan without one. Shape (n,).
     """
 
     row_of: Indices
@@ -74,7 +74,7 @@ def _numbers(texts: Sequence[str]) -> Floats:
 
 
 def _restarts(own: Floats, row_of: Indices) -> bool:
-    """Whether numbers begin anew in each row, as positions do and numbers of trees through the whole file do not."""
+    """Return True if numbers restart in each row, as positions do and tree numbers of the whole file do not."""
     inside = np.isfinite(own) & (row_of >= 0)
     if not inside.any():
         return False
@@ -121,7 +121,7 @@ def _nearest(xy: Floats) -> float:
 
 
 def is_line(points: Floats, spacing: float) -> bool:
-    """Whether points stand on a line, straight or gently curved, for trees that far apart."""
+    """Return True if points lie on a straight or gently curved line, given their spacing."""
     if len(points) <= 2:
         return True
     off = points - points.mean(axis=0)

@@ -1,4 +1,4 @@
-"""The last word on who stands in which row: pieces of a row put together, and trees on their own given a home."""
+"""Refine rows that were found: join pieces of a row, and assign single trees to rows."""
 
 from __future__ import annotations
 
@@ -50,11 +50,11 @@ class SeenBlock:
 
 
 class RowRefinement:
-    """Rows that trees come to and go from.
+    """Rows whose trees are reassigned step by step.
 
     Args:
         xy: Trees in metres.
-        blocks: As they were found.
+        blocks: Blocks as they were found.
     """
 
     def __init__(self, xy: Floats, blocks: list[SeenBlock]) -> None:
@@ -72,7 +72,7 @@ class RowRefinement:
             self._row_of[trees] = k
 
     def settled(self) -> list[SeenBlock]:
-        """The blocks afterwards; those left without a row are gone."""
+        """Return the refined blocks, without those that lost all their rows."""
         self._take_in_the_lone()
         self._join()
         self._fill_gaps()

@@ -1,4 +1,4 @@
-"""Parts of a site whose patches agree on how the rows run, and which trees are in which part."""
+"""Regions of a site in which the rows run the same way, and the trees of each region."""
 
 from __future__ import annotations
 
@@ -173,7 +173,7 @@ def _towards(wave: Floats, reference: Floats) -> Floats:
 
 
 def _same(a: Floats, b: Floats) -> NDArray[np.bool_]:
-    """Whether waves are the same, whichever way they point."""
+    """Return a mask of the waves that are the same, whichever way they point."""
     size = np.minimum(np.hypot(*a.T), np.hypot(*b.T))
     apart = np.minimum(np.hypot(*(a - b).T), np.hypot(*(a + b).T))
     return np.asarray(apart < _SAME_WAVE * size)  # false for nan

@@ -1,4 +1,4 @@
-"""Lines of trees followed from tree to tree, where it is known which way the rows run."""
+"""Trace rows from tree to tree where their direction is known."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def pooled_slope(local: Floats, label: Indices) -> float:
 
 
 def join_across_gaps(local: Floats, slope: Floats, label: Indices, spacing: float) -> Indices:
-    """Join pieces that carry on in line across a gap. Labels from 0."""
+    """Join pieces of rows that continue in line across a gap. Labels from 0."""
     for _ in range(3):
         joined = _joined_once(local, slope, label, spacing)
         if joined.max(initial=-1) == label.max(initial=-1):
@@ -138,10 +138,10 @@ def _end(local: Floats, slope: Floats, trees: Indices, *, first: bool) -> tuple[
 
 
 def split_double_rows(local: Floats, label: Indices, spacing: float) -> Indices:
-    """Part rows that are two close beside each other: trees on either side of a free strip along all of the row.
+    """Split rows that are two parallel ones close together: trees on both sides of a free strip along the whole row.
 
     Args:
-        local: Across and along rows that are straight and parallel here.
+        local: Coordinates across and along rows that are straight and parallel here.
     """
     parted = label.copy()
     for own in groups(label, int(label.max(initial=-1)) + 1):
