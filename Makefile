@@ -1,5 +1,5 @@
 # A fresh machine needs Python 3.11 or newer and make; each target below starts from a bare clone.
-.PHONY: help setup demo test check clean
+.PHONY: help setup demo test check docs clean
 .DEFAULT_GOAL := help
 
 VENV := .venv
@@ -10,6 +10,7 @@ help:
 	@echo "make demo    set up, then a whole mission on the built-in orchard (results in out/)"
 	@echo "make test    set up, then every test"
 	@echo "make check   set up, then lint, types, import rules"
+	@echo "make docs    set up, then these pages as one site with search (build/docs)"
 	@echo "make setup   the environment alone, in .venv"
 
 setup: $(READY)
@@ -30,5 +31,9 @@ check: $(READY)
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 
+docs: $(READY)
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[docs]"
+	$(BIN)/python -m mkdocs build --strict --quiet
+
 clean:
-	rm -rf $(VENV) out .mypy_cache .ruff_cache .pytest_cache .hypothesis
+	rm -rf $(VENV) out build .mypy_cache .ruff_cache .pytest_cache .hypothesis

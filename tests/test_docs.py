@@ -88,3 +88,13 @@ def test_every_public_name_is_explained_and_used_in_an_example() -> None:
     for name in fh.__all__:
         assert re.search(rf"\bfh\.{name}\b", examples), name
         assert re.search(rf"`(fh\.)?{name}\b", prose), name
+
+
+def test_the_reference_lists_every_public_name() -> None:
+    listed = re.findall(r"^::: fieldhand\.(\w+)$", (ROOT / "docs" / "reference.md").read_text(), re.MULTILINE)
+    assert sorted(listed) == fh.__all__
+
+
+def test_the_site_of_the_docs_leads_to_every_page() -> None:
+    pages = re.findall(r"[\w-]+\.md", (ROOT / "mkdocs.yml").read_text())
+    assert sorted(pages) == sorted(page.name for page in (ROOT / "docs").glob("*.md"))
